@@ -38,45 +38,56 @@ static const choices format_choices = {"format", format_name, NULL};
 
 const option bench_options[] = {
     {"queries", 0, OPTION_COUNT, offsetof(bench_settings, queries), "N",
-     "points to locate on each set (default: 0, a million); of paper at most 20000 of them are timed", NULL},
+     "points to locate on each set (default: 0, a million); of paper at most 20000 of them are "
+     "timed",
+     NULL},
     {"sizes", 0, OPTION_TEXT, offsetof(bench_settings, sizes), "LIST",
-     "numbers of vertices of the sets that are made, as in 1e4,1e5 (default: those of the table)", NULL},
+     "numbers of vertices of the sets that are made, as in 1e4,1e5 (default: those of the table)",
+     NULL},
     {"enclose", 0, OPTION_CHOICE, offsetof(bench_settings, enclose), "NAME",
-     "add the four corners of the domain to the points (default: auto, as the table does):", &enclose_choices},
+     "add the four corners of the domain to the points (default: auto, as the table does):",
+     &enclose_choices},
     {"data", 0, OPTION_TEXT, offsetof(bench_settings, data), "LIST",
-     "files of points, or meshes whose vertices are taken, in place of the sets: ground.las,survey.csv; of D1 and "
-     "F1 to G3 meshes, taken as they are; nothing is published for them, but for the models of G1 to G3",
+     "files of points, or meshes whose vertices are taken, in place of the sets: "
+     "ground.las,survey.csv; of D1 and "
+     "F1 to G3 meshes, taken as they are; nothing is published for them, but for the models of G1 "
+     "to G3",
      NULL},
     {"engines", 0, OPTION_TEXT, offsetof(bench_settings, engines), "LIST",
-     "engines that peers and scale measure, as in meshwalk,geos (default: all there are; of scale, meshwalk; of edit "
+     "engines that peers and scale measure, as in meshwalk,geos (default: all there are; of scale, "
+     "meshwalk; of edit "
      "see "
      "above):",
      &engine_choices},
     {"tasks", 0, OPTION_TEXT, offsetof(bench_settings, tasks), "LIST",
-     "what peers and scale measure (default: the first five; of scale, random and the last two; of edit see above):",
+     "what peers and scale measure (default: the first five; of scale, random and the last two; of "
+     "edit see above):",
      &engine_task_choices},
     {"rounds", 0, OPTION_COUNT, offsetof(bench_settings, rounds), "N",
      "rounds of peers, scale and edit, whose median counts (default: 0, five)", NULL},
     {"walk", 0, OPTION_TEXT, offsetof(bench_settings, walk), "NAME",
-     "of paper E1: take this walk, as in locate --walk, or 'all' of them, one after the other (default: stochastic, as "
+     "of paper E1: take this walk, as in locate --walk, or 'all' of them, one after the other "
+     "(default: stochastic, as "
      "printed)",
      NULL},
     {"seeds", 0, OPTION_COUNT, offsetof(bench_settings, seeds), "N",
-     "of paper: N runs with seeds one after the other from --seed; prints means and the spread of one (default: 0, one "
+     "of paper: N runs with seeds one after the other from --seed; prints means and the spread of "
+     "one (default: 0, one "
      "run)",
      NULL},
     {"no-times", 0, OPTION_FLAG, offsetof(bench_settings, no_times), NULL, "count only", NULL},
     {"format", 0, OPTION_CHOICE, offsetof(bench_settings, format), "NAME",
      "how to print the figures (default: table):", &format_choices},
-    {"plot", 0, OPTION_TEXT, offsetof(bench_settings, plot), "FILE", "draw them too; .svg, .png or .pdf by the ending",
-     NULL},
+    {"plot", 0, OPTION_TEXT, offsetof(bench_settings, plot), "FILE",
+     "draw them too; .svg, .png or .pdf by the ending", NULL},
     {0},
 };
 
 static int run_measurement(size_t i, const bench_settings *s, const char *table)
 {
     if (!measurements[i].compares && (s->engines || s->tasks || s->rounds)) {
-        complain("bench %s: --engines, --tasks and --rounds are for 'bench peers', 'bench scale' and 'bench edit'",
+        complain("bench %s: --engines, --tasks and --rounds are for 'bench peers', 'bench scale' "
+                 "and 'bench edit'",
                  measurements[i].name);
         return END_USAGE;
     }

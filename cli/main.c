@@ -27,21 +27,27 @@ static int main_print_help(void)
                     "usage: meshwalk COMMAND [options] FILES\n\ncommands:\n");
     for (size_t i = 0; i < COMMAND_COUNT; i++) {
         text_printf(&t, "  %-12s %s\n", commands[i]->name, commands[i]->summary);
-        text_printf(&t, "  %-12s   meshwalk %s [options] %s\n", "", commands[i]->name, commands[i]->operands);
+        text_printf(&t, "  %-12s   meshwalk %s [options] %s\n", "", commands[i]->name,
+                    commands[i]->operands);
     }
-    text_string(&t, "\noptions:\n"
-                    "      --help            print this help; 'meshwalk COMMAND --help' tells about a command,\n"
-                    "                        'meshwalk COMMAND --help all' about all its options\n"
-                    "      --version         print the version, what is built in and what was found\n\n");
+    text_string(
+        &t, "\noptions:\n"
+            "      --help            print this help; 'meshwalk COMMAND --help' tells about a "
+            "command,\n"
+            "                        'meshwalk COMMAND --help all' about all its options\n"
+            "      --version         print the version, what is built in and what was found\n\n");
     help_wrap(&t,
-              "Meshes: Triangle .node/.ele, OFF, OBJ, PLY, STL. Points: text with columns, LAS. Constraints: GeoJSON, "
+              "Meshes: Triangle .node/.ele, OFF, OBJ, PLY, STL. Points: text with columns, LAS. "
+              "Constraints: GeoJSON, "
               "Triangle .poly. Each also gzipped; '-' is standard input or output.",
               0);
-    help_wrap(&t,
-              "Exit codes: 0 done; 1 done, but points have no answer and --strict was given, or check --fix left "
-              "defects; 2 wrong usage; 3 "
-              "input unreadable or invalid; 4 out of memory, a limit, or output that cannot be written.",
-              0);
+    help_wrap(
+        &t,
+        "Exit codes: 0 done; 1 done, but points have no answer and --strict was given, or check "
+        "--fix left "
+        "defects; 2 wrong usage; 3 "
+        "input unreadable or invalid; 4 out of memory, a limit, or output that cannot be written.",
+        0);
     return files_write_text(NULL, &t);
 }
 
@@ -99,7 +105,9 @@ static int main_unknown_command(const char *word)
 static void standard_streams_fill(void)
 {
     for (int fd = STDIN_FILENO; fd <= STDERR_FILENO; fd++)
-        if (fcntl(fd, F_GETFD) == -1 && open("/dev/null", fd == STDIN_FILENO ? O_WRONLY : O_RDONLY) != fd) return;
+        if (fcntl(fd, F_GETFD) == -1 &&
+            open("/dev/null", fd == STDIN_FILENO ? O_WRONLY : O_RDONLY) != fd)
+            return;
 }
 
 static int main_run_arguments(int count, char **arguments)
@@ -112,7 +120,8 @@ static int main_run_arguments(int count, char **arguments)
     if (strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0) return main_print_help();
     if (strcmp(word, "--version") == 0) return main_print_version();
     for (size_t i = 0; i < COMMAND_COUNT; i++)
-        if (strcmp(commands[i]->name, word) == 0) return command_run(commands[i], count - 2, arguments + 2);
+        if (strcmp(commands[i]->name, word) == 0)
+            return command_run(commands[i], count - 2, arguments + 2);
     return main_unknown_command(word);
 }
 

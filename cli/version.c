@@ -17,12 +17,14 @@ static void version_line(text *t, const char *name, const char *version, const c
 /* GDAL and PROJ are looked for where the program runs. */
 static void version_of_gdal(text *t)
 {
-    static const char *const drivers[] = {"GPKG", "ESRI Shapefile", "FlatGeobuf", "GeoJSON", "GeoJSONSeq",
-                                          "GML",  "SQLite",         "Parquet"};
+    static const char *const drivers[] = {"GPKG",    "ESRI Shapefile", "FlatGeobuf",
+                                          "GeoJSON", "GeoJSONSeq",     "GML",
+                                          "SQLite",  "Parquet"};
     const gdal_functions *gdal = gdal_library_load();
     int major = 0, minor = 0, patch = 0;
     if (!gdal) {
-        text_string(t, "  GDAL     built in, but " MW_GDAL " is not found: no vector files but GeoJSON and .poly, no "
+        text_string(t, "  GDAL     built in, but " MW_GDAL
+                       " is not found: no vector files but GeoJSON and .poly, no "
                        "transformations\n");
         return;
     }

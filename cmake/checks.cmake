@@ -46,6 +46,7 @@ add_test(NAME arrows_self_test COMMAND ${PROJECT_SOURCE_DIR}/tools/test_check_ar
 add_test(NAME calls COMMAND ${PROJECT_SOURCE_DIR}/tools/check_calls $<TARGET_FILE:meshwalk_static>)
 add_test(NAME man3 COMMAND ${PROJECT_SOURCE_DIR}/tools/check_man3 ${PROJECT_SOURCE_DIR}/include ${PROJECT_BINARY_DIR}/man3)
 add_test(NAME citations COMMAND ${PROJECT_SOURCE_DIR}/tools/check_citations)
+add_test(NAME columns COMMAND ${PROJECT_SOURCE_DIR}/tools/check_columns)
 add_test(NAME names COMMAND ${PROJECT_SOURCE_DIR}/tools/check_names)
 add_test(NAME symbols COMMAND ${PROJECT_SOURCE_DIR}/tools/check_symbols ${PROJECT_SOURCE_DIR}/include
   $<TARGET_FILE:meshwalk_shared> $<TARGET_FILE:meshwalk_static>)

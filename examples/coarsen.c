@@ -1,14 +1,17 @@
-/* coarsen.c - a terrain of few vertices that is nowhere further from the points of the given one than is allowed.
+/* coarsen.c - a terrain of few vertices that is nowhere further from the points of the given one
+ * than is allowed.
  *
  *     coarsen TERRAIN --tolerance H -o OUT        (coarsen --help)
  *
- * Vertices are removed one after the other, that one first whose removal leaves the smallest error, as in the
- * "drop heuristic" [Lee 1991]. When none can go any more, exchanges
- * are tried: a vertex goes although the error is too large then, the original point with the largest error comes back as a vertex, and
- * if then another vertex beside it can go, one has been gained.
+ * Vertices are removed one after the other, that one first whose removal leaves the smallest
+ * error, as in the "drop heuristic" [Lee 1991]. When none can go any more, exchanges
+ * are tried: a vertex goes although the error is too large then, the original point with the
+ * largest error comes back as a vertex, and if then another vertex beside it can go, one has been
+ * gained.
  *
- * What a removal does is found by doing it: if the error is too large it is taken back (mw_edit_undo). Each original point is kept with
- * the triangle that holds it; the report of an edit tells which triangles have changed, and only their points are located again. */
+ * What a removal does is found by doing it: if the error is too large it is taken back
+ * (mw_edit_undo). Each original point is kept with the triangle that holds it; the report of an
+ * edit tells which triangles have changed, and only their points are located again. */
 #include "terrain.h"
 
 #include <getopt.h>
@@ -21,20 +24,27 @@
 static const char usage[] =
     "usage: coarsen TERRAIN --tolerance H [-o OUT] [options]\n"
     "\n"
-    "Find a terrain of few vertices whose height differs from that of each point of TERRAIN by H at most. TERRAIN is "
+    "Find a terrain of few vertices whose height differs from that of each point of TERRAIN by H "
+    "at most. TERRAIN is "
     "a\n"
-    "mesh with heights (OFF, OBJ, PLY, STL, .node) or a file of points x,y,z (text, LAS), such as data/jacksboro.csv.\n"
+    "mesh with heights (OFF, OBJ, PLY, STL, .node) or a file of points x,y,z (text, LAS), such as "
+    "data/jacksboro.csv.\n"
     "The vertices of the result are some of its points, and it covers the same part of the plane.\n"
     "\n"
-    "  -t, --tolerance H    the largest error that is allowed, in the unit of the heights (metres, feet, ...)\n"
-    "  -o, --output OUT     write the result as a mesh; its ending tells the format: .ply .off .obj .stl .node .vtk\n"
-    "  -p, --passes N       times that exchanges are tried on all vertices (default 1); 0: vertices are only removed,\n"
+    "  -t, --tolerance H    the largest error that is allowed, in the unit of the heights (metres, "
+    "feet, ...)\n"
+    "  -o, --output OUT     write the result as a mesh; its ending tells the format: .ply .off "
+    ".obj .stl .node .vtk\n"
+    "  -p, --passes N       times that exchanges are tried on all vertices (default 1); 0: "
+    "vertices are only removed,\n"
     "                       which is faster, and leaves more of them\n"
     "  -h, --help           this text\n"
     "\n"
-    "Of several points at one place the first counts. Printed are: vertices before and after; the largest error, by "
+    "Of several points at one place the first counts. Printed are: vertices before and after; the "
+    "largest error, by "
     "an\n"
-    "independent look at every point of TERRAIN in the result; what was done, and how fast. Exit codes: 0 done, 2 "
+    "independent look at every point of TERRAIN in the result; what was done, and how fast. Exit "
+    "codes: 0 done, 2 "
     "wrong\n"
     "usage, 3 input that cannot be read or is no terrain, 4 anything else.\n";
 
@@ -44,7 +54,8 @@ typedef struct settings {
     unsigned passes;
 } settings;
 
-/* A vertex that waits to be removed; of an old entry the stamp is not that of the vertex any more. */
+/* A vertex that waits to be removed; of an old entry the stamp is not that of the vertex any more.
+ * */
 typedef struct waiting {
     double error; /* that its removal caused when it was tried, or less */
     uint32_t vertex, stamp;
@@ -63,11 +74,13 @@ typedef struct coarsening {
     uint32_t *next;
     size_t count;
 
-    /* Carried along with the triangles: the first point in each, and the largest error of its points. */
+    /* Carried along with the triangles: the first point in each, and the largest error of its
+     * points. */
     uint32_t *first;
     double *error;
     size_t triangle_room;
-    uint32_t astray; /* the first of the points that are in no triangle: the hull has shrunk beyond them */
+    /* the first of the points that are in no triangle: the hull has shrunk beyond them */
+    uint32_t astray;
 
     uint32_t *touched; /* triangles changed since the list was emptied, some twice */
     size_t touched_count, touched_room;
@@ -86,7 +99,7 @@ static void *enlarge(void *array, size_t count, size_t size)
     return larger;
 }
 
-/* --- edits, and the points carried along ------------------------------------------------------------------------- */
+/* --- edits, and the points carried along ------------------------------------------------------ */
 
 /* Locate a point in what is there now. The cursor is where the point before it was: near. */
 static void settle(coarsening *c, uint32_t point)
@@ -137,7 +150,8 @@ static void make_room(coarsening *c, const mw_change *change)
 static void touch(coarsening *c, uint32_t triangle)
 {
     if (c->touched_count == c->touched_room)
-        c->touched = enlarge(c->touched, c->touched_room = 2 * c->touched_room + 64, sizeof *c->touched);
+        c->touched =
+            enlarge(c->touched, c->touched_room = 2 * c->touched_room + 64, sizeof *c->touched);
     c->touched[c->touched_count++] = triangle;
 }
 
@@ -186,7 +200,8 @@ static void take_back(coarsening *c)
     c->undone++;
 }
 
-/* The largest error in the triangles that were touched; *worst, if wanted, is a triangle where it is. */
+/* The largest error in the triangles that were touched; *worst, if wanted, is a triangle where it
+ * is. */
 static double largest_error(const coarsening *c, uint32_t *worst)
 {
     double largest = 0;
@@ -201,7 +216,7 @@ static double largest_error(const coarsening *c, uint32_t *worst)
     return largest;
 }
 
-/* --- removals ---------------------------------------------------------------------------------------------------- */
+/* --- removals --------------------------------------------------------------------------------- */
 
 static bool is_before(const waiting *a, const waiting *b)
 {
@@ -214,7 +229,8 @@ static void push(coarsening *c, uint32_t vertex, double error)
         c->heap = enlarge(c->heap, c->heap_room = 2 * c->heap_room + 64, sizeof *c->heap);
     waiting entry = {error, vertex, ++c->stamp[vertex]};
     size_t i = c->heap_count++;
-    for (; i > 0 && is_before(&entry, &c->heap[(i - 1) / 2]); i = (i - 1) / 2) c->heap[i] = c->heap[(i - 1) / 2];
+    for (; i > 0 && is_before(&entry, &c->heap[(i - 1) / 2]); i = (i - 1) / 2)
+        c->heap[i] = c->heap[(i - 1) / 2];
     c->heap[i] = entry;
 }
 
@@ -231,7 +247,8 @@ static waiting pop(coarsening *c)
     return top;
 }
 
-/* Round what was touched the errors of removals are others now: these vertices are to be tried again. */
+/* Round what was touched the errors of removals are others now: these vertices are to be tried
+ * again. */
 static void push_touched(coarsening *c)
 {
     for (size_t i = 0; i < c->touched_count; i++) {
@@ -241,8 +258,9 @@ static void push_touched(coarsening *c)
     }
 }
 
-/* Remove vertices, that with the least error first, until none is left that can go. A vertex waits with the error that its removal had
- * when it was tried; when it comes on top its removal is carried out, and taken back if it turns out that it is another one's turn. */
+/* Remove vertices, that with the least error first, until none is left that can go. A vertex waits
+ * with the error that its removal had when it was tried; when it comes on top its removal is
+ * carried out, and taken back if it turns out that it is another one's turn. */
 static void remove_all(coarsening *c)
 {
     while (c->heap_count > 0) {
@@ -261,7 +279,7 @@ static void remove_all(coarsening *c)
     }
 }
 
-/* --- exchanges --------------------------------------------------------------------------------------------------- */
+/* --- exchanges -------------------------------------------------------------------------------- */
 
 /* The point with the largest error in a triangle. */
 static uint32_t worst_point(coarsening *c, uint32_t triangle)
@@ -304,7 +322,8 @@ static bool remove_beside(coarsening *c, uint32_t vertex)
     return false;
 }
 
-/* Exchange a vertex for a point that makes up for it and for another vertex. False: all is as before. */
+/* Exchange a vertex for a point that makes up for it and for another vertex. False: all is as
+ * before. */
 static bool exchange(coarsening *c, uint32_t vertex)
 {
     double place[2];
@@ -344,7 +363,7 @@ static size_t exchange_all(coarsening *c)
     return exchanged;
 }
 
-/* --- before and after -------------------------------------------------------------------------------------------- */
+/* --- before and after ------------------------------------------------------------------------- */
 
 static void take_points(coarsening *c, const mw_mesh *mesh)
 {
@@ -366,7 +385,8 @@ static void prepare(coarsening *c)
     mw_error error;
     mw_mesh *mesh = terrain_read(c->set.input);
     mw_editor_options options = {.delaunay = MW_DELAUNAY_MAKE, .undo = 4};
-    if (mw_editor_create(mesh, &options, &c->editor, &error)) fail(END_INPUT, "%s: %s", c->set.input, error.message);
+    if (mw_editor_create(mesh, &options, &c->editor, &error))
+        fail(END_INPUT, "%s: %s", c->set.input, error.message);
     take_points(c, mesh);
     c->triangle_room = mw_mesh_triangle_count(mesh);
     c->first = enlarge(NULL, c->triangle_room, sizeof *c->first);
@@ -377,7 +397,8 @@ static void prepare(coarsening *c)
     mw_mesh_destroy(mesh);
     c->z = mw_editor_field_by_name(c->editor, "z");
     c->locator = mw_editor_locator(c->editor);
-    if (mw_cursor_init(c->locator, &(mw_query_options){.start = MW_START_LAST}, &c->cursor, &error)) fail_with(&error);
+    if (mw_cursor_init(c->locator, &(mw_query_options){.start = MW_START_LAST}, &c->cursor, &error))
+        fail_with(&error);
     c->astray = MW_NONE;
     for (size_t t = 0; t < c->triangle_room; t++) {
         c->first[t] = MW_NONE;
@@ -387,8 +408,8 @@ static void prepare(coarsening *c)
     for (size_t i = 0; i < c->count; i++) push(c, (uint32_t)i, 0);
 }
 
-/* Look at the result as anybody may who did not see how it came about: locate all points in it, with a locator of its own. Returns the
- * largest error; infinite if a point is not in it. */
+/* Look at the result as anybody may who did not see how it came about: locate all points in it,
+ * with a locator of its own. Returns the largest error; infinite if a point is not in it. */
 static double check(const coarsening *c, const mw_mesh *mesh)
 {
     mw_error error;
@@ -412,13 +433,15 @@ static double check(const coarsening *c, const mw_mesh *mesh)
 static void report(const coarsening *c, const mw_mesh *mesh, double largest, double seconds)
 {
     uint32_t after = mw_mesh_vertex_count(mesh);
-    printf("vertices: %zu before, %u after (%.2f %%)\n", c->count, after, 100.0 * after / (double)c->count);
+    printf("vertices: %zu before, %u after (%.2f %%)\n", c->count, after,
+           100.0 * after / (double)c->count);
     printf("largest error: %.6g, allowed are %.6g\n", largest, c->set.tolerance);
     printf("points checked: %zu\n", c->count);
-    printf("edits: %llu, %llu of them taken back; points located again: %llu\n", (unsigned long long)c->edits,
-           (unsigned long long)c->undone, (unsigned long long)c->locations);
-    printf("%.2f s: %.0f edits and %.0f locations a second\n", seconds, (double)(c->edits + c->undone) / seconds,
-           (double)c->locations / seconds);
+    printf("edits: %llu, %llu of them taken back; points located again: %llu\n",
+           (unsigned long long)c->edits, (unsigned long long)c->undone,
+           (unsigned long long)c->locations);
+    printf("%.2f s: %.0f edits and %.0f locations a second\n", seconds,
+           (double)(c->edits + c->undone) / seconds, (double)c->locations / seconds);
 }
 
 static const struct option options[] = {
@@ -444,7 +467,9 @@ static settings take_arguments(int argc, char **argv)
     if (argc - optind != 1) fail(END_USAGE, "one terrain is wanted; try 'coarsen --help'");
     if (set.tolerance < 0) fail(END_USAGE, "--tolerance is wanted: how large may the error be?");
     if (set.output && !terrain_can_write(set.output))
-        fail(END_USAGE, "%s: the ending tells no format; one of .ply .off .obj .stl .node .vtk is wanted", set.output);
+        fail(END_USAGE,
+             "%s: the ending tells no format; one of .ply .off .obj .stl .node .vtk is wanted",
+             set.output);
     set.input = argv[optind];
     return set;
 }
@@ -464,7 +489,8 @@ int main(int argc, char **argv)
     mw_mesh *mesh;
     if (mw_editor_mesh(c.editor, NULL, NULL, &mesh, &error)) fail_with(&error);
     double largest = check(&c, mesh);
-    if (!(largest <= c.set.tolerance)) fail(END_FAILED, "the error is %g: not as small as wanted", largest);
+    if (!(largest <= c.set.tolerance))
+        fail(END_FAILED, "the error is %g: not as small as wanted", largest);
     report(&c, mesh, largest, clock);
     if (c.set.output) terrain_write(c.set.output, mesh);
     mw_mesh_destroy(mesh);

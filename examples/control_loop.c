@@ -1,5 +1,6 @@
-/* control_loop.c - a haptic control loop: one thread deforms a sheet, another presses a tool against it and computes a
- * force. An update waits for the query that runs, a query for the update. */
+/* control_loop.c - a haptic control loop: one thread deforms a sheet, another presses a tool
+ * against it and computes a force. An update waits for the query that runs, a query for the
+ * update. */
 #define _POSIX_C_SOURCE 200809L /* nanosleep */
 #include <meshwalk/meshwalk.h>
 #include <math.h>
@@ -44,16 +45,18 @@ static void make_sheet(sheet *s)
         const uint32_t two[6] = {a, b, c, a, c, d};
         for (uint32_t k = 0; k < 6; k++) triangles[2 * i + k / 3][k % 3] = two[k];
     }
-    mw_arrays arrays = {
-        .points = points[0], .point_count = VERTICES, .triangles = triangles[0], .triangle_count = TRIANGLES};
+    mw_arrays arrays = {.points = points[0],
+                        .point_count = VERTICES,
+                        .triangles = triangles[0],
+                        .triangle_count = TRIANGLES};
     mw_error error;
     if (mw_surface_create(&arrays, &(mw_surface_options){.shared = 1}, &s->surface, &error) ||
         mw_prober_create(s->surface, &(mw_prober_options){.boxes = 1}, &s->prober, &error))
         fail(error.message);
 }
 
-/* A wave of height 0.1 runs over the sheet. How far its vertices move is known, so the boxes need not be fitted in each
- * frame. */
+/* A wave of height 0.1 runs over the sheet. How far its vertices move is known, so the boxes need
+ * not be fitted in each frame. */
 static void deform(sheet *s, double time)
 {
     mw_surface_begin_update(s->surface);
@@ -77,8 +80,8 @@ static void *simulate(void *argument)
     return NULL;
 }
 
-/* The force on the tool: of a spring to its proxy, the nearest point of the sheet. The sheet may be in a later frame than
- * when the tool was found below it; each answer is of one frame. */
+/* The force on the tool: of a spring to its proxy, the nearest point of the sheet. The sheet may
+ * be in a later frame than when the tool was found below it; each answer is of one frame. */
 static void pull(const sheet *s, const double tool[3], double force[3])
 {
     mw_nearest_surface_point proxy;
@@ -87,7 +90,8 @@ static void pull(const sheet *s, const double tool[3], double force[3])
     for (int k = 0; k < 3; k++) force[k] = 400 * (proxy.point[k] - tool[k]);
 }
 
-/* The tool goes round below the sheet. The cursor remembers what it touched last: on a path the next touch is near. */
+/* The tool goes round below the sheet. The cursor remembers what it touched last: on a path the
+ * next touch is near. */
 static void control(const sheet *s)
 {
     mw_error error;

@@ -1,6 +1,7 @@
-/* drift.c - particles drift through a strait with an island for a day: a time step of Runge and Kutta's second order
- * locates each of them twice, in one call, beginning at the triangle where it was (options.hints). Whoever meets the
- * island is stranded on its shore; whoever leaves the strait is gone.
+/* drift.c - particles drift through a strait with an island for a day: a time step of Runge and
+ * Kutta's second order locates each of them twice, in one call, beginning at the triangle where it
+ * was (options.hints). Whoever meets the island is stranded on its shore; whoever leaves the
+ * strait is gone.
  *
  *     drift [PARTICLES [CELLS]]      CELLS: of the mesh from west to east */
 #include <meshwalk/meshwalk.h>
@@ -14,7 +15,8 @@ static const double HOURS = 24.0 / STEPS;
 typedef struct strait {
     mw_mesh *mesh;
     mw_locator *locator;
-    double *current; /* at each vertex, to the east and to the north, km/h; the tide is added to it */
+    /* at each vertex, to the east and to the north, km/h; the tide is added to it */
+    double *current;
 } strait;
 
 typedef enum state { AFLOAT, STRANDED, GONE } state;
@@ -45,11 +47,13 @@ static void current_at(double x, double y, double current[2])
 }
 
 /* Squares of two triangles, but none on the island. */
-static size_t strait_triangles(uint32_t columns, uint32_t rows, const double *points, uint32_t *triangles)
+static size_t strait_triangles(uint32_t columns, uint32_t rows, const double *points,
+                               uint32_t *triangles)
 {
     uint32_t *v = triangles;
     for (uint32_t i = 0; i < rows * columns; i++) {
-        uint32_t a = i / columns * (columns + 1) + i % columns, b = a + 1, d = a + columns + 1, c = d + 1;
+        uint32_t a = i / columns * (columns + 1) + i % columns, b = a + 1, d = a + columns + 1,
+                 c = d + 1;
         const uint32_t two[6] = {a, b, c, a, c, d};
         if (island(points[2 * a], points[2 * a + 1]) < 1) continue;
         for (int k = 0; k < 6; k++) *v++ = two[k];
@@ -124,23 +128,27 @@ static mw_status swarm_look(swarm *w, const strait *s, const double *place, mw_e
 {
     mw_query_options options = {.hints = w->hint};
     mw_value_table table = {.values = s->current, .type = MW_FLOAT64, .count = 2};
-    mw_status status = mw_locate_batch(s->locator, place, w->count, 2, &options, w->at, NULL, error);
-    return status ? status : mw_interpolate_table(s->mesh, &table, w->at, w->count, NULL, w->current, error);
+    mw_status status =
+        mw_locate_batch(s->locator, place, w->count, 2, &options, w->at, NULL, error);
+    return status ? status
+                  : mw_interpolate_table(s->mesh, &table, w->at, w->count, NULL, w->current, error);
 }
 
 /* Particle i is at `place`, out of the water. It stays on the shore, or has left the strait. */
-static mw_status swarm_take_out(swarm *w, const strait *s, size_t i, const double place[2], mw_error *error)
+static mw_status swarm_take_out(swarm *w, const strait *s, size_t i, const double place[2],
+                                mw_error *error)
 {
     mw_nearest_border_point shore;
     w->state[i] = w->at[i].where == MW_IN_HOLE ? STRANDED : GONE;
     mw_status status = mw_nearest_border(s->locator, place[0], place[1], &shore, error);
-    for (size_t k = 0; k < 2 && !status; k++) w->place[2 * i + k] = w->middle[2 * i + k] = shore.point[k];
+    for (size_t k = 0; k < 2 && !status; k++)
+        w->place[2 * i + k] = w->middle[2 * i + k] = shore.point[k];
     return status;
 }
 
 /* Each particle that is afloat moves from where it is as the current at `seen` says. */
-static mw_status swarm_move(swarm *w, const strait *s, const double *seen, double hours, double tide, double *to,
-                            mw_error *error)
+static mw_status swarm_move(swarm *w, const strait *s, const double *seen, double hours,
+                            double tide, double *to, mw_error *error)
 {
     mw_status status = swarm_look(w, s, seen, error);
     for (size_t i = 0; i < w->count && !status; i++) {
@@ -164,11 +172,13 @@ static void swarm_report(const swarm *w, double hours)
         count[w->state[i]]++;
         east += w->state[i] == AFLOAT ? w->place[2 * i] : 0;
     }
-    printf("%4.0f h: %zu afloat, at %.1f km on the average; %zu stranded, %zu gone\n", hours, count[AFLOAT],
-           count[AFLOAT] ? east / (double)count[AFLOAT] : 0, count[STRANDED], count[GONE]);
+    printf("%4.0f h: %zu afloat, at %.1f km on the average; %zu stranded, %zu gone\n", hours,
+           count[AFLOAT], count[AFLOAT] ? east / (double)count[AFLOAT] : 0, count[STRANDED],
+           count[GONE]);
 }
 
-/* The midpoint method: by the current here to the middle of the step, by the current there all the way. */
+/* The midpoint method: by the current here to the middle of the step, by the current there all the
+ * way. */
 static mw_status drift(swarm *w, const strait *s, mw_error *error)
 {
     mw_status status = MW_OK;
@@ -176,7 +186,8 @@ static mw_status drift(swarm *w, const strait *s, mw_error *error)
         double now = step * HOURS;
         if (step % (STEPS / 4) == 0) swarm_report(w, now);
         status = swarm_move(w, s, w->place, HOURS / 2, tide_at(now), w->middle, error);
-        if (!status) status = swarm_move(w, s, w->middle, HOURS, tide_at(now + HOURS / 2), w->place, error);
+        if (!status)
+            status = swarm_move(w, s, w->middle, HOURS, tide_at(now + HOURS / 2), w->place, error);
     }
     if (!status) swarm_report(w, STEPS * HOURS);
     return status;
@@ -193,7 +204,8 @@ int main(int argc, char **argv)
         return 2;
     }
     mw_status status = strait_make(&s, (uint32_t)columns, &error);
-    if (!status) status = swarm_make(&w, (size_t)particles) ? drift(&w, &s, &error) : MW_ERROR_MEMORY;
+    if (!status)
+        status = swarm_make(&w, (size_t)particles) ? drift(&w, &s, &error) : MW_ERROR_MEMORY;
     if (status) fprintf(stderr, "%s\n", error.message);
     swarm_release(&w);
     free(s.current);

@@ -1,5 +1,5 @@
-/* edit.c - a mesh that is edited: what is kept for each triangle follows the changes, a cursor goes on, and the log of the edits, as
- * text, makes the same mesh again. */
+/* edit.c - a mesh that is edited: what is kept for each triangle follows the changes, a cursor
+ * goes on, and the log of the edits, as text, makes the same mesh again. */
 #include <meshwalk/meshwalk.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -29,7 +29,8 @@ static mw_mesh *make_mesh(void)
     return mesh;
 }
 
-/* The area of each triangle, as an example of what a program keeps beside a mesh; 0 for those that are gone. */
+/* The area of each triangle, as an example of what a program keeps beside a mesh; 0 for those that
+ * are gone. */
 static double area[ROOM];
 
 static void measure(const mw_editor *editor, uint32_t triangle)
@@ -43,14 +44,14 @@ static void measure(const mw_editor *editor, uint32_t triangle)
     area[triangle] = mw_orient2d(p[0], p[1], p[2]) / 2;
 }
 
-/* Only triangles that an edit made, changed or freed are measured again. Those round a vertex that is moved keep their vertices and are
- * not listed; this program moves none. */
+/* Only triangles that an edit made, changed or freed are measured again. Those round a vertex that
+ * is moved keep their vertices and are not listed; this program moves none. */
 static void follow(const mw_editor *editor, const mw_change *change)
 {
     size_t count = change->made + change->reused + change->freed;
     for (size_t i = 0; i < count; i++) measure(editor, change->triangle[i].triangle);
-    printf("%zu triangles made, %zu reused, %zu freed, %u edges flipped", change->made, change->reused, change->freed,
-           change->flips);
+    printf("%zu triangles made, %zu reused, %zu freed, %u edges flipped", change->made,
+           change->reused, change->freed, change->flips);
     double sum = 0;
     for (int i = 0; i < ROOM; i++) sum += area[i];
     printf("; the areas add up to %g\n", sum);
@@ -89,7 +90,8 @@ static void replay(const mw_editor *from, mw_editor *to)
     for (size_t i = 0; i < count; i++) {
         mw_edit_format(&(mw_edit_line){.kind = MW_EDIT_LINE_EDIT, .edit = log[i]}, &names, text);
         printf("    %s\n", text);
-        if (mw_edit_parse(text, &names, &again, &error) || mw_edit_apply(to, &again.edit, NULL, &error))
+        if (mw_edit_parse(text, &names, &again, &error) ||
+            mw_edit_apply(to, &again.edit, NULL, &error))
             fail(error.message);
     }
 }
@@ -117,7 +119,8 @@ int main(void)
     mw_change change;
     mw_error error;
     mw_editor_options options = {.log = 1, .undo = 10};
-    if (mw_editor_create(mesh, &options, &editor, &error) || mw_editor_create(mesh, NULL, &other, &error) ||
+    if (mw_editor_create(mesh, &options, &editor, &error) ||
+        mw_editor_create(mesh, NULL, &other, &error) ||
         mw_cursor_init(mw_editor_locator(editor), NULL, &cursor, &error))
         fail(error.message);
     mw_mesh_destroy(mesh); /* an editor has a copy */
@@ -125,7 +128,8 @@ int main(void)
     for (uint32_t t = 0; t < info.triangle_range; t++) measure(editor, t);
 
     where_is(editor, &cursor, 2.25, 2.5);
-    apply(editor, (mw_edit){.kind = MW_EDIT_INSERT, .x = 2.25, .y = 2.5, .value = 9}); /* a peak in field 0 */
+    /* a peak in field 0 */
+    apply(editor, (mw_edit){.kind = MW_EDIT_INSERT, .x = 2.25, .y = 2.5, .value = 9});
     where_is(editor, &cursor, 2.25, 2.5);
     apply(editor, (mw_edit){.kind = MW_EDIT_REMOVE, .vertex = 12});
     apply(editor, (mw_edit){.kind = MW_EDIT_REMOVE, .vertex = 12});

@@ -3,12 +3,14 @@
  *     erosion TERRAIN [-o OUT] [options]        (erosion --help)
  *
  * The model [Beyer 2015]: drops
- * fall one after the other, run downhill, carry soil as far as their speed, water and the slope let them, take up more where they could
- * carry more, and lay it down where they cannot carry what they have. There the terrain is a grid; here it is a mesh, a drop runs along
- * edges from vertex to vertex, and the mesh follows the valleys: vertices are inserted along the beds that drops dig, moved to make them
- * straighter, and removed where soil has buried what they showed.
+ * fall one after the other, run downhill, carry soil as far as their speed, water and the slope
+ * let them, take up more where they could carry more, and lay it down where they cannot carry what
+ * they have. There the terrain is a grid; here it is a mesh, a drop runs along edges from vertex
+ * to vertex, and the mesh follows the valleys: vertices are inserted along the beds that drops
+ * dig, moved to make them straighter, and removed where soil has buried what they showed.
  *
- * Each drop is located by a walk through the mesh as it is just then. Nothing is built, and nothing has to be built anew. */
+ * Each drop is located by a walk through the mesh as it is just then. Nothing is built, and
+ * nothing has to be built anew. */
 #include "terrain.h"
 
 #include <getopt.h>
@@ -21,31 +23,42 @@
 static const char usage[] =
     "usage: erosion TERRAIN [-o OUT] [options]\n"
     "\n"
-    "Let drops of rain fall on a terrain, run downhill, and carry soil along. TERRAIN is a mesh with heights (OFF, "
+    "Let drops of rain fall on a terrain, run downhill, and carry soil along. TERRAIN is a mesh "
+    "with heights (OFF, "
     "OBJ,\n"
     "PLY, STL, .node) or a file of points x,y,z (text, LAS), which are triangulated first, such as "
     "data/jacksboro.csv.\n"
     "Lengths and heights are in one unit, for which metre is written here.\n"
     "\n"
-    "  -o, --output OUT     write the terrain that is left as a mesh; its ending tells the format:\n"
+    "  -o, --output OUT     write the terrain that is left as a mesh; its ending tells the "
+    "format:\n"
     "                       .ply .off .obj .stl .node .vtk\n"
     "  -n, --drops N        drops that fall (default 100000)\n"
     "  -s, --seed N         of the places where they fall (default 1)\n"
-    "  -r, --rain H         all rain that they bring together, metres on the whole terrain (default 1000);\n"
+    "  -r, --rain H         all rain that they bring together, metres on the whole terrain "
+    "(default 1000);\n"
     "                       with more drops each is smaller\n"
-    "      --capacity C     soil that water carries at 1 m/s down a slope of 1 (45 degrees), cubic metres in each\n"
+    "      --capacity C     soil that water carries at 1 m/s down a slope of 1 (45 degrees), cubic "
+    "metres in each\n"
     "                       cubic metre of water (default 0.05)\n"
-    "      --erosion E      part of what it could carry more that a drop takes up at a vertex, 0 to 1 (default 0.3)\n"
-    "      --deposition D   part of what it cannot carry that it lays down there, 0 to 1 (default 0.3)\n"
-    "      --evaporation V  part of its water that a drop loses at a vertex, 0.0001 to 1 (default 0.02)\n"
+    "      --erosion E      part of what it could carry more that a drop takes up at a vertex, 0 "
+    "to 1 (default 0.3)\n"
+    "      --deposition D   part of what it cannot carry that it lays down there, 0 to 1 (default "
+    "0.3)\n"
+    "      --evaporation V  part of its water that a drop loses at a vertex, 0.0001 to 1 (default "
+    "0.02)\n"
     "      --speed S        fastest that water runs, m/s (default 5)\n"
-    "      --change H       the mesh is changed where so much soil was taken or laid down, metres (default: 1/200 of\n"
+    "      --change H       the mesh is changed where so much soil was taken or laid down, metres "
+    "(default: 1/200 of\n"
     "                       the range of heights); 0: never, then only heights change\n"
-    "      --finest L       no edges shorter than this are made, metres (default: a third of the mean edge)\n"
+    "      --finest L       no edges shorter than this are made, metres (default: a third of the "
+    "mean edge)\n"
     "  -h, --help           this text\n"
     "\n"
-    "Printed are: what the drops did; the soil, in cubic metres, where 'unaccounted' is what the books do not explain\n"
-    "of the change of volume (rounding); and how fast it went. Exit codes: 0 done, 2 wrong usage, 3 input that cannot\n"
+    "Printed are: what the drops did; the soil, in cubic metres, where 'unaccounted' is what the "
+    "books do not explain\n"
+    "of the change of volume (rounding); and how fast it went. Exit codes: 0 done, 2 wrong usage, "
+    "3 input that cannot\n"
     "be read or is no terrain, 4 anything else.\n";
 
 typedef struct settings {
@@ -60,14 +73,20 @@ typedef struct erosion {
     mw_editor *editor;
     const mw_locator *locator;
     mw_cursor cursor;
-    uint32_t z;                   /* the field of heights                                                       */
-    double low[2], high[2], area; /* of the terrain                                                             */
-    double water;                 /* of a drop when it falls, cubic metres                                      */
+    /* the field of heights */
+    uint32_t z;
+    /* of the terrain */
+    double low[2], high[2], area;
+    /* of a drop when it falls, cubic metres */
+    double water;
     uint64_t random;
-    double *share; /* per vertex: the area that its height counts for, a third of its triangles'                */
-    double *worn;  /* per vertex: metres that were taken off it since the mesh was last changed there           */
+    /* per vertex: the area that its height counts for, a third of its triangles' */
+    double *share;
+    /* per vertex: metres that were taken off it since the mesh was last changed there */
+    double *worn;
     size_t room;
-    double taken, laid, lost, reshaped; /* soil, cubic metres                                                   */
+    /* soil, cubic metres */
+    double taken, laid, lost, reshaped;
     uint64_t landed, runs, heights, inserted, moved, removed, locations;
 } erosion;
 
@@ -85,7 +104,7 @@ typedef struct ring {
     bool border; /* not all round */
 } ring;
 
-/* --- the mesh ---------------------------------------------------------------------------------------------------- */
+/* --- the mesh --------------------------------------------------------------------------------- */
 
 static double uniform(uint64_t *state)
 {
@@ -110,12 +129,14 @@ static ring look_round(const erosion *s, uint32_t v)
 {
     ring r;
     r.count = mw_editor_adjacent_vertices(s->editor, v, r.vertex, MOST_ROUND);
-    r.border = r.count == 0 || r.count > MOST_ROUND || mw_editor_edge(s->editor, v, r.vertex[0]) == MW_EDGE_BORDER;
+    r.border = r.count == 0 || r.count > MOST_ROUND ||
+               mw_editor_edge(s->editor, v, r.vertex[0]) == MW_EDGE_BORDER;
     if (r.count > MOST_ROUND) r.count = MOST_ROUND;
     return r;
 }
 
-/* Where vertices are gets its share of what the triangles are: add a triangle, or take it away. Returns its volume above z = 0. */
+/* Where vertices are gets its share of what the triangles are: add a triangle, or take it away.
+ * Returns its volume above z = 0. */
 static double count_triangle(erosion *s, const uint32_t v[3], double sign)
 {
     double p[3][2], z = 0;
@@ -149,7 +170,8 @@ static void make_room(erosion *s, uint32_t vertex)
 {
     if (vertex < s->room) return;
     size_t room = 2 * (size_t)vertex + 1024;
-    double *share = realloc(s->share, room * sizeof *share), *worn = realloc(s->worn, room * sizeof *worn);
+    double *share = realloc(s->share, room * sizeof *share),
+           *worn = realloc(s->worn, room * sizeof *worn);
     if (!share || !worn) fail(END_FAILED, "out of memory");
     memset(share + s->room, 0, (room - s->room) * sizeof *share);
     memset(worn + s->room, 0, (room - s->room) * sizeof *worn);
@@ -158,9 +180,10 @@ static void make_room(erosion *s, uint32_t vertex)
     s->room = room;
 }
 
-/* Carry out an edit that changes triangles, and carry shares along; returns the vertex, MW_NONE if nothing has changed. Triangles of its
- * vertex are counted as they were before it and as they are after it, for those of a vertex that moves are not listed; the others as
- * listed. *volume: by how much the terrain has become more. */
+/* Carry out an edit that changes triangles, and carry shares along; returns the vertex, MW_NONE if
+ * nothing has changed. Triangles of its vertex are counted as they were before it and as they are
+ * after it, for those of a vertex that moves are not listed; the others as listed. *volume: by how
+ * much the terrain has become more. */
 static uint32_t reshape(erosion *s, const mw_edit *edit, double *volume)
 {
     mw_error error;
@@ -177,7 +200,8 @@ static uint32_t reshape(erosion *s, const mw_edit *edit, double *volume)
     for (size_t i = 0; i < change.made + change.reused + change.freed; i++) {
         const mw_changed_triangle *t = &change.triangle[i];
         uint32_t after[3];
-        if (t->before[0] != MW_NONE && !has(t->before, change.vertex)) *volume += count_triangle(s, t->before, -1);
+        if (t->before[0] != MW_NONE && !has(t->before, change.vertex))
+            *volume += count_triangle(s, t->before, -1);
         if (mw_editor_triangle(s->editor, t->triangle, after) && !has(after, change.vertex))
             *volume += count_triangle(s, after, 1);
     }
@@ -193,7 +217,8 @@ static void set_height(erosion *s, uint32_t v, double z)
     s->heights++;
 }
 
-/* Give a vertex that has come or moved the height with which no soil has come or gone, but leave it between two others. */
+/* Give a vertex that has come or moved the height with which no soil has come or gone, but leave
+ * it between two others. */
 static void keep_soil(erosion *s, uint32_t v, double volume, uint32_t above, uint32_t below)
 {
     double z = height(s, v), high = height(s, above), low = height(s, below);
@@ -202,7 +227,7 @@ static void keep_soil(erosion *s, uint32_t v, double volume, uint32_t above, uin
     set_height(s, v, wanted);
 }
 
-/* --- the mesh follows the valleys -------------------------------------------------------------------------------- */
+/* --- the mesh follows the valleys ------------------------------------------------------------- */
 
 static void middle(const erosion *s, uint32_t a, uint32_t b, double m[2])
 {
@@ -212,7 +237,8 @@ static void middle(const erosion *s, uint32_t a, uint32_t b, double m[2])
     for (int k = 0; k < 2; k++) m[k] = p[k] / 2 + q[k] / 2;
 }
 
-/* Water cuts corners: a vertex of a bed goes a little towards the middle of those before and after it. */
+/* Water cuts corners: a vertex of a bed goes a little towards the middle of those before and after
+ * it. */
 static void straighten(erosion *s, uint32_t from, uint32_t v, uint32_t to)
 {
     double p[2], m[2], volume;
@@ -226,7 +252,8 @@ static void straighten(erosion *s, uint32_t from, uint32_t v, uint32_t to)
     s->moved++;
 }
 
-/* A long edge of a bed gets a vertex in its middle, which takes its height from the terrain there. */
+/* A long edge of a bed gets a vertex in its middle, which takes its height from the terrain there.
+ * */
 static void refine(erosion *s, uint32_t v, uint32_t to)
 {
     double m[2], volume;
@@ -254,7 +281,9 @@ static void thin_out(erosion *s, uint32_t from, uint32_t v, uint32_t to)
     ring r = look_round(s, v);
     for (size_t i = 0; i < r.count; i++) {
         uint32_t w = r.vertex[i];
-        if (w == from || w == to || distance(s, v, w) > s->set.finest / 2 || look_round(s, w).border) continue;
+        if (w == from || w == to || distance(s, v, w) > s->set.finest / 2 ||
+            look_round(s, w).border)
+            continue;
         remove_vertex(s, w);
         return;
     }
@@ -268,7 +297,8 @@ static void deepen(erosion *s, uint32_t from, uint32_t v, uint32_t to)
     if (from != MW_NONE && from != to) straighten(s, from, v, to);
 }
 
-/* Soil was laid down. Is a vertex about as high as those round about let expect, and has nothing to show any more? */
+/* Soil was laid down. Is a vertex about as high as those round about let expect, and has nothing
+ * to show any more? */
 static bool is_buried(const erosion *s, uint32_t v, const ring *r)
 {
     double sum = 0, weights = 0;
@@ -294,7 +324,7 @@ static bool follow(erosion *s, uint32_t from, uint32_t v, uint32_t to, const rin
     return !buried;
 }
 
-/* --- a drop ------------------------------------------------------------------------------------------------------ */
+/* --- a drop ----------------------------------------------------------------------------------- */
 
 /* Raise a vertex by `dz`, with soil of the drop; or lower it. */
 static void change_height(erosion *s, drop *d, uint32_t v, double dz)
@@ -310,10 +340,12 @@ static void change_height(erosion *s, drop *d, uint32_t v, double dz)
 /* Raise the drop's vertex by so much soil, but by `most` at most. */
 static void lay_down(erosion *s, drop *d, double soil, double most)
 {
-    if (most > 0 && soil > 0) change_height(s, d, d->vertex, fmin(soil / s->share[d->vertex], most));
+    if (most > 0 && soil > 0)
+        change_height(s, d, d->vertex, fmin(soil / s->share[d->vertex], most));
 }
 
-/* All that the drop still carries settles round about where it has ended, or is gone, over the border. */
+/* All that the drop still carries settles round about where it has ended, or is gone, over the
+ * border. */
 static void settle(erosion *s, drop *d)
 {
     ring r = look_round(s, d->vertex);
@@ -326,8 +358,8 @@ static void settle(erosion *s, drop *d)
     for (size_t i = 0; i < r.count; i++) change_height(s, d, r.vertex[i], dz);
 }
 
-/* The neighbour to which the steepest way down leads; in a pit the lowest one but that where the drop came from. *slope: how steep
- * it is, 0 in a pit. */
+/* The neighbour to which the steepest way down leads; in a pit the lowest one but that where the
+ * drop came from. *slope: how steep it is, 0 in a pit. */
 static uint32_t way_down(const erosion *s, const drop *d, const ring *r, double *slope)
 {
     double z = height(s, d->vertex), lowest = INFINITY;
@@ -348,15 +380,18 @@ static uint32_t way_down(const erosion *s, const drop *d, const ring *r, double 
     return *slope > 0 ? steepest : next;
 }
 
-/* Take up soil, or lay it down. Digging ends half way down to the next vertex, heaping half way up to the one before. */
+/* Take up soil, or lay it down. Digging ends half way down to the next vertex, heaping half way up
+ * to the one before. */
 static void exchange(erosion *s, drop *d, uint32_t next, double slope)
 {
     double z = height(s, d->vertex), fall = z - height(s, next);
     double carried = s->set.capacity * slope * d->speed * d->water, missing = carried - d->soil;
     if (missing < 0)
-        lay_down(s, d, -missing * s->set.deposition, d->from == MW_NONE ? 0 : (height(s, d->from) - z) / 2);
+        lay_down(s, d, -missing * s->set.deposition,
+                 d->from == MW_NONE ? 0 : (height(s, d->from) - z) / 2);
     else
-        change_height(s, d, d->vertex, -fmin(missing * s->set.erosion / s->share[d->vertex], fall / 2));
+        change_height(s, d, d->vertex,
+                      -fmin(missing * s->set.erosion / s->share[d->vertex], fall / 2));
     d->speed = fmin(sqrt(d->speed * d->speed + 2 * 9.81 * fall), s->set.speed);
 }
 
@@ -389,7 +424,8 @@ static bool run_on(erosion *s, drop *d)
     return true;
 }
 
-/* Where a drop falls: the corner nearest to it, by its weights, of the triangle that it falls on. */
+/* Where a drop falls: the corner nearest to it, by its weights, of the triangle that it falls on.
+ * */
 static uint32_t land(erosion *s)
 {
     for (;;) {
@@ -418,7 +454,7 @@ static void rain(erosion *s)
     }
 }
 
-/* --- before and after -------------------------------------------------------------------------------------------- */
+/* --- before and after ------------------------------------------------------------------------- */
 
 /* Area and volume of what is there; shares of the vertices, if they are wanted. */
 static double survey(erosion *s, bool shares)
@@ -462,7 +498,8 @@ static void prepare(erosion *s)
     mw_mesh_info info;
     mw_mesh *mesh = terrain_read(s->set.input);
     if (mw_mesh_describe(mesh, NULL, &info, &error)) fail_with(&error);
-    if (mw_editor_create(mesh, &(mw_editor_options){.delaunay = MW_DELAUNAY_MAKE}, &s->editor, &error))
+    if (mw_editor_create(mesh, &(mw_editor_options){.delaunay = MW_DELAUNAY_MAKE}, &s->editor,
+                         &error))
         fail(END_INPUT, "%s: %s", s->set.input, error.message);
     choose(s, mesh, &info);
     mw_mesh_destroy(mesh);
@@ -486,17 +523,21 @@ static void report(const erosion *s, uint32_t vertices, double change, double se
     mw_editor_info info;
     mw_editor_describe(s->editor, &info);
     uint64_t shape = s->inserted + s->moved + s->removed;
-    printf("%llu drops of %.4g cubic metres ran along %llu edges\n", (unsigned long long)s->landed, s->water,
-           (unsigned long long)s->runs);
-    printf("edits: %llu heights, %llu vertices inserted, %llu moved, %llu removed\n", (unsigned long long)s->heights,
-           (unsigned long long)s->inserted, (unsigned long long)s->moved, (unsigned long long)s->removed);
+    printf("%llu drops of %.4g cubic metres ran along %llu edges\n", (unsigned long long)s->landed,
+           s->water, (unsigned long long)s->runs);
+    printf("edits: %llu heights, %llu vertices inserted, %llu moved, %llu removed\n",
+           (unsigned long long)s->heights, (unsigned long long)s->inserted,
+           (unsigned long long)s->moved, (unsigned long long)s->removed);
     printf("vertices: %u before, %u after\n", vertices, info.vertices);
-    printf("soil: %.6g taken up, %.6g laid down, %.6g gone over the border, %.3g by changes of the mesh\n", s->taken,
-           s->laid, s->lost, s->reshaped);
-    printf("volume: changed by %.6g, unaccounted %.2g\n", change, change - (s->laid - s->taken + s->reshaped));
-    printf("%.2f s: %.0f drops, %.0f locations, %.0f edits of heights and %.0f of the mesh a second\n", seconds,
-           (double)s->landed / seconds, (double)s->locations / seconds, (double)s->heights / seconds,
-           (double)shape / seconds);
+    printf("soil: %.6g taken up, %.6g laid down, %.6g gone over the border, %.3g by changes of the "
+           "mesh\n",
+           s->taken, s->laid, s->lost, s->reshaped);
+    printf("volume: changed by %.6g, unaccounted %.2g\n", change,
+           change - (s->laid - s->taken + s->reshaped));
+    printf(
+        "%.2f s: %.0f drops, %.0f locations, %.0f edits of heights and %.0f of the mesh a second\n",
+        seconds, (double)s->landed / seconds, (double)s->locations / seconds,
+        (double)s->heights / seconds, (double)shape / seconds);
 }
 
 static const struct option options[] = {
@@ -550,7 +591,9 @@ static settings take_arguments(int argc, char **argv)
         take_option(&set, letter, optarg);
     if (argc - optind != 1) fail(END_USAGE, "one terrain is wanted; try 'erosion --help'");
     if (set.output && !terrain_can_write(set.output))
-        fail(END_USAGE, "%s: the ending tells no format; one of .ply .off .obj .stl .node .vtk is wanted", set.output);
+        fail(END_USAGE,
+             "%s: the ending tells no format; one of .ply .off .obj .stl .node .vtk is wanted",
+             set.output);
     set.input = argv[optind];
     return set;
 }

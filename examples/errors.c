@@ -1,4 +1,5 @@
-/* errors.c - what failures look like: a status, and an error object that you own with the place in it. */
+/* errors.c - what failures look like: a status, and an error object that you own with the place in
+ * it. */
 #include <meshwalk/meshwalk.h>
 #include <stdio.h>
 
@@ -14,7 +15,8 @@ static void broken_arrays(void)
     printf("%s: %s (triangle %d)\n", mw_status_text(status), error.message, (int)error.triangle);
 }
 
-/* A mesh that covers a part of the plane twice: it can be built, but no search could give one answer. */
+/* A mesh that covers a part of the plane twice: it can be built, but no search could give one
+ * answer. */
 static void overlapping_triangles(void)
 {
     const double points[] = {0, 0, 4, 0, 0, 4, 1, 1, 5, 1, 1, 5};

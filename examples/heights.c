@@ -25,7 +25,8 @@ static double *read_points(const char *path, size_t *width, size_t *count, mw_er
             if (!more) goto failed;
             values = more;
         }
-        if (mw_point_reader_read(reader, values + *count * *width, room - *count, &got, error)) goto failed;
+        if (mw_point_reader_read(reader, values + *count * *width, room - *count, &got, error))
+            goto failed;
     }
     mw_point_reader_close(reader);
     return values;
@@ -37,13 +38,14 @@ failed:
 }
 
 /* Heights of n positions; NaN outside the terrain. */
-static int sample(const double *terrain, size_t vertices, size_t terrain_width, const double *positions, size_t n,
-                  size_t width, double *height, mw_error *error)
+static int sample(const double *terrain, size_t vertices, size_t terrain_width,
+                  const double *positions, size_t n, size_t width, double *height, mw_error *error)
 {
     mw_mesh *mesh = NULL;
     mw_locator *locator = NULL;
     mw_location *location = malloc(n * sizeof *location);
-    int failed = !location || mw_delaunay(terrain, vertices, terrain_width, NULL, NULL, NULL, &mesh, error) ||
+    int failed = !location ||
+                 mw_delaunay(terrain, vertices, terrain_width, NULL, NULL, NULL, &mesh, error) ||
                  mw_mesh_set_field(mesh, "z", terrain + 2, terrain_width, error) ||
                  mw_locator_create(mesh, NULL, &locator, error) ||
                  mw_locate_batch(locator, positions, n, width, NULL, location, NULL, error);
@@ -65,7 +67,8 @@ int main(int argc, char **argv)
     double *terrain = read_points(argv[1], &terrain_width, &vertices, &error);
     double *positions = terrain ? read_points(argv[2], &width, &n, &error) : NULL;
     double *height = positions ? malloc(n * sizeof *height) : NULL;
-    int failed = !height || sample(terrain, vertices, terrain_width, positions, n, width, height, &error);
+    int failed =
+        !height || sample(terrain, vertices, terrain_width, positions, n, width, height, &error);
     if (failed) fprintf(stderr, "heights: %s\n", error.message);
 
     for (size_t i = 0; !failed && i < n; i++) {

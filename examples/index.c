@@ -1,4 +1,5 @@
-/* index.c - a grid that leads to the first triangle, used again after the mesh was changed: answers stay exact. */
+/* index.c - a grid that leads to the first triangle, used again after the mesh was changed:
+ * answers stay exact. */
 #include <meshwalk/meshwalk.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -28,7 +29,8 @@ static double visited(const mw_locator *locator, const mw_index *index, mw_locat
     mw_counters counters;
     mw_query_options options = {.start = MW_START_GRID, .index = index, .counters = 1};
     make_points(queries, QUERIES, 0.001);
-    if (mw_locate_batch(locator, queries, QUERIES, 2, &options, found, &counters, &error)) fail(&error);
+    if (mw_locate_batch(locator, queries, QUERIES, 2, &options, found, &counters, &error))
+        fail(&error);
     return (double)counters.triangles_visited / QUERIES;
 }
 
@@ -65,8 +67,8 @@ int main(void)
     uint32_t differing = 0;
     for (int i = 0; i < QUERIES; i++) differing += with_old[i].triangle != with_new[i].triangle;
     printf("few triangles a search: %s\n", near < 10 ? "yes" : "no");
-    printf("more with the old grid in the changed mesh: %s; fewer with a new one: %s\n", far > near ? "yes" : "no",
-           again < far ? "yes" : "no");
+    printf("more with the old grid in the changed mesh: %s; fewer with a new one: %s\n",
+           far > near ? "yes" : "no", again < far ? "yes" : "no");
     printf("answers that differ: %u\n", differing);
 
     mw_index_destroy(new_index);

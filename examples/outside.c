@@ -1,4 +1,5 @@
-/* outside.c - points outside a mesh and in its hole: which hole, how far, and the nearest border edge. */
+/* outside.c - points outside a mesh and in its hole: which hole, how far, and the nearest border
+ * edge. */
 #include <meshwalk/meshwalk.h>
 #include <stdio.h>
 
@@ -6,15 +7,18 @@ int main(void)
 {
     /* A square frame: outer corners 0..3, inner corners 4..7, and a hole in the middle. */
     const double points[] = {0, 0, 6, 0, 6, 6, 0, 6, 2, 2, 4, 2, 4, 4, 2, 4};
-    const uint32_t triangles[] = {0, 1, 5, 0, 5, 4, 1, 2, 6, 1, 6, 5, 2, 3, 7, 2, 7, 6, 3, 0, 4, 3, 4, 7};
-    mw_arrays arrays = {.points = points, .point_count = 8, .triangles = triangles, .triangle_count = 8};
+    const uint32_t triangles[] = {0, 1, 5, 0, 5, 4, 1, 2, 6, 1, 6, 5,
+                                  2, 3, 7, 2, 7, 6, 3, 0, 4, 3, 4, 7};
+    mw_arrays arrays = {
+        .points = points, .point_count = 8, .triangles = triangles, .triangle_count = 8};
     mw_locator_options with_border = {.border = 1};
     mw_query_options within_a_tenth = {.tolerance = 0.1};
     mw_error error;
     mw_mesh *mesh = NULL;
     mw_locator *locator = NULL;
     mw_cursor cursor;
-    if (mw_mesh_create(&arrays, NULL, &mesh, &error) || mw_locator_create(mesh, &with_border, &locator, &error) ||
+    if (mw_mesh_create(&arrays, NULL, &mesh, &error) ||
+        mw_locator_create(mesh, &with_border, &locator, &error) ||
         mw_cursor_init(locator, &within_a_tenth, &cursor, &error)) {
         fprintf(stderr, "%s\n", error.message);
         mw_locator_destroy(locator);

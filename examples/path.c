@@ -1,4 +1,5 @@
-/* path.c - a moving point: each search starts where the last one ended, and the counters show what it cost. */
+/* path.c - a moving point: each search starts where the last one ended, and the counters show what
+ * it cost. */
 #include <meshwalk/meshwalk.h>
 #include <math.h>
 #include <stdio.h>
@@ -51,13 +52,15 @@ int main(void)
     uint32_t last = MW_NONE, entered = 0;
     for (int i = 0; i < 10000; i++) {
         double angle = 6.283185307179586 * i / 10000;
-        mw_location at = mw_locate(locator, &cursor, 50.3 + 40 * cos(angle), 49.9 + 40 * sin(angle));
+        mw_location at =
+            mw_locate(locator, &cursor, 50.3 + 40 * cos(angle), 49.9 + 40 * sin(angle));
         if (at.triangle != last) entered++;
         last = at.triangle;
     }
     const mw_counters *c = &cursor.counters;
-    printf("%llu searches, %u changes of triangle, %.2f triangles visited per search\n", (unsigned long long)c->queries,
-           entered, (double)c->triangles_visited / (double)c->queries);
+    printf("%llu searches, %u changes of triangle, %.2f triangles visited per search\n",
+           (unsigned long long)c->queries, entered,
+           (double)c->triangles_visited / (double)c->queries);
     mw_locator_destroy(locator);
     mw_mesh_destroy(mesh);
     return 0;

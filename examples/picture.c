@@ -1,4 +1,5 @@
-/* picture.c - a shaded picture of a terrain model: its height at every pixel from one batch, drawn with Cairo.
+/* picture.c - a shaded picture of a terrain model: its height at every pixel from one batch, drawn
+ * with Cairo.
  *
  *     picture MESH PICTURE.png [WIDTH] */
 #include <meshwalk/meshwalk.h>
@@ -64,15 +65,18 @@ static mw_status sample(const terrain *t, const raster *r, mw_error *error)
     return status;
 }
 
-/* Brightness 0..1 of a slope lit from the north-west, 45 degrees above the horizon; heights exaggerated. */
+/* Brightness 0..1 of a slope lit from the north-west, 45 degrees above the horizon; heights
+ * exaggerated. */
 static double shade(const raster *r, int column, int row)
 {
-    int east = column + 1 < r->columns ? column + 1 : column, west = column > 0 ? column - 1 : column;
+    int east = column + 1 < r->columns ? column + 1 : column,
+        west = column > 0 ? column - 1 : column;
     int south = row + 1 < r->rows ? row + 1 : row, north = row > 0 ? row - 1 : row;
     const double *h = r->height, exaggeration = 2.5;
-    double dx = exaggeration * (h[row * r->columns + east] - h[row * r->columns + west]) / ((east - west) * r->cell);
-    double dy =
-        exaggeration * (h[north * r->columns + column] - h[south * r->columns + column]) / ((south - north) * r->cell);
+    double dx = exaggeration * (h[row * r->columns + east] - h[row * r->columns + west]) /
+                ((east - west) * r->cell);
+    double dy = exaggeration * (h[north * r->columns + column] - h[south * r->columns + column]) /
+                ((south - north) * r->cell);
     double light = (dx / sqrt(2) - dy / sqrt(2) + 1) / sqrt(2) / sqrt(dx * dx + dy * dy + 1);
     return isnan(light) || light < 0 ? 0 : light;
 }
@@ -80,13 +84,15 @@ static double shade(const raster *r, int column, int row)
 /* From green valleys over brown slopes to pale summits; `level` 0..1. Packed as Cairo's RGB24. */
 static uint32_t colour(double level, double light)
 {
-    static const double stop[4][3] = {{0.42, 0.60, 0.38}, {0.80, 0.76, 0.50}, {0.66, 0.48, 0.33}, {0.97, 0.95, 0.92}};
+    static const double stop[4][3] = {
+        {0.42, 0.60, 0.38}, {0.80, 0.76, 0.50}, {0.66, 0.48, 0.33}, {0.97, 0.95, 0.92}};
     int below = level >= 1 ? 2 : (int)(3 * level);
     double part = 3 * level - below, brightness = 0.25 + 0.95 * light;
     uint32_t packed = 0;
     for (int k = 0; k < 3; k++) {
         double c = (stop[below][k] * (1 - part) + stop[below + 1][k] * part) * brightness;
-        uint32_t byte = c >= 1 ? 255 : (uint32_t)(255 * c) & ~UINT32_C(7); /* few levels: a small file */
+        /* few levels: a small file */
+        uint32_t byte = c >= 1 ? 255 : (uint32_t)(255 * c) & ~UINT32_C(7);
         packed = packed << 8 | byte;
     }
     return packed;
@@ -106,7 +112,8 @@ static void paint(const raster *r, cairo_surface_t *surface)
         uint32_t *line = (uint32_t *)(void *)(pixels + (ptrdiff_t)row * stride);
         for (int column = 0; column < r->columns; column++) {
             double h = r->height[row * r->columns + column];
-            line[column] = isnan(h) ? 0xffffff : colour((h - low) / (high - low), shade(r, column, row));
+            line[column] =
+                isnan(h) ? 0xffffff : colour((h - low) / (high - low), shade(r, column, row));
         }
     }
     cairo_surface_mark_dirty(surface);
@@ -124,11 +131,13 @@ static mw_status draw(const char *mesh, const char *picture, int width, mw_error
         status = r.height ? sample(&t, &r, error) : MW_ERROR_MEMORY;
     }
     if (!status) {
-        cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, r.columns, r.rows);
+        cairo_surface_t *surface =
+            cairo_image_surface_create(CAIRO_FORMAT_RGB24, r.columns, r.rows);
         if (cairo_surface_status(surface) == CAIRO_STATUS_SUCCESS) paint(&r, surface);
         cairo_status_t written = cairo_surface_write_to_png(surface, picture);
         if (written)
-            snprintf(error->message, sizeof error->message, "%s: %s", picture, cairo_status_to_string(written));
+            snprintf(error->message, sizeof error->message, "%s: %s", picture,
+                     cairo_status_to_string(written));
         if (written) status = MW_ERROR_SYSTEM;
         cairo_surface_destroy(surface);
     }

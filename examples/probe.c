@@ -4,7 +4,13 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { ROUND = 60, ACROSS = 24, VERTICES = ROUND * ACROSS, TRIANGLES = 2 * VERTICES, PROBES = 1000 };
+enum {
+    ROUND = 60,
+    ACROSS = 24,
+    VERTICES = ROUND * ACROSS,
+    TRIANGLES = 2 * VERTICES,
+    PROBES = 1000
+};
 #define TURN 6.283185307179586
 
 static _Noreturn void fail(const mw_error *error)
@@ -13,7 +19,8 @@ static _Noreturn void fail(const mw_error *error)
     exit(1);
 }
 
-/* A ring round the z axis: the middle of its tube 2 from the axis, the tube's radius 0.5. Fronts face out. */
+/* A ring round the z axis: the middle of its tube 2 from the axis, the tube's radius 0.5. Fronts
+ * face out. */
 static mw_surface *make_ring(void)
 {
     static double points[VERTICES][3];
@@ -28,8 +35,10 @@ static mw_surface *make_ring(void)
         const uint32_t two[6] = {a, b, c, a, c, d};
         for (uint32_t k = 0; k < 6; k++) triangles[2 * i + k / 3][k % 3] = two[k];
     }
-    mw_arrays arrays = {
-        .points = points[0], .point_count = VERTICES, .triangles = triangles[0], .triangle_count = TRIANGLES};
+    mw_arrays arrays = {.points = points[0],
+                        .point_count = VERTICES,
+                        .triangles = triangles[0],
+                        .triangle_count = TRIANGLES};
     mw_surface *surface;
     mw_error error;
     if (mw_surface_create(&arrays, NULL, &surface, &error)) fail(&error);
@@ -41,11 +50,13 @@ static void show(const mw_prober *prober, mw_probe_cursor *cursor, double x, dou
 {
     mw_touch touch = mw_probe(prober, cursor, (double[3]){x, 0.1, z}, (double[3]){0, 0, -1});
     printf("down from (%g, 0.1, %g): %s", x, z, mw_touch_state_name(touch.state));
-    if (touch.state == MW_TOUCH_HIT) printf(", triangle %u, %.3f ahead", touch.triangle, touch.distance);
+    if (touch.state == MW_TOUCH_HIT)
+        printf(", triangle %u, %.3f ahead", touch.triangle, touch.distance);
     printf("\n");
 }
 
-/* Probes that go round the ring and down on it; each begins with the triangle that the one before it touched. */
+/* Probes that go round the ring and down on it; each begins with the triangle that the one before
+ * it touched. */
 static void go_round(const mw_prober *prober, const mw_probe_options *options, mw_touch *touches)
 {
     static double queries[PROBES][6];
@@ -67,7 +78,8 @@ int main(void)
     mw_probe_cursor quick, complete;
     mw_probe_options certain = {.certain = 1}, near = {.max_distance = 0.3};
     if (mw_prober_create(surface, &(mw_prober_options){.boxes = 1}, &prober, &error) ||
-        mw_probe_cursor_init(prober, NULL, &quick, &error) || mw_probe_cursor_init(prober, &certain, &complete, &error))
+        mw_probe_cursor_init(prober, NULL, &quick, &error) ||
+        mw_probe_cursor_init(prober, &certain, &complete, &error))
         fail(&error);
 
     show(prober, &quick, 2.1, 1);    /* above the ring                                           */
@@ -83,7 +95,8 @@ int main(void)
         touched += for_certain[i].state == MW_TOUCH_HIT;
         differing += as_published[i].triangle != for_certain[i].triangle;
     }
-    printf("%d probes round the ring, %u touch it, %u answers differ\n", PROBES, touched, differing);
+    printf("%d probes round the ring, %u touch it, %u answers differ\n", PROBES, touched,
+           differing);
 
     mw_prober_destroy(prober);
     mw_surface_destroy(surface);

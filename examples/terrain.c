@@ -25,8 +25,9 @@ void fail(int code, const char *format, ...)
 
 void fail_with(const mw_error *error)
 {
-    fail(error->status == MW_ERROR_INPUT || error->status == MW_ERROR_SYSTEM ? END_INPUT : END_FAILED, "%s",
-         error->message);
+    fail(error->status == MW_ERROR_INPUT || error->status == MW_ERROR_SYSTEM ? END_INPUT
+                                                                             : END_FAILED,
+         "%s", error->message);
 }
 
 double option_number(const char *name, const char *text, double low, double high)
@@ -34,11 +35,12 @@ double option_number(const char *name, const char *text, double low, double high
     char *rest;
     double value = strtod(text, &rest);
     if (rest == text || *rest || !(value >= low && value <= high))
-        fail(END_USAGE, "option '--%s' wants a number from %g to %g, not '%s'", name, low, high, text);
+        fail(END_USAGE, "option '--%s' wants a number from %g to %g, not '%s'", name, low, high,
+             text);
     return value;
 }
 
-/* --- reading ----------------------------------------------------------------------------------------------------- */
+/* --- reading ---------------------------------------------------------------------------------- */
 
 /* Vertices and their heights on the way to a mesh. */
 typedef struct draft {
@@ -66,7 +68,8 @@ static draft read_points(const char *path)
     double *values = grown(NULL, block, width * sizeof *values);
     for (size_t got = 1; got > 0;) {
         if (mw_point_reader_read(reader, values, block, &got, &error)) fail_with(&error);
-        while (room < d.point_count + got) d.points = grown(d.points, room = 2 * room + block, 3 * sizeof *d.points);
+        while (room < d.point_count + got)
+            d.points = grown(d.points, room = 2 * room + block, 3 * sizeof *d.points);
         for (size_t i = 0; i < got; i++, d.point_count++)
             memcpy(d.points + 3 * d.point_count, values + i * width, 3 * sizeof *values);
     }
@@ -100,9 +103,11 @@ static void keep_vertices(draft *d, const bool *keep)
     uint32_t *number = grown(NULL, d->point_count, sizeof *number), kept = 0;
     for (size_t i = 0; i < d->point_count; i++) {
         number[i] = keep[i] ? kept : MW_NONE;
-        if (keep[i]) memmove(d->points + 3 * (size_t)kept++, d->points + 3 * i, 3 * sizeof *d->points);
+        if (keep[i])
+            memmove(d->points + 3 * (size_t)kept++, d->points + 3 * i, 3 * sizeof *d->points);
     }
-    for (size_t k = 0; d->triangles && k < 3 * d->triangle_count; k++) d->triangles[k] = number[d->triangles[k]];
+    for (size_t k = 0; d->triangles && k < 3 * d->triangle_count; k++)
+        d->triangles[k] = number[d->triangles[k]];
     d->point_count = kept;
     free(number);
 }
@@ -129,7 +134,8 @@ static mw_mesh *triangulated(draft *d, const char *path)
         for (size_t i = 0; i < d->point_count; i++) first[i] = same[i] == MW_NONE;
         keep_vertices(d, first);
         mw_mesh_destroy(mesh);
-        if (mw_delaunay(d->points, d->point_count, 3, NULL, NULL, NULL, &mesh, &error)) fail_with(&error);
+        if (mw_delaunay(d->points, d->point_count, 3, NULL, NULL, NULL, &mesh, &error))
+            fail_with(&error);
     }
     free(same);
     free(first);
@@ -146,7 +152,8 @@ static mw_mesh *connected(draft *d, const char *path)
                         .point_stride = 3,
                         .triangles = d->triangles,
                         .triangle_count = d->triangle_count};
-    if (mw_mesh_create(&arrays, NULL, &mesh, &error)) fail(END_INPUT, "%s: %s", path, error.message);
+    if (mw_mesh_create(&arrays, NULL, &mesh, &error))
+        fail(END_INPUT, "%s: %s", path, error.message);
     return mesh;
 }
 
@@ -156,14 +163,15 @@ mw_mesh *terrain_read(const char *path)
     draft d = read_draft(path);
     mw_mesh *mesh = d.triangles ? connected(&d, path) : triangulated(&d, path);
     for (size_t i = 0; i < d.point_count; i++)
-        if (!isfinite(d.points[3 * i + 2])) fail(END_INPUT, "%s: the height of point %zu is no number", path, i);
+        if (!isfinite(d.points[3 * i + 2]))
+            fail(END_INPUT, "%s: the height of point %zu is no number", path, i);
     if (mw_mesh_set_field(mesh, "z", d.points + 2, 3, &error)) fail_with(&error);
     free(d.points);
     free(d.triangles);
     return mesh;
 }
 
-/* --- writing ----------------------------------------------------------------------------------------------------- */
+/* --- writing ---------------------------------------------------------------------------------- */
 
 int terrain_can_write(const char *path)
 {
@@ -186,7 +194,8 @@ void terrain_write(const char *path, const mw_mesh *mesh)
         mw_mesh_vertex(mesh, i, file.points + 3 * (size_t)i);
         file.points[3 * (size_t)i + 2] = z[i];
     }
-    for (uint32_t t = 0; t < triangles; t++) mw_mesh_triangle(mesh, t, file.triangles + 3 * (size_t)t);
+    for (uint32_t t = 0; t < triangles; t++)
+        mw_mesh_triangle(mesh, t, file.triangles + 3 * (size_t)t);
     if (mw_write_mesh(path, &file, NULL, NULL, &error)) fail(END_FAILED, "%s", error.message);
     free(file.points);
     free(file.triangles);

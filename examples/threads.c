@@ -27,7 +27,8 @@ static void *work(void *argument)
     mw_cursor cursor;
     if (mw_cursor_init(j->locator, &options, &cursor, NULL)) return "failed";
     for (size_t i = 0; i < QUERIES; i++)
-        j->triangle[i] = mw_locate(j->locator, &cursor, j->queries[2 * i], j->queries[2 * i + 1]).triangle;
+        j->triangle[i] =
+            mw_locate(j->locator, &cursor, j->queries[2 * i], j->queries[2 * i + 1]).triangle;
     return NULL;
 }
 
@@ -39,7 +40,8 @@ static int race(const mw_locator *locator, const double *queries, uint32_t *tria
     int wrong = 0;
     int started = 0;
     for (; started < THREADS; started++) {
-        jobs[started] = (job){locator, queries, triangle + (size_t)started * QUERIES, (uint64_t)started};
+        jobs[started] =
+            (job){locator, queries, triangle + (size_t)started * QUERIES, (uint64_t)started};
         if (pthread_create(&thread[started], NULL, work, &jobs[started])) break;
     }
     for (int t = 0; t < started; t++) {
@@ -55,7 +57,8 @@ static int race(const mw_locator *locator, const double *queries, uint32_t *tria
 
 int main(void)
 {
-    double *points = malloc(2 * POINTS * sizeof *points), *queries = malloc(2 * QUERIES * sizeof *queries);
+    double *points = malloc(2 * POINTS * sizeof *points),
+           *queries = malloc(2 * QUERIES * sizeof *queries);
     uint32_t *triangle = malloc(sizeof *triangle * THREADS * QUERIES);
     mw_error error = {.message = "out of memory"};
     mw_mesh *mesh = NULL;

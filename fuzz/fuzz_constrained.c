@@ -1,6 +1,7 @@
-/* fuzz_constrained.c - constrained triangulation of a few points and segments, checked by exact predicates: the mesh is an
- * embedding, each segment is a chain of constrained edges, and every other edge is locally Delaunay. And the points as
- * rings of polygons, which are held against an oracle. */
+/* fuzz_constrained.c - constrained triangulation of a few points and segments, checked by exact
+ * predicates: the mesh is an embedding, each segment is a chain of constrained edges, and every
+ * other edge is locally Delaunay. And the points as rings of polygons, which are held against an
+ * oracle. */
 #include <math.h>
 #include <meshwalk/meshwalk.h>
 #include <stdlib.h>
@@ -96,8 +97,8 @@ static uint32_t make_rings(input *in, uint32_t n, uint32_t *segments, uint32_t *
     return m;
 }
 
-static void check_point(const mw_polygons *polygons, const mw_constraints *rings, const mw_locator *locator,
-                        const double q[2])
+static void check_point(const mw_polygons *polygons, const mw_constraints *rings,
+                        const mw_locator *locator, const double q[2])
 {
     mw_cursor cursor = {0};
     mw_polygon_hit hits[3];
@@ -106,7 +107,8 @@ static void check_point(const mw_polygons *polygons, const mw_constraints *rings
     for (uint32_t of = 0; of < 3; of++) {
         polygon_side side = location_oracle_polygon(rings, of, q);
         if (side == POLYGON_OUTSIDE) continue;
-        if (i >= count || hits[i].polygon != of || hits[i].border != (side == POLYGON_BORDER)) abort();
+        if (i >= count || hits[i].polygon != of || hits[i].border != (side == POLYGON_BORDER))
+            abort();
         i++;
     }
     if (i != count) abort();
@@ -115,7 +117,8 @@ static void check_point(const mw_polygons *polygons, const mw_constraints *rings
 static void check_polygons(input *in, const double *points, uint32_t n, double scale, double offset)
 {
     uint32_t segments[2 * MOST], polygon[MOST], found[3];
-    mw_constraints rings = {.points = points, .point_count = n, .segments = segments, .polygon = polygon};
+    mw_constraints rings = {
+        .points = points, .point_count = n, .segments = segments, .polygon = polygon};
     rings.segment_count = make_rings(in, n, segments, polygon);
     mw_polygons *polygons;
     mw_locator *locator;
@@ -165,7 +168,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
                             .polygon = options & 2 ? polygon : NULL,
                             .hole_seeds = holes,
                             .hole_seed_count = options >> 2 & 1 ? 2 : 0};
-    mw_constrain_options how = {.keep = (mw_keep)((options >> 3) % 3), .split = (int)(options >> 6 & 1)};
+    mw_constrain_options how = {.keep = (mw_keep)((options >> 3) % 3),
+                                .split = (int)(options >> 6 & 1)};
     mw_constrained_edges edges;
     mw_mesh *mesh;
     if (mw_constrained_delaunay(&given, &how, duplicate_of, NULL, &edges, &mesh, NULL)) {
@@ -174,7 +178,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     }
     check_embedding(mesh);
     check_delaunay(mesh, &edges);
-    for (size_t i = 0; i < m && how.keep == MW_KEEP_HULL && !how.split && !given.hole_seed_count; i++) {
+    for (size_t i = 0; i < m && how.keep == MW_KEEP_HULL && !how.split && !given.hole_seed_count;
+         i++) {
         uint32_t a = segments[2 * i], b = segments[2 * i + 1];
         follow(points, &edges, duplicate_of[a] == MW_NONE ? a : duplicate_of[a],
                duplicate_of[b] == MW_NONE ? b : duplicate_of[b]);

@@ -1,6 +1,7 @@
-/* fuzz_edit.c - a small mesh and a stream of edits, undos and queries from the input. What each edit has to do is predicted by brute
- * force, its report is taken over into a twin, and the editor has to agree with that after each step. Places are on a small lattice, so
- * that they meet edges, vertices, lines and circles often. */
+/* fuzz_edit.c - a small mesh and a stream of edits, undos and queries from the input. What each
+ * edit has to do is predicted by brute force, its report is taken over into a twin, and the editor
+ * has to agree with that after each step. Places are on a small lattice, so that they meet edges,
+ * vertices, lines and circles often. */
 #include "oracle/edit_open.h"
 #include "oracle/edit_apply.h"
 
@@ -46,12 +47,16 @@ static mw_mesh *mesh_from(input *in)
         uint32_t what = how & 1 ? next(in) : 0, v[3];
         if ((what & 3) == 3 && count - t + kept > 1) continue;
         mw_mesh_triangle(whole, t, v);
-        for (uint32_t k = 0; k < 3; k++) triangles[3 * kept + k] = v[(what / 8 + (what & 4 ? 3 - k : k)) % 3];
+        for (uint32_t k = 0; k < 3; k++)
+            triangles[3 * kept + k] = v[(what / 8 + (what & 4 ? 3 - k : k)) % 3];
         kept++;
     }
-    mw_arrays view = {.points = points, .point_count = n, .triangles = triangles, .triangle_count = kept};
-    if (mw_mesh_create(&view, &(mw_mesh_options){.layout = how >> 1 & 1 ? MW_LAYOUT_AS_GIVEN : MW_LAYOUT_HILBERT},
-                       &mesh, NULL))
+    mw_arrays view = {
+        .points = points, .point_count = n, .triangles = triangles, .triangle_count = kept};
+    if (mw_mesh_create(
+            &view,
+            &(mw_mesh_options){.layout = how >> 1 & 1 ? MW_LAYOUT_AS_GIVEN : MW_LAYOUT_HILBERT},
+            &mesh, NULL))
         abort();
     mw_mesh_destroy(whole);
     return mesh;
@@ -60,8 +65,9 @@ static mw_mesh *mesh_from(input *in)
 static void edit_from(input *in, uint32_t what, twin *t)
 {
     uint32_t place = next(in), one = next(in);
-    mw_edit e = {
-        .kind = (mw_edit_kind)(what % MW_EDIT_KIND_COUNT), .field = what >> 4 & 1, .value = what & 64 ? NAN : 5};
+    mw_edit e = {.kind = (mw_edit_kind)(what % MW_EDIT_KIND_COUNT),
+                 .field = what >> 4 & 1,
+                 .value = what & 64 ? NAN : 5};
     e.x = coordinate(place);
     e.y = coordinate(place >> 4);
     e.vertex = one % (t->vertex_range + 1);
@@ -123,7 +129,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     input in = {data, size};
     twin t;
-    mw_editor_options options = {.delaunay = (mw_delaunay_mode)(next(&in) % 3), .undo = KEPT, .log = 1};
+    mw_editor_options options = {
+        .delaunay = (mw_delaunay_mode)(next(&in) % 3), .undo = KEPT, .log = 1};
     mw_mesh *mesh = mesh_from(&in);
     if (!mesh) return 0;
     uint32_t constraint[2], v[3], more = next(&in);

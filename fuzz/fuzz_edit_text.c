@@ -1,9 +1,11 @@
-/* Any bytes as a stream of edits. What is taken comes back when it is written and read again; what is refused names its line. */
+/* Any bytes as a stream of edits. What is taken comes back when it is written and read again; what
+ * is refused names its line. */
 #include "io/edits/edit_text.h"
 #include "reader.h"
 
 static const char *const names[] = {"temp", "z", "wind speed", "a#b"};
-static const mw_edit_text_options named = {.fields = names, .field_count = sizeof names / sizeof *names};
+static const mw_edit_text_options named = {.fields = names,
+                                           .field_count = sizeof names / sizeof *names};
 
 static bool same_double(double a, double b)
 {
@@ -13,7 +15,8 @@ static bool same_double(double a, double b)
 static void require_same(const mw_edit_line *a, const mw_edit_line *b)
 {
     const mw_edit *e = &a->edit, *f = &b->edit;
-    require(a->kind == b->kind && e->kind == f->kind && e->vertex == f->vertex && e->other == f->other);
+    require(a->kind == b->kind && e->kind == f->kind && e->vertex == f->vertex &&
+            e->other == f->other);
     require(same_double(e->x, f->x) && same_double(e->y, f->y) && same_double(e->value, f->value));
     require(e->field == f->field || (e->kind == MW_EDIT_INSERT && e->value != e->value));
 }

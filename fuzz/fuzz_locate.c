@@ -1,6 +1,7 @@
-/* fuzz_locate.c - points from the input are triangulated, some triangles dropped, some turned round; then every walk from
- * every start has to name the lowest triangle that contains each query, as a look at all triangles does. Coordinates are
- * small multiples of a power of two, so that points meet edges, vertices and each other often. */
+/* fuzz_locate.c - points from the input are triangulated, some triangles dropped, some turned
+ * round; then every walk from every start has to name the lowest triangle that contains each
+ * query, as a look at all triangles does. Coordinates are small multiples of a power of two, so
+ * that points meet edges, vertices and each other often. */
 #include <meshwalk/meshwalk.h>
 
 #include <math.h>
@@ -25,7 +26,8 @@ static double coordinate(input *in, int finer)
 {
     int value = next(in);
     return finer && value & 1 ? (value >> 1) / 8.0
-                              : (value >> 4) * 1.0; /* vertices on 16 x 16 places, queries anywhere */
+                              /* vertices on 16 x 16 places, queries anywhere */
+                              : (value >> 4) * 1.0;
 }
 
 static int contains(const mw_mesh *mesh, uint32_t t, const double q[2])
@@ -62,23 +64,26 @@ static mw_mesh *damaged(input *in, const mw_mesh *whole, mw_mesh_layout layout)
         if ((what & 3) == 3 && n - t + kept > 1) continue;
         uint32_t v[3], *to = triangles + 3 * (size_t)kept++;
         mw_mesh_triangle(whole, t, v);
-        for (uint32_t k = 0; k < 3; k++) to[k] = v[((uint32_t)what / 8 + (what & 4 ? 3 - k : k)) % 3];
+        for (uint32_t k = 0; k < 3; k++)
+            to[k] = v[((uint32_t)what / 8 + (what & 4 ? 3 - k : k)) % 3];
     }
-    mw_arrays arrays = {.points = xy, .point_count = points, .triangles = triangles, .triangle_count = kept};
+    mw_arrays arrays = {
+        .points = xy, .point_count = points, .triangles = triangles, .triangle_count = kept};
     mw_mesh *mesh;
     if (mw_mesh_create(&arrays, &(mw_mesh_options){.layout = layout}, &mesh, NULL)) abort();
     return mesh;
 }
 
-static void query(const mw_mesh *mesh, const mw_locator *locator, mw_index *const *index, const double q[2],
-                  mw_mesh_layout layout)
+static void query(const mw_mesh *mesh, const mw_locator *locator, mw_index *const *index,
+                  const double q[2], mw_mesh_layout layout)
 {
     uint32_t want = by_force(mesh, q);
     for (int walk = MW_WALK_AUTO; walk < MW_WALK_COUNT; walk++)
         for (int start = MW_START_AUTO; start < MW_START_COUNT; start++) {
             mw_query_options options = {.walk = (mw_walk_kind)walk,
                                         .start = (mw_start_kind)start,
-                                        .arithmetic = (mw_arithmetic)((walk ^ start ^ (int)layout) & 1),
+                                        .arithmetic =
+                                            (mw_arithmetic)((walk ^ start ^ (int)layout) & 1),
                                         .seed = 7,
                                         .index = index[start]};
             mw_cursor cursor;
@@ -96,11 +101,13 @@ static void query_open(const mw_locator *open, const mw_locator *filled, const d
     if (mw_cursor_init(filled, &by_default, &cursor, NULL)) abort();
     mw_location want = mw_locate(filled, &cursor, q[0], q[1]);
     for (int arithmetic = MW_EXACT; arithmetic <= MW_DOUBLE; arithmetic++) {
-        mw_query_options options = {.start = MW_START_RANDOM, .seed = 7, .arithmetic = (mw_arithmetic)arithmetic};
+        mw_query_options options = {
+            .start = MW_START_RANDOM, .seed = 7, .arithmetic = (mw_arithmetic)arithmetic};
         if (mw_cursor_init(open, &options, &cursor, NULL)) abort();
         for (int i = 0; i < 4; i++) {
             mw_location at = mw_locate(open, &cursor, q[0], q[1]);
-            if (at.triangle != want.triangle || at.where != want.where || at.hole != want.hole) abort();
+            if (at.triangle != want.triangle || at.where != want.where || at.hole != want.hole)
+                abort();
         }
     }
 }
@@ -120,14 +127,17 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     mw_mesh *mesh = damaged(&in, whole, layout);
     mw_locator_options prepare = {0};
     mw_locator *locator, *open;
-    if (mw_locator_create(mesh, &prepare, &locator, NULL)) abort(); /* a part of an embedding is one */
+    /* a part of an embedding is one */
+    if (mw_locator_create(mesh, &prepare, &locator, NULL)) abort();
     prepare.fill = MW_FILL_NO;
     if (mw_locator_create(mesh, &prepare, &open, NULL)) abort();
     mw_index *index[MW_START_COUNT];
-    for (int start = MW_START_AUTO; start < MW_START_COUNT; start++) /* NULL for starts that have none */
+    for (int start = MW_START_AUTO; start < MW_START_COUNT;
+         start++) /* NULL for starts that have none */
         mw_index_create(locator, (mw_start_kind)start, NULL, &index[start], NULL);
     for (int i = 0; i < 8; i++) {
-        const double q[2] = {(coordinate(&in, 1) + offset) * scale, (coordinate(&in, 1) + offset) * scale};
+        const double q[2] = {(coordinate(&in, 1) + offset) * scale,
+                             (coordinate(&in, 1) + offset) * scale};
         query(mesh, locator, index, q, layout);
         query_open(open, locator, q);
     }

@@ -1,7 +1,9 @@
-/* Meshes from any bytes, held against brute force: the check, the mesh, its description and its tiling.
+/* Meshes from any bytes, held against brute force: the check, the mesh, its description and its
+ * tiling.
  *
- * Byte 0: kind of index, stride, whether some coordinates are not finite; byte 1: exponent of all coordinates; byte 2:
- * number of points. Then two bytes a point, three a triangle: numbers of vertices, one or two of them out of range. */
+ * Byte 0: kind of index, stride, whether some coordinates are not finite; byte 1: exponent of all
+ * coordinates; byte 2: number of points. Then two bytes a point, three a triangle: numbers of
+ * vertices, one or two of them out of range. */
 #include "oracle/domain_oracle.h"
 #include "support/meshes.h"
 
@@ -17,7 +19,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 enum { MAX_POINTS = 32, MAX_TRIANGLES = 24, MAX_STRIDE = 4 };
 
 typedef struct input {
-    arrays a; /* with small integers, which stand for the coordinates at the end of the range if those are not finite */
+    /* with small integers, which stand for the coordinates at the end of the range if those are
+     * not finite */
+    arrays a;
     double points[MAX_POINTS * MAX_STRIDE];
     int32_t int32[3 * MAX_TRIANGLES];
     int64_t int64[3 * MAX_TRIANGLES];
@@ -41,7 +45,8 @@ static void read_points(input *in, const uint8_t *data, size_t count, size_t str
 {
     for (size_t i = 0; i < count; i++) {
         arrays_point(&in->a, (int8_t)data[2 * i], (int8_t)data[2 * i + 1]);
-        for (size_t k = 0; k < 2; k++) in->points[i * stride + k] = coordinate(data[2 * i + k], special);
+        for (size_t k = 0; k < 2; k++)
+            in->points[i * stride + k] = coordinate(data[2 * i + k], special);
     }
     in->view.points = in->points;
     in->view.point_count = count;
@@ -82,7 +87,8 @@ static bool read_input(input *in, const uint8_t *data, size_t size)
     return true;
 }
 
-/* Returns whether the check takes it for an embedding; *usable: whether a mesh can be made of it. */
+/* Returns whether the check takes it for an embedding; *usable: whether a mesh can be made of it.
+ * */
 static bool try_check(const input *in, bool *usable)
 {
     mw_check check;
@@ -112,13 +118,15 @@ static void try_tiling(const input *in, const mw_mesh *mesh, bool embedding)
     mw_status status = mw__tiling_create(mesh, (mw_tiling_options){0}, MW_ALONE, &tiling, &error);
     require(embedding ? status == MW_OK : status == MW_ERROR_INPUT && error.message[0] != 0);
     if (status == MW_OK) mw__tiling_release(&tiling);
-    require(mw__tiling_create(mesh, (mw_tiling_options){.any = true}, MW_ALONE, &tiling, &error) == MW_OK &&
+    require(mw__tiling_create(mesh, (mw_tiling_options){.any = true}, MW_ALONE, &tiling, &error) ==
+                MW_OK &&
             tiling.embedding == embedding);
     require(!embedding || domain_oracle_fault(&in->a, &tiling) == NULL);
     mw__tiling_release(&tiling);
 }
 
-static void try_mesh(const input *in, bool tolerant, mw_mesh_layout layout, bool expected, bool embedding)
+static void try_mesh(const input *in, bool tolerant, mw_mesh_layout layout, bool expected,
+                     bool embedding)
 {
     mw_mesh *mesh;
     mw_mesh_options options = {.tolerant = tolerant, .layout = layout, .threads = 1};

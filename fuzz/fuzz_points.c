@@ -1,5 +1,5 @@
-/* Any bytes as points: the first line is the selection of columns, none if it is empty. As a table of its own kind
- * and as the vertices of a .node file, without and with the rows' texts. */
+/* Any bytes as points: the first line is the selection of columns, none if it is empty. As a table
+ * of its own kind and as the vertices of a .node file, without and with the rows' texts. */
 #include "reader.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)

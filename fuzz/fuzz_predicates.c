@@ -1,5 +1,6 @@
-/* The predicates against GMP on any bytes. The first byte says how to read the rest: as doubles, or as small integers
- * times a power of two, each moved by some units in the last place, which are often degenerate. */
+/* The predicates against GMP on any bytes. The first byte says how to read the rest: as doubles,
+ * or as small integers times a power of two, each moved by some units in the last place, which are
+ * often degenerate. */
 #include "oracle/line_oracle.h"
 #include "predicates/line.h"
 
@@ -24,7 +25,8 @@ static void read_doubles(double p[COORDINATES], const uint8_t *data, size_t size
     if (size > 0) memcpy(p, data, size);
 }
 
-/* Four bytes each: two for the integer, one for the exponent (relative to that of all), one for the units. */
+/* Four bytes each: two for the integer, one for the exponent (relative to that of all), one for
+ * the units. */
 static void read_integers(double p[COORDINATES], const uint8_t *data, size_t size, int exponent)
 {
     for (size_t i = 0; i < COORDINATES && 4 * i + 3 < size; i++) {
@@ -68,28 +70,34 @@ static void check_hits(line_oracle *truth, const double p[COORDINATES])
 static void check(predicate_oracle *truth, const double p[COORDINATES])
 {
     mw_point a = at(p, 0), b = at(p, 1), c = at(p, 2), d = at(p, 3), e = at(p, 4);
-    compare(truth, predicate_oracle_orient2d(truth, p), mw__orient2d(a, b, c), mw__orient2d_exact(a, b, c));
+    compare(truth, predicate_oracle_orient2d(truth, p), mw__orient2d(a, b, c),
+            mw__orient2d_exact(a, b, c));
     compare(truth, predicate_oracle_dot2d(truth, p), mw__dot2d(a, b, c), mw__dot2d_exact(a, b, c));
-    compare(truth, predicate_oracle_incircle(truth, p), mw__incircle(a, b, c, d), mw__incircle_exact(a, b, c, d));
+    compare(truth, predicate_oracle_incircle(truth, p), mw__incircle(a, b, c, d),
+            mw__incircle_exact(a, b, c, d));
     compare(truth, predicate_oracle_orient3d(truth, p), mw__orient3d(p, p + 3, p + 6, p + 9),
             mw__orient3d_exact(p, p + 3, p + 6, p + 9));
     mw_line line = line_at(p);
-    compare(truth, line_oracle_side(truth, p), mw__side(&line, p + 6, p + 9), mw__side_exact(&line, p + 6, p + 9));
+    compare(truth, line_oracle_side(truth, p), mw__side(&line, p + 6, p + 9),
+            mw__side_exact(&line, p + 6, p + 9));
     require(mw__compare_distance(a, b, c, d, e) == predicate_oracle_compare_distance(truth, p));
-    require(mw__compare_distance_to(a, b, c, p[6]) == predicate_oracle_compare_distance_to(truth, p));
+    require(mw__compare_distance_to(a, b, c, p[6]) ==
+            predicate_oracle_compare_distance_to(truth, p));
 }
 
 /* With a coordinate that is not finite: 0 from what uses it, and an end in any case. */
 static void check_not_finite(const double p[COORDINATES])
 {
     mw_point a = at(p, 0), b = at(p, 1), c = at(p, 2), d = at(p, 3), e = at(p, 4);
-    bool plane = isfinite(a.x) && isfinite(a.y) && isfinite(b.x) && isfinite(b.y) && isfinite(c.x) && isfinite(c.y);
+    bool plane = isfinite(a.x) && isfinite(a.y) && isfinite(b.x) && isfinite(b.y) &&
+                 isfinite(c.x) && isfinite(c.y);
     double orientation = mw__orient2d(a, b, c), dot = mw__dot2d(a, b, c);
     require(plane || (orientation == 0 && dot == 0));
     mw_line line = line_at(p);
     bool space = true;
     for (int i = 0; i < 12; i++) space = space && isfinite(p[i]);
-    require(space || (mw__orient3d(p, p + 3, p + 6, p + 9) == 0 && mw__side(&line, p + 6, p + 9) == 0));
+    require(space ||
+            (mw__orient3d(p, p + 3, p + 6, p + 9) == 0 && mw__side(&line, p + 6, p + 9) == 0));
     require((plane && isfinite(d.x) && isfinite(d.y)) || mw__incircle(a, b, c, d) == 0);
     require(abs(mw__compare_distance(a, b, c, d, e)) <= 1);
     require(abs(mw__compare_distance_to(a, b, c, p[6])) <= 1);

@@ -1,5 +1,6 @@
-/* fuzz_probe.c - lines against a few triangles anywhere, on small integers: certain probes, as they were made and after
- * the surface has moved, against every triangle in turn; and what the walks tell of is touched. */
+/* fuzz_probe.c - lines against a few triangles anywhere, on small integers: certain probes, as
+ * they were made and after the surface has moved, against every triangle in turn; and what the
+ * walks tell of is touched. */
 #include <meshwalk/meshwalk.h>
 #include <stdlib.h>
 #include <string.h>
@@ -41,11 +42,13 @@ typedef struct place {
 
 static int64_t determinant(const int64_t a[3], const int64_t b[3], const int64_t c[3])
 {
-    return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
+    return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
+           a[2] * (b[0] * c[1] - b[1] * c[0]);
 }
 
 /* Does the line through q along m touch triangle t, and where? */
-static int touches(const triangles *s, uint32_t t, const int64_t q[3], const int64_t m[3], place *at)
+static int touches(const triangles *s, uint32_t t, const int64_t q[3], const int64_t m[3],
+                   place *at)
 {
     int64_t v[3][3], e[3], f[3], facing = 0;
     for (int k = 0; k < 3; k++)
@@ -71,7 +74,8 @@ static int compare(place a, place b)
     return (left > right) - (left < right);
 }
 
-static void check_probe(const triangles *s, const mw_prober *prober, mw_probe_cursor cursor[2], input *in)
+static void check_probe(const triangles *s, const mw_prober *prober, mw_probe_cursor cursor[2],
+                        input *in)
 {
     int64_t q[3], m[3];
     double point[3], motion[3];
@@ -87,8 +91,11 @@ static void check_probe(const triangles *s, const mw_prober *prober, mw_probe_cu
             best = t;
             nearest = at;
         }
-    mw_touch certain = mw_probe(prober, &cursor[0], point, motion), found = mw_probe(prober, &cursor[1], point, motion);
-    if (certain.triangle != best || certain.state != (best == MW_NONE ? MW_TOUCH_NONE : MW_TOUCH_HIT)) abort();
+    mw_touch certain = mw_probe(prober, &cursor[0], point, motion),
+             found = mw_probe(prober, &cursor[1], point, motion);
+    if (certain.triangle != best ||
+        certain.state != (best == MW_NONE ? MW_TOUCH_NONE : MW_TOUCH_HIT))
+        abort();
     if (found.state == MW_TOUCH_HIT && !touches(s, found.triangle, q, m, &at)) abort();
     if (found.state != MW_TOUCH_HIT && found.state != MW_TOUCH_LIMIT) abort();
 }
@@ -124,7 +131,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     s.count = 1 + (uint32_t)next(&in) % MOST_TRIANGLES;
     for (uint32_t i = 0; i < 3 * s.points; i++) s.point[i] = (double)coordinate(&in);
     for (uint32_t i = 0; i < 3 * s.count; i++) s.vertex[i] = (uint32_t)next(&in) % s.points;
-    mw_arrays arrays = {.points = s.point, .point_count = s.points, .triangles = s.vertex, .triangle_count = s.count};
+    mw_arrays arrays = {.points = s.point,
+                        .point_count = s.points,
+                        .triangles = s.vertex,
+                        .triangle_count = s.count};
     mw_prober_options boxes = {.boxes = 1};
     mw_surface *surface;
     mw_prober *prober;

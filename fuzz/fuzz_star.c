@@ -1,5 +1,6 @@
-/* fuzz_star.c - an octahedron that is cut, folded and moved about, as a star-shaped polyhedron: whatever is accepted
- * answers each ray with the lowest facet that meets it, by exact predicates over all facets; and the check agrees. */
+/* fuzz_star.c - an octahedron that is cut, folded and moved about, as a star-shaped polyhedron:
+ * whatever is accepted answers each ray with the lowest facet that meets it, by exact predicates
+ * over all facets; and the check agrees. */
 #include <math.h>
 #include <meshwalk/meshwalk.h>
 #include <stdlib.h>
@@ -46,7 +47,8 @@ static void cut_facet(polyhedron *p, uint32_t t, const double x[3])
     add_facet(p, c, a, v);
 }
 
-/* A facet a b v beside the edge ab of facet t, which keeps its edge; the facet across gets av and vb in its place. */
+/* A facet a b v beside the edge ab of facet t, which keeps its edge; the facet across gets av and
+ * vb in its place. */
 static void cut_edge(polyhedron *p, uint32_t t, uint32_t k, const double x[3])
 {
     uint32_t a = p->facet[3 * t + k], b = p->facet[3 * t + (k + 1) % 3];
@@ -65,8 +67,10 @@ static void cut_edge(polyhedron *p, uint32_t t, uint32_t k, const double x[3])
 
 static void make(polyhedron *p, input *in)
 {
-    static const double octahedron[18] = {64, 0, 0, -64, 0, 0, 0, 64, 0, 0, -64, 0, 0, 0, 64, 0, 0, -64};
-    static const uint32_t facets[24] = {0, 2, 4, 2, 1, 4, 1, 3, 4, 3, 0, 4, 2, 0, 5, 1, 2, 5, 3, 1, 5, 0, 3, 5};
+    static const double octahedron[18] = {64, 0,   0, -64, 0, 0,  0, 64, 0,
+                                          0,  -64, 0, 0,   0, 64, 0, 0,  -64};
+    static const uint32_t facets[24] = {0, 2, 4, 2, 1, 4, 1, 3, 4, 3, 0, 4,
+                                        2, 0, 5, 1, 2, 5, 3, 1, 5, 0, 3, 5};
     memcpy(p->point, octahedron, sizeof octahedron);
     memcpy(p->facet, facets, sizeof facets);
     p->points = 6;
@@ -76,7 +80,8 @@ static void make(polyhedron *p, input *in)
         const uint32_t *f = p->facet + 3 * (size_t)t;
         double x[3];
         for (int i = 0; i < 3; i++) {
-            const double *a = p->point + 3 * (size_t)f[k] + i, *b = p->point + 3 * (size_t)f[(k + 1) % 3] + i;
+            const double *a = p->point + 3 * (size_t)f[k] + i,
+                         *b = p->point + 3 * (size_t)f[(k + 1) % 3] + i;
             const double *c = p->point + 3 * (size_t)f[(k + 2) % 3] + i;
             double along[4] = {(*a + *b) / 2, *a, 2 * *b - *a,
                                (*a + *b + 2 * *c) / 4}; /* middle, end, beyond, inside */
@@ -117,9 +122,9 @@ static void check_rays(const polyhedron *p, const mw_star *star, input *in)
         double q[3];
         uint32_t t = next(in) % p->facets, how = next(in), lowest = 0;
         for (uint32_t k = 0; k < 3; k++)
-            q[k] = how % 2
-                       ? corner(p, t, 0)[k] + (how / 2 % 3) * corner(p, t, 1)[k] + (how / 8 % 2) * corner(p, t, 2)[k]
-                       : (double)(int8_t)(how * (k + 1) + t);
+            q[k] = how % 2 ? corner(p, t, 0)[k] + (how / 2 % 3) * corner(p, t, 1)[k] +
+                                 (how / 8 % 2) * corner(p, t, 2)[k]
+                           : (double)(int8_t)(how * (k + 1) + t);
         if (q[0] == 0 && q[1] == 0 && q[2] == 0) continue;
         while (lowest < p->facets && !meets(p, lowest, q)) lowest++;
         for (int walk = 0; walk < MW_STAR_WALK_COUNT; walk++) {
@@ -140,7 +145,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     input in = {data, size};
     int weld = (int)(next(&in) % 2);
     make(&p, &in);
-    mw_arrays arrays = {.points = p.point, .point_count = p.points, .triangles = p.facet, .triangle_count = p.facets};
+    mw_arrays arrays = {.points = p.point,
+                        .point_count = p.points,
+                        .triangles = p.facet,
+                        .triangle_count = p.facets};
     mw_surface_options how = {.weld = weld};
     mw_star_options angles = {.angles = 1};
     mw_surface *surface = NULL;

@@ -1,5 +1,5 @@
-/* reader.h - what the fuzz targets of the readers share: a reader that takes the input must give a sound mesh or sound
- * points, one that refuses must leave nothing and say why. */
+/* reader.h - what the fuzz targets of the readers share: a reader that takes the input must give a
+ * sound mesh or sound points, one that refuses must leave nothing and say why. */
 #ifndef MW_FUZZ_READER_H
 #define MW_FUZZ_READER_H
 
@@ -26,7 +26,8 @@ static inline void require_error(mw_status status, const mw_error *error, const 
 {
     require(status == MW_ERROR_INPUT || status == MW_ERROR_LIMIT);
     require(error->status == status);
-    require(strlen(error->message) > strlen(name) && strlen(error->message) < sizeof error->message);
+    require(strlen(error->message) > strlen(name) &&
+            strlen(error->message) < sizeof error->message);
     require(strncmp(error->message, name, strlen(name)) == 0);
     for (const char *p = error->message; *p; p++) require((unsigned char)*p >= 0x20);
 }
@@ -35,23 +36,28 @@ static inline void require_error(mw_status status, const mw_error *error, const 
 static inline void require_values(const double *values, size_t n)
 {
     size_t numbers = 0;
-    for (size_t i = 0; i < n; i++) numbers += values[i] <= 0 || values[i] > 0 || values[i] != values[i];
+    for (size_t i = 0; i < n; i++)
+        numbers += values[i] <= 0 || values[i] > 0 || values[i] != values[i];
     require(numbers == n);
 }
 
 /* The mesh names only vertices that exist, and holds no more than the input can have announced. */
 static inline void require_mesh(const mw_mesh_file *file, size_t size)
 {
-    require(file->point_count <= size && file->triangle_count <= size + 1 && file->field_count <= MW_COLUMN_LIMIT);
-    for (size_t i = 0; i < 3 * file->triangle_count; i++) require(file->triangles[i] < file->point_count);
+    require(file->point_count <= size && file->triangle_count <= size + 1 &&
+            file->field_count <= MW_COLUMN_LIMIT);
+    for (size_t i = 0; i < 3 * file->triangle_count; i++)
+        require(file->triangles[i] < file->point_count);
     require_values(file->points, 3 * file->point_count);
-    for (size_t f = 0; f < file->field_count; f++) require_values(file->fields[f], file->point_count);
+    for (size_t f = 0; f < file->field_count; f++)
+        require_values(file->fields[f], file->point_count);
 }
 
 typedef mw_status mesh_reader(mw_source *source, mw_mesh_builder *builder, mw_error *error);
 
 /* Run one reader on the input. */
-static inline void fuzz_mesh_reader(mesh_reader *read, const char *name, const uint8_t *data, size_t size)
+static inline void fuzz_mesh_reader(mesh_reader *read, const char *name, const uint8_t *data,
+                                    size_t size)
 {
     mw_error error = {0};
     mw_source source;
@@ -69,26 +75,32 @@ static inline void fuzz_mesh_reader(mesh_reader *read, const char *name, const u
     mw__source_close(&source);
 }
 
-/* Segments name points that exist and polygons below their number; nothing is there that the input does not hold. */
+/* Segments name points that exist and polygons below their number; nothing is there that the input
+ * does not hold. */
 static inline void require_constraints(const mw_constraint_file *file, size_t size)
 {
-    require(file->point_count <= size && file->segment_count <= size && file->polygon_count <= size);
-    require(file->hole_seed_count <= size && file->field_count <= MW_COLUMN_LIMIT && file->record_name != NULL);
+    require(file->point_count <= size && file->segment_count <= size &&
+            file->polygon_count <= size);
+    require(file->hole_seed_count <= size && file->field_count <= MW_COLUMN_LIMIT &&
+            file->record_name != NULL);
     for (size_t i = 0; i < file->segment_count; i++) {
-        require(file->segments[2 * i] < file->point_count && file->segments[2 * i + 1] < file->point_count);
+        require(file->segments[2 * i] < file->point_count &&
+                file->segments[2 * i + 1] < file->point_count);
         require(file->polygon[i] < file->polygon_count || file->polygon[i] == MW_NONE);
         require(file->record[i] <= size);
     }
     require_values(file->points, 3 * file->point_count);
     require_values(file->hole_seeds, 2 * file->hole_seed_count);
-    for (size_t f = 0; f < file->field_count; f++) require_values(file->fields[f], file->point_count);
+    for (size_t f = 0; f < file->field_count; f++)
+        require_values(file->fields[f], file->point_count);
 }
 
-typedef mw_status constraint_reader(mw_source *source, mw_constraint_builder *builder, mw_error *error);
+typedef mw_status constraint_reader(mw_source *source, mw_constraint_builder *builder,
+                                    mw_error *error);
 
 /* Run one reader of constraints on the input; its messages begin with `shown`. */
-static inline void fuzz_constraints(constraint_reader *read, const char *name, const char *shown, const uint8_t *data,
-                                    size_t size)
+static inline void fuzz_constraints(constraint_reader *read, const char *name, const char *shown,
+                                    const uint8_t *data, size_t size)
 {
     mw_error error = {0};
     mw_source source;
@@ -118,8 +130,8 @@ static inline mw_status fuzz_table(mw_point_reader *reader, mw_error *error)
 }
 
 /* Run the reader of points that the contents choose. */
-static inline void fuzz_points(const char *name, const mw_point_reader_options *options, const uint8_t *data,
-                               size_t size)
+static inline void fuzz_points(const char *name, const mw_point_reader_options *options,
+                               const uint8_t *data, size_t size)
 {
     enum { BLOCK = 7 };
     mw_error error = {0};

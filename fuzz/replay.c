@@ -1,4 +1,5 @@
-/* replay.c - the main of a fuzz target without libFuzzer: the files it is given, then a fixed sequence of random inputs. */
+/* replay.c - the main of a fuzz target without libFuzzer: the files it is given, then a fixed
+ * sequence of random inputs. */
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>

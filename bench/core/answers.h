@@ -12,6 +12,7 @@ typedef struct locations_pair {
 
 /* Complains where the two found different triangles for n queries: x0 y0 x1 y1 ...; `data` names
  * the set of points. Returns 0 or an exit code. */
-int locations_compare(const char *data, const double *queries, size_t n, const locations_pair *pair);
+int locations_compare(const char *data, const double *queries, size_t n,
+                      const locations_pair *pair);
 
 #endif

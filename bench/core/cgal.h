@@ -23,9 +23,9 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_2;
 using Delaunay = CGAL::Delaunay_triangulation_2<Kernel>;
 using DelaunayHierarchy = CGAL::Triangulation_hierarchy_2<CGAL::Delaunay_triangulation_2<
-    Kernel, CGAL::Triangulation_data_structure_2<
-                CGAL::Triangulation_hierarchy_vertex_base_2<CGAL::Triangulation_vertex_base_2<Kernel>>,
-                CGAL::Triangulation_face_base_2<Kernel>>>>;
+    Kernel, CGAL::Triangulation_data_structure_2<CGAL::Triangulation_hierarchy_vertex_base_2<
+                                                     CGAL::Triangulation_vertex_base_2<Kernel>>,
+                                                 CGAL::Triangulation_face_base_2<Kernel>>>>;
 
 inline const char *cgal_version()
 {

@@ -20,7 +20,8 @@ static int query_rounds_run_share(void *self, size_t entry, size_t round, double
     return q->run(q->self, entry, begin, q->share, microseconds);
 }
 
-int query_rounds_measure(size_t entries, size_t share, query_rounds_run *run, void *self, double *medians)
+int query_rounds_measure(size_t entries, size_t share, query_rounds_run *run, void *self,
+                         double *medians)
 {
     rounds_results results;
     rounds_plan plan = {.entries = entries, .figures = 1, .warmups = 1, .rounds = TIMED_ROUNDS};

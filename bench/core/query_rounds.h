@@ -15,11 +15,13 @@ size_t query_rounds_share(uint64_t queries);
 
 /* Answer the queries from `begin` on, `count` of them, one after the other, as competitor `entry`
  * does; set the microseconds that each took. Returns 0 or an exit code. */
-typedef int query_rounds_run(void *self, size_t entry, size_t begin, size_t count, double *microseconds);
+typedef int query_rounds_run(void *self, size_t entry, size_t begin, size_t count,
+                             double *microseconds);
 
 /* Set the median of each entry over TIMED_ROUNDS rounds, which share the queries from 0 to
  * TIMED_ROUNDS * share - 1. One round before them, with the first share, is a warm-up. Returns 0 or
  * an exit code. */
-int query_rounds_measure(size_t entries, size_t share, query_rounds_run *run, void *self, double *medians);
+int query_rounds_measure(size_t entries, size_t share, query_rounds_run *run, void *self,
+                         double *medians);
 
 #endif

@@ -39,7 +39,8 @@ static int rounds_run_all(rounds_results *r, rounds_run *run, void *self, double
     for (size_t turn = 0; turn < p->warmups + p->rounds; turn++)
         for (size_t k = 0; k < p->entries; k++) {
             bool counts = turn >= p->warmups;
-            size_t entry = rounds_entry(p, turn, k), round = counts ? turn - p->warmups : ROUNDS_WARMUP;
+            size_t entry = rounds_entry(p, turn, k),
+                   round = counts ? turn - p->warmups : ROUNDS_WARMUP;
             int end = run(self, entry, round, figures);
             if (end) return end;
             if (counts) rounds_keep(r, entry, round, figures);

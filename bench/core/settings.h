@@ -10,9 +10,10 @@ enum { FORMAT_TABLE, FORMAT_TSV, FORMAT_JSON };
 typedef struct bench_settings {
     common_settings common;
     const char *sizes, *data, *plot, *engines, *tasks; /* lists and a file; NULL: not given */
-    const char *walk;                                  /* of paper E1: a walk, or "all"; NULL: the printed one */
-    uint32_t queries, rounds;                          /* 0: the default of the measurement */
-    uint32_t seeds;                                    /* of paper: so many runs; 0: one    */
+    /* of paper E1: a walk, or "all"; NULL: the printed one */
+    const char *walk;
+    uint32_t queries, rounds; /* 0: the default of the measurement */
+    uint32_t seeds;           /* of paper: so many runs; 0: one    */
     int enclose, format;
     bool no_times;
 } bench_settings;

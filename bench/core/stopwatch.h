@@ -12,7 +12,10 @@ class Stopwatch
     std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now();
 
   public:
-    double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(); }
+    double seconds() const
+    {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    }
 };
 
 } // namespace bench

@@ -31,9 +31,11 @@ typedef struct name_set {
 static int name_set_refuse(const name_set *n, const char *word)
 {
     text all = {0};
-    for (int i = 0; n->names->name(i); i++) text_printf(&all, "%s%s", i ? ", " : "", n->names->name(i));
+    for (int i = 0; n->names->name(i); i++)
+        text_printf(&all, "%s%s", i ? ", " : "", n->names->name(i));
     text_bytes(&all, "", 1);
-    complain("unknown %s '%s'; there are %s", n->names->noun, word, all.failed ? "others" : all.bytes);
+    complain("unknown %s '%s'; there are %s", n->names->noun, word,
+             all.failed ? "others" : all.bytes);
     text_release(&all);
     return END_USAGE;
 }
@@ -70,8 +72,8 @@ static int size_list_take(const char *word, void *self)
     double size = strtod(word, &rest);
     bool plain = *word && strspn(word, "0123456789e") == strlen(word) && !*rest;
     if (!plain || !(size >= LEAST_SIZE && size <= MOST_SIZE) || size != floor(size)) {
-        complain("option '--sizes' wants numbers from %d to %d separated by commas, not '%s'", LEAST_SIZE, MOST_SIZE,
-                 word);
+        complain("option '--sizes' wants numbers from %d to %d separated by commas, not '%s'",
+                 LEAST_SIZE, MOST_SIZE, word);
         return END_USAGE;
     }
     if (list->count == MOST_SIZES) {

@@ -10,10 +10,12 @@
 const char *dataset_name(int kind)
 {
     static const char *const names[DATASET_KINDS] = {
-        [DATASET_UNIFORM] = "uniform",   [DATASET_GRID] = "grid",       [DATASET_GAUSSIAN] = "gaussian",
-        [DATASET_CLUSTERS] = "clusters", [DATASET_ARCS] = "arcs",       [DATASET_RECTANGLE] = "rectangle",
-        [DATASET_RINGS] = "rings",       [DATASET_SLIVERS] = "slivers", [DATASET_OFFSET] = "offset",
-        [DATASET_CADASTRE] = "cadastre", [DATASET_LIDAR] = "lidar",
+        [DATASET_UNIFORM] = "uniform",   [DATASET_GRID] = "grid",
+        [DATASET_GAUSSIAN] = "gaussian", [DATASET_CLUSTERS] = "clusters",
+        [DATASET_ARCS] = "arcs",         [DATASET_RECTANGLE] = "rectangle",
+        [DATASET_RINGS] = "rings",       [DATASET_SLIVERS] = "slivers",
+        [DATASET_OFFSET] = "offset",     [DATASET_CADASTRE] = "cadastre",
+        [DATASET_LIDAR] = "lidar",
     };
     return kind >= 0 && kind < DATASET_KINDS ? names[kind] : NULL;
 }
@@ -164,7 +166,9 @@ static void dataset_fill(dataset *d, dataset_kind kind, size_t n, uint64_t *rand
 bool dataset_make(dataset *d, dataset_kind kind, size_t n, bool enclose, uint64_t seed)
 {
     uint64_t random = seed;
-    *d = (dataset){.points = n <= SIZE_MAX / (2 * sizeof(double)) ? malloc(2 * n * sizeof(double)) : NULL, .count = n};
+    *d = (dataset){.points =
+                       n <= SIZE_MAX / (2 * sizeof(double)) ? malloc(2 * n * sizeof(double)) : NULL,
+                   .count = n};
     if (!d->points) {
         d->count = 0;
         return false;
@@ -203,5 +207,6 @@ void dataset_enclose(dataset *d)
 {
     for (size_t i = 0; i < 4; i++)
         for (size_t k = 0; k < 2; k++)
-            d->points[2 * (d->count - 4 + i) + k] = d->origin[k] + (i & 1 ? d->u[k] : 0) + (i & 2 ? d->v[k] : 0);
+            d->points[2 * (d->count - 4 + i) + k] =
+                d->origin[k] + (i & 1 ? d->u[k] : 0) + (i & 2 ? d->v[k] : 0);
 }

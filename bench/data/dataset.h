@@ -13,17 +13,22 @@ extern "C" {
 #endif
 
 typedef enum dataset_kind {
-    DATASET_UNIFORM,   /* uniform in the unit square */
-    DATASET_GRID,      /* the integers of a square, row by row: every cell's four corners on a circle */
-    DATASET_GAUSSIAN,  /* normal in x and y, about the origin, deviation 1 */
-    DATASET_CLUSTERS,  /* in the unit square, 100 normal clusters of deviation 0.01 at random places */
-    DATASET_ARCS,      /* in the unit square, on 30 random arcs of circles, off them by a normal 0.001 */
+    DATASET_UNIFORM, /* uniform in the unit square */
+    /* the integers of a square, row by row: every cell's four corners on a circle */
+    DATASET_GRID,
+    DATASET_GAUSSIAN, /* normal in x and y, about the origin, deviation 1 */
+    /* in the unit square, 100 normal clusters of deviation 0.01 at random places */
+    DATASET_CLUSTERS,
+    /* in the unit square, on 30 random arcs of circles, off them by a normal 0.001 */
+    DATASET_ARCS,
     DATASET_RECTANGLE, /* uniform in a rectangle 2 by 1, turned by pi/6 */
     DATASET_RINGS,     /* on circles round one centre, as many on each: cocircular up to rounding */
-    DATASET_SLIVERS,   /* ten rows, each 1e-9 wide, turned by pi/6: needles between the rows, caps within them */
-    DATASET_OFFSET,    /* ten kilometres of a country in metres, 5e6 from 0: doubles are 2^-30 apart */
-    DATASET_CADASTRE,  /* borders of building sites in a city: stand_ins.h */
-    DATASET_LIDAR,     /* flight strips of a laser scan: stand_ins.h */
+    /* ten rows, each 1e-9 wide, turned by pi/6: needles between the rows, caps within them */
+    DATASET_SLIVERS,
+    /* ten kilometres of a country in metres, 5e6 from 0: doubles are 2^-30 apart */
+    DATASET_OFFSET,
+    DATASET_CADASTRE, /* borders of building sites in a city: stand_ins.h */
+    DATASET_LIDAR,    /* flight strips of a laser scan: stand_ins.h */
     DATASET_KINDS
 } dataset_kind;
 
@@ -42,8 +47,8 @@ typedef struct dataset {
 
 /* Make n points, the same for the same seed. With `enclose` the last four of them are the corners
  * of the domain (n is at least 5). The domain is the square, or the turned rectangle; of a grid the
- * square of its cells; of normal points, slivers, cadastre and lidar their extent. Returns false when memory runs
- * out; the set is then empty. */
+ * square of its cells; of normal points, slivers, cadastre and lidar their extent. Returns false
+ * when memory runs out; the set is then empty. */
 bool dataset_make(dataset *d, dataset_kind kind, size_t n, bool enclose, uint64_t seed);
 void dataset_release(dataset *d);
 

@@ -18,7 +18,8 @@ static bool dataset_grow(dataset *d, size_t count)
  * tells. */
 static bool is_no_mesh(const mw_error *error)
 {
-    return error->status == MW_ERROR_INPUT && strstr(error->message, ": this is no mesh in a format known here");
+    return error->status == MW_ERROR_INPUT &&
+           strstr(error->message, ": this is no mesh in a format known here");
 }
 
 /* A mesh; *none is set if the file is not one. Returns 0 or an exit code. */
@@ -52,8 +53,10 @@ static int dataset_read_blocks(dataset *d, mw_point_reader *reader, double *valu
     mw_error error;
     size_t width = mw_point_reader_width(reader), room = d->count;
     for (size_t count = 1; count > 0;) {
-        if (mw_point_reader_read(reader, values, BLOCK, &count, &error) != MW_OK) return fail_reading(&error);
-        if (d->count + count > room && !dataset_grow(d, room = 2 * (d->count + count))) return fail_memory();
+        if (mw_point_reader_read(reader, values, BLOCK, &count, &error) != MW_OK)
+            return fail_reading(&error);
+        if (d->count + count > room && !dataset_grow(d, room = 2 * (d->count + count)))
+            return fail_memory();
         for (size_t i = 0; i < count; i++, d->count++)
             for (size_t k = 0; k < 2; k++) d->points[2 * d->count + k] = values[i * width + k];
         progress_points(d->count, mw_point_reader_fraction(reader));

@@ -8,8 +8,8 @@
 extern "C" {
 #endif
 
-/* 64 random bits, or a number from 0 to below 1; *random is the seed first, and goes on from call to
- * call. */
+/* 64 random bits, or a number from 0 to below 1; *random is the seed first, and goes on from call
+ * to call. */
 uint64_t dataset_bits(uint64_t *random);
 double dataset_unit(uint64_t *random);
 

@@ -58,15 +58,17 @@ static uint64_t star_draw_seed(uint64_t *random)
 }
 
 /* The same noise for the same seed. */
-static void star_shape(star_polygon *s, const star_waves *w, double height, double arms, uint64_t seed)
+static void star_shape(star_polygon *s, const star_waves *w, double height, double arms,
+                       uint64_t seed)
 {
     double step = 2 * PI / (double)s->count;
     s->reach = 0;
     for (size_t k = 0; k < s->count; k++) {
         double angle = step * (double)k, sum = 0;
-        for (size_t i = 0; i < WAVES; i++) sum += w->size[i] * cos((double)(i + 2) * angle + w->phase[i]);
-        double radius =
-            exp(height * sum) * (1 + arms * star_arm(w, angle)) * (1 + fmin(step, 0.2) * (dataset_unit(&seed) - 0.5));
+        for (size_t i = 0; i < WAVES; i++)
+            sum += w->size[i] * cos((double)(i + 2) * angle + w->phase[i]);
+        double radius = exp(height * sum) * (1 + arms * star_arm(w, angle)) *
+                        (1 + fmin(step, 0.2) * (dataset_unit(&seed) - 0.5));
         s->corner[2 * k] = s->centre[0] + radius * cos(angle);
         s->corner[2 * k + 1] = s->centre[1] + radius * sin(angle);
         s->reach = fmax(s->reach, radius);
@@ -104,7 +106,8 @@ static double corner_turn(const double a[2], const double b[2], const double c[2
 static double polygon_area(const double *corner, size_t count)
 {
     double sum = 0;
-    for (size_t k = 1; k + 1 < count; k++) sum += corner_turn(corner, corner + 2 * k, corner + 2 * (k + 1)) / 2;
+    for (size_t k = 1; k + 1 < count; k++)
+        sum += corner_turn(corner, corner + 2 * k, corner + 2 * (k + 1)) / 2;
     return sum;
 }
 
@@ -114,11 +117,13 @@ static double star_hull_area(const star_polygon *s, double *hull)
 {
     size_t first = 0, count = 0;
     for (size_t k = 0; k < s->count; k++)
-        if (hypot(s->corner[2 * k], s->corner[2 * k + 1]) > hypot(s->corner[2 * first], s->corner[2 * first + 1]))
+        if (hypot(s->corner[2 * k], s->corner[2 * k + 1]) >
+            hypot(s->corner[2 * first], s->corner[2 * first + 1]))
             first = k;
     for (size_t k = 0; k <= s->count; k++) {
         const double *next = s->corner + 2 * ((first + k) % s->count);
-        while (count > 1 && corner_turn(hull + 2 * (count - 2), hull + 2 * (count - 1), next) <= 0) count--;
+        while (count > 1 && corner_turn(hull + 2 * (count - 2), hull + 2 * (count - 1), next) <= 0)
+            count--;
         memcpy(hull + 2 * count++, next, 2 * sizeof *next);
     }
     return polygon_area(hull, count);
@@ -140,7 +145,9 @@ static double star_shape_outline(star_polygon *s, double share, double *hull, ui
         for (int i = 0; i <= LENGTHS; i++) {
             star_shape(s, &w, WAVE_HEIGHT, LONGEST_ARMS * i / LENGTHS, noise);
             double area = star_hull_area(s, hull);
-            if (polygon_area(s->corner, s->count) <= share * area || (drawn == MOST_WAVES && i == LENGTHS)) return area;
+            if (polygon_area(s->corner, s->count) <= share * area ||
+                (drawn == MOST_WAVES && i == LENGTHS))
+                return area;
         }
     }
 }
@@ -171,9 +178,12 @@ static bool domain_is_free(const holed_domain *d, size_t i, const double p[2])
     double room = 1.2 * d->star[i].reach;
     if (!star_contains(outline, p)) return false;
     for (size_t k = 1; k < i; k++)
-        if (hypot(p[0] - d->star[k].centre[0], p[1] - d->star[k].centre[1]) < room + d->star[k].reach) return false;
+        if (hypot(p[0] - d->star[k].centre[0], p[1] - d->star[k].centre[1]) <
+            room + d->star[k].reach)
+            return false;
     for (size_t k = 0; k < outline->count; k++)
-        if (distance_to_segment(p, outline->corner + 2 * k, outline->corner + 2 * ((k + 1) % outline->count)) < room)
+        if (distance_to_segment(p, outline->corner + 2 * k,
+                                outline->corner + 2 * ((k + 1) % outline->count)) < room)
             return false;
     return true;
 }
@@ -223,11 +233,13 @@ static point_density density_draw(uint64_t *random)
 static double density_at(const point_density *d, const double p[2])
 {
     double sum = 0;
-    for (size_t i = 0; i < DENSITY_WAVES; i++) sum += cos(d->wave[i][0] * p[0] + d->wave[i][1] * p[1] + d->phase[i]);
+    for (size_t i = 0; i < DENSITY_WAVES; i++)
+        sum += cos(d->wave[i][0] * p[0] + d->wave[i][1] * p[1] + d->phase[i]);
     return exp(DENSITY_DEVIATION * fmin(0, sum / sqrt(DENSITY_WAVES / 2.0) - DENSITY_MOST));
 }
 
-static void domain_draw_point(const holed_domain *d, const point_density *density, double p[2], uint64_t *random)
+static void domain_draw_point(const holed_domain *d, const point_density *density, double p[2],
+                              uint64_t *random)
 {
     bool inside;
     do {
@@ -247,13 +259,15 @@ static void domain_fill(holed_domain *d, const domain_shape *shape, double *hull
 {
     double holes = shape->holes ? SHARE_OF_HOLES : 0;
     double area = star_shape_outline(&d->star[0], shape->share + holes, hull, random);
-    for (size_t i = 1; i < d->stars; i++) domain_place_hole(d, i, holes * area / (double)shape->holes, random);
+    for (size_t i = 1; i < d->stars; i++)
+        domain_place_hole(d, i, holes * area / (double)shape->holes, random);
     point_density density = density_draw(random);
-    for (size_t i = d->corners; i < d->count; i++) domain_draw_point(d, &density, d->points + 2 * i, random);
+    for (size_t i = d->corners; i < d->count; i++)
+        domain_draw_point(d, &density, d->points + 2 * i, random);
 }
 
-static mw_status domain_triangulate(const holed_domain *d, uint32_t *segments, uint32_t *polygon, mw_mesh **out,
-                                    mw_error *error)
+static mw_status domain_triangulate(const holed_domain *d, uint32_t *segments, uint32_t *polygon,
+                                    mw_mesh **out, mw_error *error)
 {
     uint32_t first = 0;
     for (size_t i = 0; i < d->stars; i++) {
@@ -279,7 +293,8 @@ static mw_status domain_triangulate(const holed_domain *d, uint32_t *segments, u
 static void domain_share_corners(holed_domain *d, const domain_shape *shape)
 {
     size_t each = 0, first = 0;
-    if (shape->holes) each = (size_t)((1 - EDGES_OF_OUTLINE) * (double)shape->border_edges) / shape->holes;
+    if (shape->holes)
+        each = (size_t)((1 - EDGES_OF_OUTLINE) * (double)shape->border_edges) / shape->holes;
     if (each < 3) each = 3;
     for (size_t i = 0; i < d->stars; i++) {
         size_t count = i ? each : d->corners - shape->holes * each;
@@ -290,7 +305,8 @@ static void domain_share_corners(holed_domain *d, const domain_shape *shape)
 
 mw_status domain_make(const domain_shape *shape, uint64_t seed, mw_mesh **out, mw_error *error)
 {
-    holed_domain d = {.stars = shape->holes + 1, .corners = shape->border_edges, .count = shape->vertices};
+    holed_domain d = {
+        .stars = shape->holes + 1, .corners = shape->border_edges, .count = shape->vertices};
     uint64_t random = seed + shape->vertices;
     d.star = calloc(d.stars, sizeof *d.star);
     d.points = calloc(d.count, 2 * sizeof *d.points);

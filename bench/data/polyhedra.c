@@ -21,7 +21,8 @@ const char *polyhedron_name(int kind)
 
 void polyhedron_direction(double direction[3], uint64_t *random)
 {
-    double z = 2 * dataset_unit(random) - 1, angle = 2 * PI * dataset_unit(random), r = sqrt(1 - z * z);
+    double z = 2 * dataset_unit(random) - 1, angle = 2 * PI * dataset_unit(random),
+           r = sqrt(1 - z * z);
     direction[0] = r * cos(angle);
     direction[1] = r * sin(angle);
     direction[2] = z;
@@ -104,7 +105,8 @@ static uint32_t polyhedron_edge_middle(polyhedron *p, edge_middles *known, uint3
     while (known[low][i].other && known[low][i].other != high) i++;
     if (known[low][i].other == 0) {
         double *m = p->points + 3 * p->point_count;
-        for (size_t k = 0; k < 3; k++) m[k] = p->points[3 * (size_t)a + k] + p->points[3 * (size_t)b + k];
+        for (size_t k = 0; k < 3; k++)
+            m[k] = p->points[3 * (size_t)a + k] + p->points[3 * (size_t)b + k];
         vector_normalise(m);
         known[low][i].other = high;
         known[low][i].middle = (uint32_t)p->point_count++;
@@ -118,8 +120,10 @@ static void polyhedron_cut_in_four(polyhedron *p, edge_middles *known)
     for (size_t i = p->triangle_count; i-- > 0;) {
         uint32_t v[3], m[3];
         memcpy(v, p->triangles + 3 * i, sizeof v);
-        for (size_t k = 0; k < 3; k++) m[k] = polyhedron_edge_middle(p, known, v[k], v[(k + 1) % 3]);
-        const uint32_t parts[4][3] = {{v[0], m[0], m[2]}, {m[0], v[1], m[1]}, {m[2], m[1], v[2]}, {m[0], m[1], m[2]}};
+        for (size_t k = 0; k < 3; k++)
+            m[k] = polyhedron_edge_middle(p, known, v[k], v[(k + 1) % 3]);
+        const uint32_t parts[4][3] = {
+            {v[0], m[0], m[2]}, {m[0], v[1], m[1]}, {m[2], m[1], v[2]}, {m[0], m[1], m[2]}};
         memcpy(p->triangles + 12 * i, parts, sizeof parts);
     }
     p->triangle_count *= 4;
@@ -165,7 +169,8 @@ static void polyhedron_draw_points(polyhedron *p, const sphere_frame *f, uint64_
     for (size_t i = 1; i < 4; i++) {
         double angle = 2 * PI * (double)i / 3;
         for (size_t k = 0; k < 3; k++)
-            p->points[3 * i + k] = sqrt(8) / 3 * (cos(angle) * f->u[k] + sin(angle) * f->v[k]) - f->pole[k] / 3;
+            p->points[3 * i + k] =
+                sqrt(8) / 3 * (cos(angle) * f->u[k] + sin(angle) * f->v[k]) - f->pole[k] / 3;
     }
     for (size_t i = 4; i < p->point_count; i++) polyhedron_direction(p->points + 3 * i, random);
 }
@@ -221,7 +226,8 @@ static void scale_vector(double point[3], double factor)
 
 static void polyhedron_roughen(polyhedron *p, uint64_t *random)
 {
-    for (size_t i = 0; i < p->point_count; i++) scale_vector(p->points + 3 * i, 0.8 + 0.4 * dataset_unit(random));
+    for (size_t i = 0; i < p->point_count; i++)
+        scale_vector(p->points + 3 * i, 0.8 + 0.4 * dataset_unit(random));
 }
 
 #define WAVES 12
@@ -237,7 +243,8 @@ static void polyhedron_wave(polyhedron *p, uint64_t *random)
     }
     for (size_t i = 0; i < p->point_count; i++) {
         double sum = 0;
-        for (size_t w = 0; w < WAVES; w++) sum += cos(vector_dot3(way[w], p->points + 3 * i) + phase[w]);
+        for (size_t w = 0; w < WAVES; w++)
+            sum += cos(vector_dot3(way[w], p->points + 3 * i) + phase[w]);
         scale_vector(p->points + 3 * i, exp(0.15 * sum));
     }
 }
@@ -252,13 +259,14 @@ static void knot_point(double t, double s, double point[3])
 {
     double c = cos(3 * t), z = sin(3 * t), radius = 2 + c;
     double out[3] = {c * cos(2 * t), c * sin(2 * t), z}, side[3];
-    double along[3] = {-3 * z * cos(2 * t) - 2 * radius * sin(2 * t), -3 * z * sin(2 * t) + 2 * radius * cos(2 * t),
-                       3 * c};
+    double along[3] = {-3 * z * cos(2 * t) - 2 * radius * sin(2 * t),
+                       -3 * z * sin(2 * t) + 2 * radius * cos(2 * t), 3 * c};
     vector_normalise(along);
     vector_cross3(along, out, side);
     double girth = GIRTH * (1 + 0.2 * sin(20 * t) * cos(3 * s));
     const double centre[3] = {radius * cos(2 * t), radius * sin(2 * t), z};
-    for (size_t k = 0; k < 3; k++) point[k] = centre[k] + girth * (cos(s) * out[k] + sin(s) * side[k]);
+    for (size_t k = 0; k < 3; k++)
+        point[k] = centre[k] + girth * (cos(s) * out[k] + sin(s) * side[k]);
 }
 
 /* The knot is about eleven times as long as the tube is round. */
@@ -274,13 +282,15 @@ static bool polyhedron_make_knot(polyhedron *p, size_t n)
             uint32_t a = (uint32_t)vertex, b = (uint32_t)(i * round + (k + 1) % round);
             uint32_t c = (uint32_t)(next + (k + 1) % round), d = (uint32_t)(next + k);
             const uint32_t pair[6] = {a, b, c, a, c, d};
-            knot_point(2 * PI * (double)i / (double)length, 2 * PI * (double)k / (double)round, p->points + 3 * vertex);
+            knot_point(2 * PI * (double)i / (double)length, 2 * PI * (double)k / (double)round,
+                       p->points + 3 * vertex);
             memcpy(p->triangles + 6 * vertex, pair, sizeof pair);
         }
     return true;
 }
 
-mw_status polyhedron_make(polyhedron *p, polyhedron_kind kind, size_t n, uint64_t seed, mw_error *error)
+mw_status polyhedron_make(polyhedron *p, polyhedron_kind kind, size_t n, uint64_t seed,
+                          mw_error *error)
 {
     uint64_t random = seed + n;
     mw_status status = MW_ERROR_MEMORY;

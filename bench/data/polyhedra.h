@@ -9,12 +9,17 @@ extern "C" {
 #endif
 
 typedef enum polyhedron_kind {
-    POLYHEDRON_ICOSAHEDRON, /* each facet cut in four, again and again, and its vertices moved to the unit sphere:
-                               10 * 4^level + 2 of them */
-    POLYHEDRON_STAR,  /* the hull of points uniform on the unit sphere, each then moved in or out by a random factor
-                               from 0.8 to 1.2: star-shaped about the origin */
-    POLYHEDRON_BUMPS, /* the same hull, its points moved by a sum of waves: star-shaped, too, and smooth */
-    POLYHEDRON_KNOT, /* a tube round a trefoil knot, a grid of its length and girth; below 40 vertices it meets itself */
+    /* each facet cut in four, again and again, and its vertices moved to the unit sphere:
+     * 10 * 4^level + 2 of them */
+    POLYHEDRON_ICOSAHEDRON,
+    /* the hull of points uniform on the unit sphere, each then moved in or out by a random factor
+     * from 0.8 to 1.2: star-shaped about the origin */
+    POLYHEDRON_STAR,
+    /* the same hull, its points moved by a sum of waves: star-shaped, too, and smooth */
+    POLYHEDRON_BUMPS,
+    /* a tube round a trefoil knot, a grid of its length and girth; below 40 vertices it meets
+     * itself */
+    POLYHEDRON_KNOT,
     POLYHEDRON_KINDS
 } polyhedron_kind;
 
@@ -32,7 +37,8 @@ typedef struct polyhedron {
 /* Make one of n vertices, at least 10; the same for the same seed. An icosahedron has the level
  * that comes nearest to n from below, a knot about n. MW_ERROR_MEMORY, or what the triangulation
  * says; then it is empty. */
-mw_status polyhedron_make(polyhedron *p, polyhedron_kind kind, size_t n, uint64_t seed, mw_error *error);
+mw_status polyhedron_make(polyhedron *p, polyhedron_kind kind, size_t n, uint64_t seed,
+                          mw_error *error);
 void polyhedron_release(polyhedron *p);
 
 mw_arrays polyhedron_arrays(const polyhedron *p);

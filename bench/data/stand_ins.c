@@ -69,7 +69,8 @@ static void city_make_site(city *c, const city_box *b)
         for (size_t axis = 0; axis < 2; axis++) {
             bool high = axis == 0 ? k == 1 || k == 2 : k >= 2;
             double off = SITE_GAP + SITE_SKEW * dataset_unit(c->random);
-            corner[k][axis] = high ? b->high[axis] - off * box_side(b, axis) : b->low[axis] + off * box_side(b, axis);
+            corner[k][axis] = high ? b->high[axis] - off * box_side(b, axis)
+                                   : b->low[axis] + off * box_side(b, axis);
         }
     for (size_t i = first; i < end; i++) {
         size_t k = i - first;
@@ -127,7 +128,8 @@ static bool lakes_have(const scan_lake *lake, const double p[2])
 }
 
 /* Points of the tile, about `step` apart. Writes at most n of them; returns how many there are. */
-static size_t strips_scan(double *points, size_t n, double step, const scan_lake *lake, uint64_t random)
+static size_t strips_scan(double *points, size_t n, double step, const scan_lake *lake,
+                          uint64_t random)
 {
     const double side = sqrt(2), strip = side / STRIPS;
     const size_t lines = (size_t)(side / step), across = (size_t)(STRIP_WIDTH * strip / step);
@@ -136,12 +138,15 @@ static size_t strips_scan(double *points, size_t n, double step, const scan_lake
         for (size_t line = 0; line < lines; line++)
             for (size_t k = 0; k < across; k++) {
                 /* a scan line slants, since the plane flies on while it is scanned */
-                double x = (double)line + (double)k / (double)across + SCAN_JITTER * dataset_unit(&random);
+                double x =
+                    (double)line + (double)k / (double)across + SCAN_JITTER * dataset_unit(&random);
                 double y = (double)k + SCAN_JITTER * dataset_unit(&random);
                 double p[2] = {step * x - side / 2, strip * (double)s + step * y - side / 2};
                 point_turn(p, STRIP_ANGLE);
                 p[0] += 0.5, p[1] += 0.5;
-                if (p[0] < 0 || p[0] > 1 || p[1] < 0 || p[1] > 1 || lakes_have(lake, p) || made++ >= n) continue;
+                if (p[0] < 0 || p[0] > 1 || p[1] < 0 || p[1] > 1 || lakes_have(lake, p) ||
+                    made++ >= n)
+                    continue;
                 points[2 * made - 2] = p[0];
                 points[2 * made - 1] = p[1];
             }
@@ -154,7 +159,8 @@ void stand_in_strips(double *points, size_t n, uint64_t *random)
 {
     scan_lake lake[LAKES];
     for (size_t i = 0; i < LAKES; i++)
-        lake[i] = (scan_lake){{dataset_unit(random), dataset_unit(random)}, 0.03 + 0.06 * dataset_unit(random)};
+        lake[i] = (scan_lake){{dataset_unit(random), dataset_unit(random)},
+                              0.03 + 0.06 * dataset_unit(random)};
     uint64_t seed = (uint64_t)(dataset_unit(random) * 0x1p53);
     double step = sqrt(STRIP_WIDTH / (double)n);
     while (strips_scan(points, n, step, lake, seed) < n) step *= 0.998;

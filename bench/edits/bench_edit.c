@@ -23,8 +23,8 @@ typedef struct edit_run {
 
 /* Cocircular points have several Delaunay triangulations, and results could not
  * be compared. */
-static const dataset_kind sets[] = {DATASET_UNIFORM, DATASET_CLUSTERS, DATASET_GAUSSIAN, DATASET_ARCS,
-                                    DATASET_RECTANGLE};
+static const dataset_kind sets[] = {DATASET_UNIFORM, DATASET_CLUSTERS, DATASET_GAUSSIAN,
+                                    DATASET_ARCS, DATASET_RECTANGLE};
 #define SETS (sizeof sets / sizeof *sets)
 
 /* Returns SETS if there is none of that name. */
@@ -47,7 +47,8 @@ static int edit_check_set(const char *name, void *self)
 
 static int edits_check_settings(const bench_settings *s)
 {
-    if (s->enclose != ENCLOSE_AUTO || s->no_times || s->data || s->plot || s->format == FORMAT_JSON) {
+    if (s->enclose != ENCLOSE_AUTO || s->no_times || s->data || s->plot ||
+        s->format == FORMAT_JSON) {
         complain("bench edit makes its own points, takes times, and prints them "
                  "with --format table or tsv");
         return END_USAGE;
@@ -98,7 +99,8 @@ static int edit_take_settings(edit_run *r, const char *names)
 /* Peers that are not to be had are named, and passed over. */
 static void edit_leave_out_missing(edit_run *r)
 {
-    if (!r->settings->common.quiet) engine_list_complain_missing(edit_engine_libraries(r->plan.engines));
+    if (!r->settings->common.quiet)
+        engine_list_complain_missing(edit_engine_libraries(r->plan.engines));
     for (edit_engine_id id = 0; id < EDIT_ENGINES; id++)
         if (!edit_engine_is_there(id)) r->plan.engines &= ~(UINT32_C(1) << id);
 }
@@ -117,7 +119,8 @@ static int edit_run_set(const char *name, void *self)
     r->plan.kind = sets[edit_set_named(name)];
     r->plan.name = dataset_name((int)r->plan.kind);
     for (size_t i = 0; i < r->sizes.count; i++) {
-        size_t most = r->sizes.size[i] / 2, steps = r->settings->queries ? r->settings->queries : DEFAULT_STEPS;
+        size_t most = r->sizes.size[i] / 2,
+               steps = r->settings->queries ? r->settings->queries : DEFAULT_STEPS;
         r->plan.vertices = r->sizes.size[i];
         r->plan.steps = steps < most ? steps : most;
         for (edit_task task = 0; task < EDIT_TASKS && end == 0; task++)

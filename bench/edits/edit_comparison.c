@@ -30,7 +30,8 @@ static bool places_are_right(const edit_comparison *c, uint64_t *hash)
         const edit_step *step = &c->script.steps[i];
         if (step->kind != EDIT_STEP_LOCATE) continue;
         bool outside = corners[0] == 0 && corners[1] == 0 && corners[2] == 0 && corners[3] == 0;
-        if (!outside && !engine_contains(corners, corners + 2, corners + 4, step->point)) return false;
+        if (!outside && !engine_contains(corners, corners + 2, corners + 4, step->point))
+            return false;
         *hash = *hash * 31 + triangle_hash(corners);
         corners += 6;
     }
@@ -43,7 +44,8 @@ static int edit_comparison_check(edit_comparison *c, edit_engine_id id, const vo
     bool right = edit_engine_code_of(id)->hash(self) == c->expected && places_are_right(c, &places);
     if (right && c->places == 0) c->places = places;
     if (right && places == c->places) return 0;
-    complain("%s: %s is wrong after '%s'", c->plan->name, edit_engines[id].name, edit_task_name(c->task));
+    complain("%s: %s is wrong after '%s'", c->plan->name, edit_engines[id].name,
+             edit_task_name(c->task));
     return END_RESOURCE;
 }
 
@@ -66,12 +68,14 @@ static int edit_comparison_run(void *self, size_t entry, size_t round, double *n
 }
 
 /* Ratios are to the fastest of CGAL's. */
-static int edit_comparison_add_rows(const edit_comparison *c, const rounds_results *results, edit_table *table)
+static int edit_comparison_add_rows(const edit_comparison *c, const rounds_results *results,
+                                    edit_table *table)
 {
     double peer = NAN;
     int end = 0;
     for (size_t k = 0; k < c->count; k++)
-        if (edit_engines[c->engines[k]].engine != ENGINE_MESHWALK) peer = fmin(peer, rounds_median(results, k, 0));
+        if (edit_engines[c->engines[k]].engine != ENGINE_MESHWALK)
+            peer = fmin(peer, rounds_median(results, k, 0));
     for (size_t k = 0; k < c->count && end == 0; k++) {
         edit_row row = edit_row_of(c->plan, c->task, edit_engines[c->engines[k]].name);
         row.edits = (double)c->script.count;
@@ -98,7 +102,8 @@ int edit_comparison_measure(const edit_plan *p, edit_task task, edit_table *tabl
     edit_comparison c = {.plan = p, .task = task};
     int end = edit_script_make(&c.script, task, p->kind, p->vertices, p->steps, p->seed);
     for (edit_engine_id id = 0; id < EDIT_ENGINES; id++)
-        if (edit_engine_is_in(p->engines, id) && edit_engines[id].follows) c.engines[c.count++] = id;
+        if (edit_engine_is_in(p->engines, id) && edit_engines[id].follows)
+            c.engines[c.count++] = id;
     if (end == 0) end = edit_script_expect(&c.script, &c.expected);
     c.corners = end == 0 ? malloc((6 * c.script.located + 1) * sizeof *c.corners) : NULL;
     if (end == 0 && !c.corners) end = fail_memory();

@@ -18,8 +18,8 @@ using namespace bench;
 
 // The numbers of points in an order of space.
 using SpatialOrder =
-    CGAL::Spatial_sort_traits_adapter_2<Kernel,
-                                        decltype(CGAL::make_property_map(std::declval<std::vector<Point> &>()))>;
+    CGAL::Spatial_sort_traits_adapter_2<Kernel, decltype(CGAL::make_property_map(
+                                                    std::declval<std::vector<Point> &>()))>;
 
 template <class Triangulation> struct CgalEditing {
     Triangulation triangulation;
@@ -104,7 +104,8 @@ template <class Triangulation> uint64_t hash(const void *self)
 {
     uint64_t total = 0;
     double corners[6];
-    for (auto face : static_cast<const CgalEditing<Triangulation> *>(self)->triangulation.finite_face_handles()) {
+    for (auto face : static_cast<const CgalEditing<Triangulation> *>(self)
+                         ->triangulation.finite_face_handles()) {
         corners_of(face, corners);
         total += triangle_hash(corners);
     }
@@ -117,7 +118,8 @@ template <class Triangulation> void destroy(void *self)
 }
 
 template <class Triangulation>
-const edit_engine_code code = {build<Triangulation>, run<Triangulation>, hash<Triangulation>, destroy<Triangulation>};
+const edit_engine_code code = {build<Triangulation>, run<Triangulation>, hash<Triangulation>,
+                               destroy<Triangulation>};
 
 } // namespace
 } // namespace edit_engine_cgal

@@ -33,7 +33,8 @@ const edit_engine_code *edit_engine_code_of(edit_engine_id id)
 
 bool edit_engine_is_there(edit_engine_id id)
 {
-    return edit_engines[id].follows ? edit_engine_code_of(id) != NULL : engine_code_of(edit_engines[id].engine) != NULL;
+    return edit_engines[id].follows ? edit_engine_code_of(id) != NULL
+                                    : engine_code_of(edit_engines[id].engine) != NULL;
 }
 
 uint32_t edit_engine_libraries(uint32_t set)

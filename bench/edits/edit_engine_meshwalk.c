@@ -27,14 +27,18 @@ static bool meshwalk_editing_make(meshwalk_editing *o, const edit_script *s, mw_
 {
     mw_mesh *mesh;
     mw_query_options options = {0};
-    mw_delaunay_options one_thread = {.threads = 1}; /* others would still be spinning when the clock runs */
+    /* others would still be spinning when the clock runs */
+    mw_delaunay_options one_thread = {.threads = 1};
     mw_editor_options alone = {.threads = 1};
-    if (mw_delaunay(s->points, s->point_count, 2, &one_thread, NULL, NULL, &mesh, NULL) != MW_OK) return false;
+    if (mw_delaunay(s->points, s->point_count, 2, &one_thread, NULL, NULL, &mesh, NULL) != MW_OK)
+        return false;
     bool made = mw_editor_create(mesh, &alone, &o->editor, NULL) == MW_OK;
     mw_mesh_destroy(mesh);
     o->vertex = malloc((s->point_count + s->inserted) * sizeof *o->vertex);
     if (!made || !o->vertex) return false;
-    if (start != MW_START_AUTO && mw_editor_index(o->editor, start, NULL, &options.index, NULL) != MW_OK) return false;
+    if (start != MW_START_AUTO &&
+        mw_editor_index(o->editor, start, NULL, &options.index, NULL) != MW_OK)
+        return false;
     for (size_t i = 0; i < s->point_count; i++) o->vertex[i] = (uint32_t)i;
     return mw_cursor_init(mw_editor_locator(o->editor), &options, &o->cursor, NULL) == MW_OK;
 }
@@ -72,8 +76,8 @@ static void triangle_corners(const mw_editor *editor, uint32_t triangle, double 
 static mw_status meshwalk_insert_points(meshwalk_editing *o, const edit_script *s)
 {
     _Static_assert(sizeof(edit_step) % sizeof(double) == 0, "steps are some doubles apart");
-    return mw_edit_insert_points(o->editor, s->steps->point, s->count, sizeof(edit_step) / sizeof(double), NULL, NULL,
-                                 NULL);
+    return mw_edit_insert_points(o->editor, s->steps->point, s->count,
+                                 sizeof(edit_step) / sizeof(double), NULL, NULL, NULL);
 }
 
 /* Nothing is asked about what changed, as CGAL tells nothing: the number of a new vertex is the
@@ -97,10 +101,15 @@ static double meshwalk_editing_run(void *self, const edit_script *s, double *cor
             o->vertex[inserted] = inserted;
             inserted++;
             break;
-        case EDIT_STEP_REMOVE: status = mw_edit_remove(o->editor, o->vertex[step->vertex], NULL, NULL); break;
-        case EDIT_STEP_MOVE: status = mw_edit_move(o->editor, o->vertex[step->vertex], p[0], p[1], NULL, NULL); break;
+        case EDIT_STEP_REMOVE:
+            status = mw_edit_remove(o->editor, o->vertex[step->vertex], NULL, NULL);
+            break;
+        case EDIT_STEP_MOVE:
+            status = mw_edit_move(o->editor, o->vertex[step->vertex], p[0], p[1], NULL, NULL);
+            break;
         case EDIT_STEP_LOCATE:
-            triangle_corners(o->editor, mw_locate(locator, &o->cursor, p[0], p[1]).triangle, corners);
+            triangle_corners(o->editor, mw_locate(locator, &o->cursor, p[0], p[1]).triangle,
+                             corners);
             corners += 6;
             break;
         }
@@ -127,12 +136,12 @@ static uint64_t meshwalk_editing_hash(const void *self)
 const edit_engine_code *edit_engine_meshwalk_code(edit_engine_id id)
 {
     static const edit_engine_code codes[] = {
-        [EDIT_ENGINE_MESHWALK] = {meshwalk_editing_build_auto, meshwalk_editing_run, meshwalk_editing_hash,
-                                  meshwalk_editing_destroy},
-        [EDIT_ENGINE_MESHWALK_LAYERS] = {meshwalk_editing_build_layers, meshwalk_editing_run, meshwalk_editing_hash,
-                                         meshwalk_editing_destroy},
-        [EDIT_ENGINE_MESHWALK_GRID] = {meshwalk_editing_build_grid, meshwalk_editing_run, meshwalk_editing_hash,
-                                       meshwalk_editing_destroy},
+        [EDIT_ENGINE_MESHWALK] = {meshwalk_editing_build_auto, meshwalk_editing_run,
+                                  meshwalk_editing_hash, meshwalk_editing_destroy},
+        [EDIT_ENGINE_MESHWALK_LAYERS] = {meshwalk_editing_build_layers, meshwalk_editing_run,
+                                         meshwalk_editing_hash, meshwalk_editing_destroy},
+        [EDIT_ENGINE_MESHWALK_GRID] = {meshwalk_editing_build_grid, meshwalk_editing_run,
+                                       meshwalk_editing_hash, meshwalk_editing_destroy},
     };
     return id <= EDIT_ENGINE_MESHWALK_GRID ? &codes[id] : NULL;
 }

@@ -51,7 +51,8 @@ static int edit_rebuild_insert(edit_rebuild *r)
     mw_error error;
     mw_change change;
     const double *p = r->data.points + 2 * r->fresh++;
-    if (mw_edit_insert(r->editor, p[0], p[1], &change, &error) != MW_OK) return edit_rebuild_fail(r, &error);
+    if (mw_edit_insert(r->editor, p[0], p[1], &change, &error) != MW_OK)
+        return edit_rebuild_fail(r, &error);
     r->alive[r->alive_count++] = change.vertex;
     return 0;
 }
@@ -60,7 +61,8 @@ static int edit_rebuild_remove(edit_rebuild *r)
 {
     mw_error error;
     size_t i = (size_t)(dataset_unit(&r->random) * (double)r->alive_count);
-    if (mw_edit_remove(r->editor, r->alive[i], NULL, &error) != MW_OK) return edit_rebuild_fail(r, &error);
+    if (mw_edit_remove(r->editor, r->alive[i], NULL, &error) != MW_OK)
+        return edit_rebuild_fail(r, &error);
     r->alive[i] = r->alive[--r->alive_count];
     return 0;
 }
@@ -70,10 +72,12 @@ static int edit_rebuild_run_leader(edit_rebuild *r, double *figures)
 {
     int end = 0;
     double clock = monotonic_seconds();
-    for (size_t i = 0; i < r->stride && end == 0; i++) end = i % 2 ? edit_rebuild_remove(r) : edit_rebuild_insert(r);
+    for (size_t i = 0; i < r->stride && end == 0; i++)
+        end = i % 2 ? edit_rebuild_remove(r) : edit_rebuild_insert(r);
     figures[EDITS_NS] = 1e9 * (monotonic_seconds() - clock);
     for (size_t i = 0; i < QUERIES && end == 0; i++)
-        r->found[i] = mw_locate(mw_editor_locator(r->editor), &r->cursor, r->queries[2 * i], r->queries[2 * i + 1]);
+        r->found[i] = mw_locate(mw_editor_locator(r->editor), &r->cursor, r->queries[2 * i],
+                                r->queries[2 * i + 1]);
     figures[ALL_NS] = 1e9 * (monotonic_seconds() - clock);
     return end;
 }
@@ -86,8 +90,8 @@ static int edit_rebuild_check_leader(const edit_rebuild *r)
         if (!mw_editor_triangle(r->editor, r->found[i].triangle, v)) continue;
         for (int k = 0; k < 3; k++) mw_editor_vertex(r->editor, v[k], c + 2 * k);
         if (engine_contains(c, c + 2, c + 4, r->queries + 2 * i)) continue;
-        complain("%s: %.17g %.17g was found in a triangle that does not hold it", r->plan->name, r->queries[2 * i],
-                 r->queries[2 * i + 1]);
+        complain("%s: %.17g %.17g was found in a triangle that does not hold it", r->plan->name,
+                 r->queries[2 * i], r->queries[2 * i + 1]);
         return END_RESOURCE;
     }
     return 0;
@@ -99,15 +103,18 @@ static int edit_rebuild_take_arrays(edit_rebuild *r)
 {
     mw_error error;
     mw_mesh *mesh;
-    if (mw_editor_mesh(r->editor, NULL, NULL, &mesh, &error) != MW_OK) return edit_rebuild_fail(r, &error);
+    if (mw_editor_mesh(r->editor, NULL, NULL, &mesh, &error) != MW_OK)
+        return edit_rebuild_fail(r, &error);
     uint32_t vertices = mw_mesh_vertex_count(mesh), triangles = mw_mesh_triangle_count(mesh);
     free(r->points);
     free(r->triangles);
     r->points = malloc(2 * (size_t)vertices * sizeof *r->points);
     r->triangles = malloc(3 * (size_t)triangles * sizeof *r->triangles);
     bool room = r->points && r->triangles;
-    for (uint32_t i = 0; i < vertices && room; i++) mw_mesh_vertex(mesh, i, r->points + 2 * (size_t)i);
-    for (uint32_t t = 0; t < triangles && room; t++) mw_mesh_triangle(mesh, t, r->triangles + 3 * (size_t)t);
+    for (uint32_t i = 0; i < vertices && room; i++)
+        mw_mesh_vertex(mesh, i, r->points + 2 * (size_t)i);
+    for (uint32_t t = 0; t < triangles && room; t++)
+        mw_mesh_triangle(mesh, t, r->triangles + 3 * (size_t)t);
     r->mesh = (engine_mesh){r->points, vertices, r->triangles, triangles};
     mw_mesh_destroy(mesh);
     return room ? 0 : fail_memory();
@@ -121,8 +128,10 @@ static double edit_rebuild_count_wrong(const edit_rebuild *r)
     for (size_t i = 0; i < QUERIES; i++) {
         const double *c[3];
         bool outside = r->answers[i] == ENGINE_NONE || r->answers[i] >= r->mesh.triangle_count;
-        for (size_t k = 0; k < 3 && !outside; k++) c[k] = r->points + 2 * (size_t)r->triangles[3 * r->answers[i] + k];
-        wrong += outside ? r->found[i].triangle != MW_NONE : !engine_contains(c[0], c[1], c[2], r->queries + 2 * i);
+        for (size_t k = 0; k < 3 && !outside; k++)
+            c[k] = r->points + 2 * (size_t)r->triangles[3 * r->answers[i] + k];
+        wrong += outside ? r->found[i].triangle != MW_NONE
+                         : !engine_contains(c[0], c[1], c[2], r->queries + 2 * i);
     }
     return wrong;
 }
@@ -171,7 +180,8 @@ static edit_row edit_rebuild_row(const edit_rebuild *r, size_t k)
 
 /* The number of edits that take as long as a rebuild, by what they took most of at a time: a row
  * without a ratio. */
-static int edit_rebuild_add_break_even(const edit_rebuild *r, const rounds_results *results, edit_table *table)
+static int edit_rebuild_add_break_even(const edit_rebuild *r, const rounds_results *results,
+                                       edit_table *table)
 {
     double each = rounds_median(results, 0, EDITS_NS) / (double)r->stride;
     double queries = rounds_median(results, 0, ALL_NS) - each * (double)r->stride;
@@ -187,7 +197,8 @@ static int edit_rebuild_add_break_even(const edit_rebuild *r, const rounds_resul
 static int edit_rebuild_measure_stride(edit_rebuild *r, edit_table *table, bool last)
 {
     rounds_results results;
-    rounds_plan plan = {.entries = r->count, .leaders = 1, .figures = REBUILD_FIGURES, .rounds = r->plan->rounds};
+    rounds_plan plan = {
+        .entries = r->count, .leaders = 1, .figures = REBUILD_FIGURES, .rounds = r->plan->rounds};
     int end = rounds_measure(&plan, edit_rebuild_run, r, &results);
     for (size_t k = 0; k < r->count && end == 0; k++) {
         edit_row row = edit_rebuild_row(r, k);
@@ -214,12 +225,15 @@ static int edit_rebuild_prepare(edit_rebuild *r)
     r->alive = malloc((p->vertices + most) * sizeof *r->alive);
     if (!r->alive) return fail_memory();
     mw_delaunay_options one_thread = {.threads = 1};
-    if (mw_delaunay(r->data.points, p->vertices, 2, &one_thread, NULL, NULL, &mesh, &error) != MW_OK)
+    if (mw_delaunay(r->data.points, p->vertices, 2, &one_thread, NULL, NULL, &mesh, &error) !=
+        MW_OK)
         return edit_rebuild_fail(r, &error);
-    mw_status status = mw_editor_create(mesh, &(mw_editor_options){.threads = 1}, &r->editor, &error);
+    mw_status status =
+        mw_editor_create(mesh, &(mw_editor_options){.threads = 1}, &r->editor, &error);
     mw_mesh_destroy(mesh);
     if (status != MW_OK) return edit_rebuild_fail(r, &error);
-    for (; r->alive_count < p->vertices; r->alive_count++) r->alive[r->alive_count] = (uint32_t)r->alive_count;
+    for (; r->alive_count < p->vertices; r->alive_count++)
+        r->alive[r->alive_count] = (uint32_t)r->alive_count;
     return mw_cursor_init(mw_editor_locator(r->editor), NULL, &r->cursor, &error) == MW_OK
                ? 0
                : edit_rebuild_fail(r, &error);
@@ -237,7 +251,8 @@ int edit_rebuild_measure(const edit_plan *p, edit_table *table)
     int end = edit_rebuild_prepare(r);
     for (size_t i = 0; i < STRIDES && end == 0 && strides[i] <= p->vertices; i++) {
         r->stride = strides[i];
-        end = edit_rebuild_measure_stride(r, table, i + 1 == STRIDES || strides[i + 1] > p->vertices);
+        end =
+            edit_rebuild_measure_stride(r, table, i + 1 == STRIDES || strides[i + 1] > p->vertices);
     }
     mw_editor_destroy(r->editor);
     dataset_release(&r->data);

@@ -11,11 +11,16 @@
 const char *edit_task_name(edit_task task)
 {
     static const char *const names[EDIT_TASKS] = {
-        [EDIT_TASK_INSERT] = "insert",           [EDIT_TASK_INSERT_SORTED] = "insert-sorted",
-        [EDIT_TASK_INSERT_MANY] = "insert-many", [EDIT_TASK_INSERT_MANY_SORTED] = "insert-many-sorted",
-        [EDIT_TASK_REMOVE] = "remove",           [EDIT_TASK_MOVE_NEAR] = "move-near",
-        [EDIT_TASK_MOVE_FAR] = "move-far",       [EDIT_TASK_MIXED] = "mixed",
-        [EDIT_TASK_REBUILD] = "rebuild",         [EDIT_TASK_SESSION] = "session",
+        [EDIT_TASK_INSERT] = "insert",
+        [EDIT_TASK_INSERT_SORTED] = "insert-sorted",
+        [EDIT_TASK_INSERT_MANY] = "insert-many",
+        [EDIT_TASK_INSERT_MANY_SORTED] = "insert-many-sorted",
+        [EDIT_TASK_REMOVE] = "remove",
+        [EDIT_TASK_MOVE_NEAR] = "move-near",
+        [EDIT_TASK_MOVE_FAR] = "move-far",
+        [EDIT_TASK_MIXED] = "mixed",
+        [EDIT_TASK_REBUILD] = "rebuild",
+        [EDIT_TASK_SESSION] = "session",
     };
     return names[task];
 }
@@ -42,12 +47,14 @@ static size_t script_maker_below(script_maker *m, size_t n)
     return (size_t)(dataset_unit(&m->random) * (double)n);
 }
 
-static void script_maker_add(script_maker *m, edit_step_kind kind, uint32_t vertex, const double *point)
+static void script_maker_add(script_maker *m, edit_step_kind kind, uint32_t vertex,
+                             const double *point)
 {
     edit_step *step = &m->s->steps[m->s->count++];
     *step = (edit_step){.kind = kind, .vertex = vertex};
     if (point) memcpy(step->point, point, sizeof step->point);
-    if (kind == EDIT_STEP_INSERT) m->alive[m->alive_count++] = (uint32_t)(m->s->point_count + m->s->inserted++);
+    if (kind == EDIT_STEP_INSERT)
+        m->alive[m->alive_count++] = (uint32_t)(m->s->point_count + m->s->inserted++);
     if (kind == EDIT_STEP_LOCATE) m->s->located++;
 }
 
@@ -96,7 +103,8 @@ static int script_maker_sort_points(script_maker *m, size_t count)
 {
     mw_error error;
     mw_mesh *mesh = NULL;
-    double *points = m->data.points + 2 * m->s->point_count, *sorted = malloc(2 * count * sizeof *sorted);
+    double *points = m->data.points + 2 * m->s->point_count,
+           *sorted = malloc(2 * count * sizeof *sorted);
     uint32_t *order = malloc(count * sizeof *order);
     int end = sorted && order ? 0 : fail_memory();
     if (end == 0 && (mw_delaunay(points, count, 2, NULL, NULL, NULL, &mesh, &error) != MW_OK ||
@@ -117,7 +125,8 @@ static void script_maker_measure_edges(script_maker *m, const mw_mesh *mesh, uin
         uint32_t v[3];
         mw_mesh_triangle(mesh, t, v);
         for (int k = 0; k < 3; k++) {
-            const double *a = m->data.points + 2 * (size_t)v[k], *b = m->data.points + 2 * (size_t)v[(k + 1) % 3];
+            const double *a = m->data.points + 2 * (size_t)v[k],
+                         *b = m->data.points + 2 * (size_t)v[(k + 1) % 3];
             double length = hypot(b[0] - a[0], b[1] - a[1]);
             m->reach[v[k]] += length;
             m->reach[v[(k + 1) % 3]] += length;
@@ -165,7 +174,8 @@ static int script_maker_make(script_maker *m, edit_task task, size_t steps)
     m->alive = malloc((s->point_count + steps) * sizeof *m->alive);
     if (!s->points || !s->steps || !m->alive) return fail_memory();
     memcpy(s->points, m->data.points, 2 * s->point_count * sizeof *s->points);
-    for (; m->alive_count < s->point_count; m->alive_count++) m->alive[m->alive_count] = (uint32_t)m->alive_count;
+    for (; m->alive_count < s->point_count; m->alive_count++)
+        m->alive[m->alive_count] = (uint32_t)m->alive_count;
     s->hinted = task == EDIT_TASK_INSERT_SORTED || task == EDIT_TASK_INSERT_MANY_SORTED;
     s->at_once = task == EDIT_TASK_INSERT_MANY || task == EDIT_TASK_INSERT_MANY_SORTED;
     int end = s->hinted                     ? script_maker_sort_points(m, steps)
@@ -175,11 +185,14 @@ static int script_maker_make(script_maker *m, edit_task task, size_t steps)
     return end;
 }
 
-int edit_script_make(edit_script *s, edit_task task, dataset_kind kind, size_t n, size_t steps, uint64_t seed)
+int edit_script_make(edit_script *s, edit_task task, dataset_kind kind, size_t n, size_t steps,
+                     uint64_t seed)
 {
     script_maker m = {.s = s, .random = ~seed};
     *s = (edit_script){.point_count = n};
-    int end = dataset_make(&m.data, kind, n + steps, false, seed) ? script_maker_make(&m, task, steps) : fail_memory();
+    int end = dataset_make(&m.data, kind, n + steps, false, seed)
+                  ? script_maker_make(&m, task, steps)
+                  : fail_memory();
     dataset_release(&m.data);
     free(m.alive);
     free(m.reach);
@@ -203,8 +216,10 @@ static size_t edit_script_play(const edit_script *s, double *points, bool *gone)
     memcpy(points, s->points, 2 * count * sizeof *points);
     for (size_t i = 0; i < s->count; i++) {
         const edit_step *step = &s->steps[i];
-        if (step->kind == EDIT_STEP_INSERT) memcpy(points + 2 * count++, step->point, sizeof step->point);
-        if (step->kind == EDIT_STEP_MOVE) memcpy(points + 2 * (size_t)step->vertex, step->point, sizeof step->point);
+        if (step->kind == EDIT_STEP_INSERT)
+            memcpy(points + 2 * count++, step->point, sizeof step->point);
+        if (step->kind == EDIT_STEP_MOVE)
+            memcpy(points + 2 * (size_t)step->vertex, step->point, sizeof step->point);
         if (step->kind == EDIT_STEP_REMOVE) gone[step->vertex] = true;
     }
     for (size_t i = 0; i < count; i++)
@@ -220,7 +235,8 @@ int edit_script_expect(const edit_script *s, uint64_t *hash)
     double *points = malloc(2 * most * sizeof *points);
     bool *gone = calloc(most, sizeof *gone);
     int end = points && gone ? 0 : fail_memory();
-    if (end == 0 && mw_delaunay(points, edit_script_play(s, points, gone), 2, NULL, NULL, NULL, &mesh, &error) != MW_OK)
+    if (end == 0 && mw_delaunay(points, edit_script_play(s, points, gone), 2, NULL, NULL, NULL,
+                                &mesh, &error) != MW_OK)
         end = script_fail(&error);
     *hash = 0;
     for (uint32_t t = 0; end == 0 && t < mw_mesh_triangle_count(mesh); t++) {

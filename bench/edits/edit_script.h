@@ -12,7 +12,12 @@
 extern "C" {
 #endif
 
-typedef enum edit_step_kind { EDIT_STEP_INSERT, EDIT_STEP_REMOVE, EDIT_STEP_MOVE, EDIT_STEP_LOCATE } edit_step_kind;
+typedef enum edit_step_kind {
+    EDIT_STEP_INSERT,
+    EDIT_STEP_REMOVE,
+    EDIT_STEP_MOVE,
+    EDIT_STEP_LOCATE
+} edit_step_kind;
 
 /* One thing to do. Vertices are the points in order, then those inserted, in order. */
 typedef struct edit_step {
@@ -26,8 +31,9 @@ typedef struct edit_script {
     size_t point_count;
     edit_step *steps;
     size_t count, inserted, located; /* of all steps; of those of these kinds */
-    int hinted;                      /* each step is near the one before: to be located from there */
-    int at_once;                     /* all are insertions, known before the first */
+    /* each step is near the one before: to be located from there */
+    int hinted;
+    int at_once; /* all are insertions, known before the first */
 } edit_script;
 
 /* What 'bench edit' measures; the first ones are scripts. */
@@ -37,11 +43,13 @@ typedef enum edit_task {
     EDIT_TASK_INSERT_MANY,        /* points in random order, given at once */
     EDIT_TASK_INSERT_MANY_SORTED, /* points along a Hilbert curve, given at once */
     EDIT_TASK_REMOVE,             /* random vertices */
-    EDIT_TASK_MOVE_NEAR,          /* random vertices, each a tenth of the mean length of its edges */
-    EDIT_TASK_MOVE_FAR,           /* random vertices, each to the place of another point */
-    EDIT_TASK_MIXED,              /* in turn: a point inserted, a vertex removed, a place located, all at random */
-    EDIT_TASK_REBUILD,            /* trees that are rebuilt after some edits */
-    EDIT_TASK_SESSION,            /* location during a long session */
+    /* random vertices, each a tenth of the mean length of its edges */
+    EDIT_TASK_MOVE_NEAR,
+    EDIT_TASK_MOVE_FAR, /* random vertices, each to the place of another point */
+    /* in turn: a point inserted, a vertex removed, a place located, all at random */
+    EDIT_TASK_MIXED,
+    EDIT_TASK_REBUILD, /* trees that are rebuilt after some edits */
+    EDIT_TASK_SESSION, /* location during a long session */
     EDIT_TASKS
 } edit_task;
 
@@ -50,7 +58,8 @@ const char *edit_task_name(edit_task task);
 
 /* The script of a task: n points, and so many steps, at most half as many as points. Returns 0 or
  * an exit code after a complaint. */
-int edit_script_make(edit_script *s, edit_task task, dataset_kind kind, size_t n, size_t steps, uint64_t seed);
+int edit_script_make(edit_script *s, edit_task task, dataset_kind kind, size_t n, size_t steps,
+                     uint64_t seed);
 void edit_script_release(edit_script *s);
 
 /* The hash (triangle_hash.h) of the Delaunay triangulation of the points that are there at the end,

@@ -50,7 +50,9 @@ static int edit_session_fail(const edit_session *s, const mw_error *error)
  * point. */
 static mw_edit edit_session_next_edit(edit_session *s, size_t i)
 {
-    mw_edit edit = {.kind = i % 3 == 0 ? MW_EDIT_INSERT : i % 3 == 1 ? MW_EDIT_REMOVE : MW_EDIT_MOVE};
+    mw_edit edit = {.kind = i % 3 == 0   ? MW_EDIT_INSERT
+                            : i % 3 == 1 ? MW_EDIT_REMOVE
+                                         : MW_EDIT_MOVE};
     if (edit.kind != MW_EDIT_INSERT) {
         size_t k = (size_t)(dataset_unit(&s->random) * (double)s->alive_count);
         edit.vertex = s->alive[k];
@@ -70,7 +72,8 @@ static int edit_session_edit_until(edit_session *s, double edits)
         mw_error error;
         mw_change change;
         mw_edit edit = edit_session_next_edit(s, (size_t)s->edits);
-        if (mw_edit_apply(s->editor, &edit, &change, &error) != MW_OK) return edit_session_fail(s, &error);
+        if (mw_edit_apply(s->editor, &edit, &change, &error) != MW_OK)
+            return edit_session_fail(s, &error);
         if (edit.kind == MW_EDIT_INSERT) s->alive[s->alive_count++] = change.vertex;
     }
     s->ns = 1e9 * (monotonic_seconds() - clock) / fmax(1, edits - before);
@@ -79,17 +82,21 @@ static int edit_session_edit_until(edit_session *s, double edits)
 
 /* --- location --------------------------------------------------------------------------------- */
 
-static int edit_session_locate(edit_session *s, const session_start *b, size_t begin, size_t n, mw_counters *counters,
-                               double *seconds)
+static int edit_session_locate(edit_session *s, const session_start *b, size_t begin, size_t n,
+                               mw_counters *counters, double *seconds)
 {
     mw_error error;
     mw_cursor cursor;
-    mw_query_options options = {
-        .start = b->start, .index = b->index, .seed = s->plan->seed + begin, .counters = counters != NULL};
-    if (mw_cursor_init(s->locator, &options, &cursor, &error) != MW_OK) return edit_session_fail(s, &error);
+    mw_query_options options = {.start = b->start,
+                                .index = b->index,
+                                .seed = s->plan->seed + begin,
+                                .counters = counters != NULL};
+    if (mw_cursor_init(s->locator, &options, &cursor, &error) != MW_OK)
+        return edit_session_fail(s, &error);
     const double *q = s->queries + 2 * begin;
     double clock = monotonic_seconds();
-    for (size_t i = 0; i < n; i++) s->found[i] = mw_locate(s->locator, &cursor, q[2 * i], q[2 * i + 1]);
+    for (size_t i = 0; i < n; i++)
+        s->found[i] = mw_locate(s->locator, &cursor, q[2 * i], q[2 * i + 1]);
     *seconds = monotonic_seconds() - clock;
     if (counters) *counters = cursor.counters;
     return 0;
@@ -112,8 +119,8 @@ static int edit_session_check(const edit_session *s)
         if (!mw_editor_triangle(s->editor, s->found[i].triangle, v)) continue;
         for (int k = 0; k < 3; k++) mw_editor_vertex(s->editor, v[k], c + 2 * k);
         if (engine_contains(c, c + 2, c + 4, s->queries + 2 * i)) continue;
-        complain("%s: %.17g %.17g was found in a triangle that does not hold it", s->plan->name, s->queries[2 * i],
-                 s->queries[2 * i + 1]);
+        complain("%s: %.17g %.17g was found in a triangle that does not hold it", s->plan->name,
+                 s->queries[2 * i], s->queries[2 * i + 1]);
         return END_RESOURCE;
     }
     return 0;
@@ -136,8 +143,9 @@ static int edit_session_count(edit_session *s, double triangles[SESSION_STARTS])
     return end;
 }
 
-static int edit_session_add_rows(const edit_session *s, const char *what, const double *microseconds,
-                                 const double *triangles, edit_table *table)
+static int edit_session_add_rows(const edit_session *s, const char *what,
+                                 const double *microseconds, const double *triangles,
+                                 edit_table *table)
 {
     mw_editor_info info;
     mw_editor_describe(s->editor, &info);
@@ -165,8 +173,8 @@ static int edit_session_look(edit_session *s, const char *what, edit_table *tabl
     dataset_draw(&s->data, s->queries, TIMED_QUERIES, &s->random);
     int end = edit_session_count(s, triangles);
     if (end == 0)
-        end = query_rounds_measure(SESSION_STARTS, query_rounds_share(TIMED_QUERIES), edit_session_time_share, s,
-                                   microseconds);
+        end = query_rounds_measure(SESSION_STARTS, query_rounds_share(TIMED_QUERIES),
+                                   edit_session_time_share, s, microseconds);
     return end ? end : edit_session_add_rows(s, what, microseconds, triangles, table);
 }
 
@@ -209,12 +217,15 @@ static int edit_session_prepare(edit_session *s, size_t edits)
     s->expected = malloc(TIMED_QUERIES * sizeof *s->expected);
     if (!s->alive || !s->queries || !s->found || !s->expected) return fail_memory();
     mw_delaunay_options one_thread = {.threads = 1};
-    if (mw_delaunay(s->data.points, p->vertices, 2, &one_thread, NULL, NULL, &mesh, &error) != MW_OK)
+    if (mw_delaunay(s->data.points, p->vertices, 2, &one_thread, NULL, NULL, &mesh, &error) !=
+        MW_OK)
         return edit_session_fail(s, &error);
-    mw_status status = mw_editor_create(mesh, &(mw_editor_options){.threads = 1}, &s->editor, &error);
+    mw_status status =
+        mw_editor_create(mesh, &(mw_editor_options){.threads = 1}, &s->editor, &error);
     mw_mesh_destroy(mesh);
     if (status != MW_OK) return edit_session_fail(s, &error);
-    for (; s->alive_count < p->vertices; s->alive_count++) s->alive[s->alive_count] = (uint32_t)s->alive_count;
+    for (; s->alive_count < p->vertices; s->alive_count++)
+        s->alive[s->alive_count] = (uint32_t)s->alive_count;
     s->locator = mw_editor_locator(s->editor);
     return edit_session_make_indices(s);
 }
@@ -224,7 +235,8 @@ static int edit_session_compact(edit_session *s)
 {
     mw_error error;
     double clock = monotonic_seconds();
-    if (mw_editor_compact(s->editor, NULL, NULL, &error) != MW_OK) return edit_session_fail(s, &error);
+    if (mw_editor_compact(s->editor, NULL, NULL, &error) != MW_OK)
+        return edit_session_fail(s, &error);
     s->ns = 1e9 * (monotonic_seconds() - clock);
     return 0;
 }

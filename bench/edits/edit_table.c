@@ -55,17 +55,20 @@ static bool edit_column_is_text(size_t column)
 static bool edit_table_is_new_block(const edit_row *rows, size_t i)
 {
     const edit_row *a = &rows[i], *b = &rows[i - 1];
-    return a->task != b->task || a->vertices != b->vertices || a->dataset != b->dataset || a->edits != b->edits;
+    return a->task != b->task || a->vertices != b->vertices || a->dataset != b->dataset ||
+           a->edits != b->edits;
 }
 
 /* Aligned, or with tabs. */
-static void edit_table_print_cells(const char *const cells[COLUMNS], const int width[COLUMNS], text *t)
+static void edit_table_print_cells(const char *const cells[COLUMNS], const int width[COLUMNS],
+                                   text *t)
 {
     for (size_t k = 0; k < COLUMNS; k++) {
         if (!width)
             text_printf(t, "%s%s", k ? "\t" : "", cells[k]);
         else
-            text_printf(t, edit_column_is_text(k) ? "%s%-*s" : "%s%*s", k ? "  " : "", width[k], cells[k]);
+            text_printf(t, edit_column_is_text(k) ? "%s%-*s" : "%s%*s", k ? "  " : "", width[k],
+                        cells[k]);
     }
     text_string(t, "\n");
 }

@@ -20,7 +20,8 @@
 
 enum { BLOCK = 1 << 17, DEFAULT_QUERIES = 1000000, DEFAULT_VERTICES = 100000 };
 
-static const dataset_kind sets[] = {DATASET_UNIFORM, DATASET_GRID, DATASET_RINGS, DATASET_SLIVERS, DATASET_OFFSET};
+static const dataset_kind sets[] = {DATASET_UNIFORM, DATASET_GRID, DATASET_RINGS, DATASET_SLIVERS,
+                                    DATASET_OFFSET};
 
 #define SETS (sizeof sets / sizeof *sets)
 
@@ -52,7 +53,8 @@ typedef struct near_vertices {
 static void near_vertices_add(near_vertices *s, mw_walk_kind walk, bool areas)
 {
     for (mw_arithmetic arithmetic = MW_EXACT; arithmetic <= MW_DOUBLE; arithmetic++)
-        s->entries[s->entry_count++] = (near_entry){.walk = walk, .arithmetic = arithmetic, .areas = areas};
+        s->entries[s->entry_count++] =
+            (near_entry){.walk = walk, .arithmetic = arithmetic, .areas = areas};
 }
 
 static int near_vertices_fail(const near_vertices *s, const mw_error *error)
@@ -68,10 +70,12 @@ static int near_vertices_prepare(near_vertices *s)
         if (walk == MW_WALK_DIRECT) near_vertices_add(s, walk, true);
     }
     progress_phase("triangulating", s->name);
-    if (mw_delaunay(s->data->points, s->data->count, 2, NULL, NULL, NULL, &s->mesh, &error) != MW_OK)
+    if (mw_delaunay(s->data->points, s->data->count, 2, NULL, NULL, NULL, &s->mesh, &error) !=
+        MW_OK)
         return near_vertices_fail(s, &error);
     for (int areas = 0; areas < 2; areas++)
-        if (mw_locator_create(s->mesh, &(mw_locator_options){.areas = areas}, &s->locator[areas], &error) != MW_OK)
+        if (mw_locator_create(s->mesh, &(mw_locator_options){.areas = areas}, &s->locator[areas],
+                              &error) != MW_OK)
             return near_vertices_fail(s, &error);
     s->queries = malloc(2 * BLOCK * sizeof *s->queries);
     s->answers = malloc(BLOCK * sizeof *s->answers);
@@ -98,7 +102,8 @@ static void near_vertices_draw(near_vertices *s, size_t n)
 {
     for (size_t i = 0; i < n; i++) {
         size_t v = (size_t)(dataset_unit(&s->random) * (double)s->data->count);
-        for (size_t k = 0; k < 2; k++) s->queries[2 * i + k] = value_nudged(s->data->points[2 * v + k], &s->random);
+        for (size_t k = 0; k < 2; k++)
+            s->queries[2 * i + k] = value_nudged(s->data->points[2 * v + k], &s->random);
     }
 }
 
@@ -115,10 +120,12 @@ static int near_entry_run(near_vertices *s, near_entry *e, size_t n, uint64_t se
         .counters = 1,
     };
     mw_location *locations = e == s->entries ? s->answers : s->locations;
-    if (mw_locate_batch(s->locator[e->areas], s->queries, n, 2, &options, locations, &counters, &error) != MW_OK)
+    if (mw_locate_batch(s->locator[e->areas], s->queries, n, 2, &options, locations, &counters,
+                        &error) != MW_OK)
         return near_vertices_fail(s, &error);
     mw_counters_add(&e->counters, &counters);
-    locations_pair pair = {mw_walk_name(e->walk), mw_walk_name(s->entries[0].walk), locations, s->answers};
+    locations_pair pair = {mw_walk_name(e->walk), mw_walk_name(s->entries[0].walk), locations,
+                           s->answers};
     return locations_compare(s->name, s->queries, n, &pair);
 }
 
@@ -148,8 +155,9 @@ static void near_vertices_print(const near_vertices *s, text *t)
 {
     bool tsv = s->settings->format == FORMAT_TSV;
     if (!tsv)
-        text_printf(t, "%s, %zu vertices, %llu queries: per million\n  %-24s %-8s %12s %12s\n", s->name, s->data->count,
-                    (unsigned long long)s->entries[0].counters.queries, "walk", "", "cycles", "hand-overs");
+        text_printf(t, "%s, %zu vertices, %llu queries: per million\n  %-24s %-8s %12s %12s\n",
+                    s->name, s->data->count, (unsigned long long)s->entries[0].counters.queries,
+                    "walk", "", "cycles", "hand-overs");
     for (size_t i = 0; i < s->entry_count; i++) {
         const near_entry *e = &s->entries[i];
         const mw_counters *c = &e->counters;
@@ -158,19 +166,22 @@ static void near_vertices_print(const near_vertices *s, text *t)
         double cycles = count_per_million(c->cycles, c->queries),
                handovers = count_per_million(c->handovers, c->queries);
         if (tsv)
-            text_printf(t, "%s\t%zu\t%s%s\t%s\t%llu\t%llu\t%llu\t%.6g\t%.6g\n", s->name, s->data->count, walk, form,
-                        arithmetic, (unsigned long long)c->queries, (unsigned long long)c->cycles,
-                        (unsigned long long)c->handovers, cycles, handovers);
-        else
-            text_printf(t, "  %s%-*s %-8s %12.6g %12.6g\n", walk, 24 - (int)strlen(walk), form, arithmetic, cycles,
+            text_printf(t, "%s\t%zu\t%s%s\t%s\t%llu\t%llu\t%llu\t%.6g\t%.6g\n", s->name,
+                        s->data->count, walk, form, arithmetic, (unsigned long long)c->queries,
+                        (unsigned long long)c->cycles, (unsigned long long)c->handovers, cycles,
                         handovers);
+        else
+            text_printf(t, "  %s%-*s %-8s %12.6g %12.6g\n", walk, 24 - (int)strlen(walk), form,
+                        arithmetic, cycles, handovers);
     }
     if (!tsv) text_string(t, "\n");
 }
 
-static int near_vertices_measure(const bench_settings *settings, const char *name, const dataset *data, text *t)
+static int near_vertices_measure(const bench_settings *settings, const char *name,
+                                 const dataset *data, text *t)
 {
-    near_vertices s = {.settings = settings, .name = name, .data = data, .random = settings->common.seed};
+    near_vertices s = {
+        .settings = settings, .name = name, .data = data, .random = settings->common.seed};
     int end = near_vertices_prepare(&s);
     if (end == 0) end = near_vertices_run(&s);
     if (end == 0) near_vertices_print(&s, t);
@@ -180,7 +191,8 @@ static int near_vertices_measure(const bench_settings *settings, const char *nam
 
 /* --- the command ------------------------------------------------------------------------------ */
 
-static int near_vertices_measure_made(const bench_settings *settings, size_t i, size_t vertices, text *t)
+static int near_vertices_measure_made(const bench_settings *settings, size_t i, size_t vertices,
+                                      text *t)
 {
     dataset data;
     if (!dataset_make(&data, sets[i], vertices, false, settings->common.seed)) return fail_memory();
@@ -192,7 +204,8 @@ static int near_vertices_measure_made(const bench_settings *settings, size_t i, 
 static int near_vertices_check_settings(const bench_settings *s)
 {
     if (s->format == FORMAT_JSON || s->plot || s->data || s->enclose != ENCLOSE_AUTO) {
-        complain("bench near-vertices makes its own points and prints them with --format table or tsv");
+        complain(
+            "bench near-vertices makes its own points and prints them with --format table or tsv");
         return END_USAGE;
     }
     if (s->no_times) {
@@ -224,8 +237,10 @@ int bench_near_vertices(const bench_settings *s, const char *set)
     if (end == 0 && s->sizes) end = word_list_sizes(s->sizes, &sizes);
     if (end == 0) end = files_try_output(s->common.output, NULL);
     if (end == 0 && s->format == FORMAT_TSV)
-        text_string(&t, "dataset\tvertices\twalk\tarithmetic\tqueries\tcycles\thandovers\tcycles_per_million\t"
-                        "handovers_per_million\n");
+        text_string(
+            &t,
+            "dataset\tvertices\twalk\tarithmetic\tqueries\tcycles\thandovers\tcycles_per_million\t"
+            "handovers_per_million\n");
     for (size_t i = 0; i < SETS; i++)
         for (size_t k = 0; k < sizes.count && end == 0 && (!set || i == only); k++)
             end = near_vertices_measure_made(s, i, sizes.size[k], &t);

@@ -24,7 +24,8 @@ static bool paper_encloses(const paper *p)
 
 /* One set, by the walks of the table, or by another one, whose name the result bears; nothing is
  * published for that. */
-static int paper_run_walk(paper *p, const dataset *data, const char *set, const char *walk, bool users_file)
+static int paper_run_walk(paper *p, const dataset *data, const char *set, const char *walk,
+                          bool users_file)
 {
     char name[256];
     snprintf(name, sizeof name, walk ? "%.200s-%s" : "%.200s", set, walk ? walk : "");
@@ -68,7 +69,8 @@ static int paper_run_points(paper *p, const size_t *sizes)
     for (int kind = 0; kind < DATASET_KINDS; kind++)
         for (size_t i = 0; i < MOST_SIZES && sizes[i] && p->table->sets >> kind & 1; i++) {
             dataset data;
-            if (!dataset_make(&data, (dataset_kind)kind, sizes[i], paper_encloses(p), p->settings->common.seed))
+            if (!dataset_make(&data, (dataset_kind)kind, sizes[i], paper_encloses(p),
+                              p->settings->common.seed))
                 return fail_memory();
             end = paper_run_set(p, &data, dataset_name(kind), false);
             dataset_release(&data);
@@ -178,7 +180,8 @@ int bench_paper(const bench_settings *s, const char *name)
     int end = paper_check_walk(&p);
     if (end == 0) end = paper_plot_check(s, table);
     if (end == 0 && table->subject != PAPER_POINTS && s->enclose == ENCLOSE_YES) {
-        complain("bench paper: the sets of %s are meshes, which --enclose does not change", table->name);
+        complain("bench paper: the sets of %s are meshes, which --enclose does not change",
+                 table->name);
         end = END_USAGE;
     }
     if (end == 0 && s->sizes) end = word_list_sizes(s->sizes, &sizes);

@@ -10,7 +10,9 @@
 double paper_published_of(const paper *p, const paper_result *r, const algorithm *a, quantity q)
 {
     if (r->model) return published_value(p->table->name, r->model, r->model_vertices, a->name, q);
-    return r->users_file ? NAN : published_value(p->table->name, r->dataset, r->outcome.vertices, a->name, q);
+    return r->users_file
+               ? NAN
+               : published_value(p->table->name, r->dataset, r->outcome.vertices, a->name, q);
 }
 
 double paper_published(const paper *p, const paper_result *r, size_t i, quantity q)
@@ -20,8 +22,9 @@ double paper_published(const paper *p, const paper_result *r, size_t i, quantity
 
 double paper_sum(const paper *p, const paper_result *r, size_t i, int which, bool published)
 {
-    static const quantity parts[2][6] = {{TRIANGLES_INIT, TRIANGLES, TRIANGLES_FINAL, TRIANGLES_BORDER, QUANTITIES},
-                                         {ORIENT_INIT, ORIENT, ORIENT_FINAL, ORIENT_BORDER, IMPLICIT, COMPARISONS}};
+    static const quantity parts[2][6] = {
+        {TRIANGLES_INIT, TRIANGLES, TRIANGLES_FINAL, TRIANGLES_BORDER, QUANTITIES},
+        {ORIENT_INIT, ORIENT, ORIENT_FINAL, ORIENT_BORDER, IMPLICIT, COMPARISONS}};
     const char *name = p->table->algorithms[i]->name;
     double all = 0, printed = 0;
     bool some = false;

@@ -33,7 +33,8 @@ static const struct {
 /* Other sizes look like land registers: border edges and holes as these have in the mean. */
 static domain_shape usual_shape(size_t vertices)
 {
-    domain_shape shape = {vertices, (size_t)(3.4 * sqrt((double)vertices)), vertices / 1200 + (vertices >= 100), 0.65};
+    domain_shape shape = {vertices, (size_t)(3.4 * sqrt((double)vertices)),
+                          vertices / 1200 + (vertices >= 100), 0.65};
     if (shape.border_edges > vertices) shape.border_edges = vertices;
     return shape;
 }
@@ -61,7 +62,8 @@ static bool measured_domain_take_corners(measured_domain *d)
         uint32_t v[3];
         mw_mesh_triangle(d->mesh, i, v);
         for (size_t k = 0; k < 3; k++) {
-            if (!used[v[k]]) mw_mesh_vertex(d->mesh, v[k], d->corners.points + 2 * d->corners.count++);
+            if (!used[v[k]])
+                mw_mesh_vertex(d->mesh, v[k], d->corners.points + 2 * d->corners.count++);
             used[v[k]] = true;
         }
     }
@@ -78,7 +80,8 @@ static int measured_domain_describe(measured_domain *d, const char *name)
         return END_INPUT;
     }
     if (mw_mesh_describe(d->mesh, NULL, &d->info, &error) != MW_OK ||
-        mw_delaunay(d->corners.points, d->corners.count, 2, NULL, NULL, NULL, &d->hull, &error) != MW_OK)
+        mw_delaunay(d->corners.points, d->corners.count, 2, NULL, NULL, NULL, &d->hull, &error) !=
+            MW_OK)
         return fail_mesh(name, &error);
     return 0;
 }
@@ -100,11 +103,12 @@ static int paper_add_domain(paper *p, const measured_domain *d, const char *name
     return 0;
 }
 
-static int paper_measure_domain_row(paper *p, const measured_domain *d, const char *domain, bool users_file,
-                                    bool in_hull, bool sampled)
+static int paper_measure_domain_row(paper *p, const measured_domain *d, const char *domain,
+                                    bool users_file, bool in_hull, bool sampled)
 {
     char name[256];
-    snprintf(name, sizeof name, "%.230s-%s-%s", domain, in_hull ? "hull" : "mesh", sampled ? "sample" : "random");
+    snprintf(name, sizeof name, "%.230s-%s-%s", domain, in_hull ? "hull" : "mesh",
+             sampled ? "sample" : "random");
     walk_trial t = paper_trial(p, name, &d->corners, users_file);
     t.mesh = d->mesh;
     t.place = in_hull ? d->hull : NULL;
@@ -130,7 +134,8 @@ static int paper_measure_domain_shape(paper *p, const char *name, const domain_s
     measured_domain d = {0};
     mw_error error;
     progress_phase("making the domain", name);
-    if (domain_make(shape, p->settings->common.seed, &d.mesh, &error) != MW_OK) return fail_mesh(name, &error);
+    if (domain_make(shape, p->settings->common.seed, &d.mesh, &error) != MW_OK)
+        return fail_mesh(name, &error);
     return paper_measure_domain(p, &d, name, false);
 }
 
@@ -148,7 +153,8 @@ int paper_domains_made(paper *p, const size_t *sizes)
     int end = 0;
     for (size_t i = 0; i < PUBLISHED_DOMAINS && !sizes[0] && end == 0; i++)
         end = paper_measure_domain_shape(p, published[i].name, &published[i].shape);
-    for (size_t i = 0; i < MOST_SIZES && sizes[i] && end == 0; i++) end = paper_measure_domain_size(p, sizes[i]);
+    for (size_t i = 0; i < MOST_SIZES && sizes[i] && end == 0; i++)
+        end = paper_measure_domain_size(p, sizes[i]);
     return end;
 }
 

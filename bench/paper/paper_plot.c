@@ -20,14 +20,16 @@ static const char *table_label(const paper_table *table)
 {
     if (table->drawn == TIME_EXACT_US) return "microseconds per query, exact";
     if (table->drawn == TRIANGLES_FINAL) return "triangles of the final location per query";
-    return table_is_scaled(table) ? "triangles per query / square root of vertices" : "triangles per query";
+    return table_is_scaled(table) ? "triangles per query / square root of vertices"
+                                  : "triangles per query";
 }
 
 int paper_plot_check(const bench_settings *s, const paper_table *table)
 {
     if (!s->plot) return 0;
     if (table->drawn == TIME_EXACT_US && s->no_times) {
-        complain("bench paper: the plot of %s shows times; leave out --no-times or --plot", table->name);
+        complain("bench paper: the plot of %s shows times; leave out --no-times or --plot",
+                 table->name);
         return END_USAGE;
     }
     if (files_same_output(s->common.output, s->plot)) {
@@ -90,14 +92,16 @@ static plot_panel *result_panel(plot_panel *panels, size_t *count, const paper_r
     return &panels[(*count)++];
 }
 
-static size_t paper_group_panels(const paper *p, const paper_curve *curves, size_t curve_count, plot_panel *panels)
+static size_t paper_group_panels(const paper *p, const paper_curve *curves, size_t curve_count,
+                                 plot_panel *panels)
 {
     size_t count = 0;
     for (size_t k = 0; k < p->count; k++) {
         if (!result_is_drawn(p, &p->results[k])) continue;
         plot_panel *panel = result_panel(panels, &count, &p->results[k]);
         for (size_t i = 0; i < curve_count; i++)
-            panel->curve[i].point[panel->curve[i].count++] = result_point(p, &p->results[k], &curves[i]);
+            panel->curve[i].point[panel->curve[i].count++] =
+                result_point(p, &p->results[k], &curves[i]);
     }
     return count;
 }

@@ -8,7 +8,8 @@
 #include "cli/frame/message.h"
 #include "cli/frame/progress.h"
 
-static int paper_measure_arrays(paper *p, const mw_arrays *arrays, const char *name, bool users_file)
+static int paper_measure_arrays(paper *p, const mw_arrays *arrays, const char *name,
+                                bool users_file)
 {
     return p->table->subject == PAPER_STARS ? paper_star(p, arrays, name, users_file)
                                             : paper_probe(p, arrays, name, users_file);
@@ -20,7 +21,8 @@ static int paper_measure_made(paper *p, polyhedron_kind kind, size_t size)
     polyhedron made;
     const char *name = polyhedron_name((int)kind);
     progress_phase("making the polyhedron", name);
-    if (polyhedron_make(&made, kind, size, p->settings->common.seed, &error) != MW_OK) return fail_mesh(name, &error);
+    if (polyhedron_make(&made, kind, size, p->settings->common.seed, &error) != MW_OK)
+        return fail_mesh(name, &error);
     mw_arrays arrays = polyhedron_arrays(&made);
     int end = paper_measure_arrays(p, &arrays, name, false);
     polyhedron_release(&made);
@@ -32,8 +34,9 @@ int paper_polyhedra_stars(paper *p, const size_t *sizes)
 {
     int end = 0;
     for (size_t i = 0; i < MOST_SIZES && sizes[i] && end == 0; i++)
-        end = paper_measure_made(p, polyhedron_is_icosahedron(sizes[i]) ? POLYHEDRON_ICOSAHEDRON : POLYHEDRON_STAR,
-                                 sizes[i]);
+        end = paper_measure_made(
+            p, polyhedron_is_icosahedron(sizes[i]) ? POLYHEDRON_ICOSAHEDRON : POLYHEDRON_STAR,
+            sizes[i]);
     return end;
 }
 
@@ -42,7 +45,8 @@ int paper_polyhedra_surfaces(paper *p, const size_t *sizes)
     static const polyhedron_kind kinds[] = {POLYHEDRON_BUMPS, POLYHEDRON_KNOT};
     int end = 0;
     for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++)
-        for (size_t i = 0; i < MOST_SIZES && sizes[i] && end == 0; i++) end = paper_measure_made(p, kinds[k], sizes[i]);
+        for (size_t i = 0; i < MOST_SIZES && sizes[i] && end == 0; i++)
+            end = paper_measure_made(p, kinds[k], sizes[i]);
     return end;
 }
 

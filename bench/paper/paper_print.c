@@ -28,27 +28,36 @@ static bool paper_has_spread(const paper *p)
     return p->settings->seeds > 1;
 }
 
-static void paper_each_quantity(const paper *p, const paper_result *r, const algorithm *a, const double *value,
-                                const double *spread, uint64_t which, text *t, paper_figure_print *print)
+static void paper_each_quantity(const paper *p, const paper_result *r, const algorithm *a,
+                                const double *value, const double *spread, uint64_t which, text *t,
+                                paper_figure_print *print)
 {
     for (quantity q = 0; q < QUANTITIES; q++) {
         if (!(which >> q & 1) || (quantity_is_time(q) && p->settings->no_times)) continue;
-        paper_figure f = {p, r, a, q, value_rounded(value[q]), paper_has_spread(p) ? value_rounded(spread[q]) : NAN,
-                          0, 0};
+        paper_figure f = {p,
+                          r,
+                          a,
+                          q,
+                          value_rounded(value[q]),
+                          paper_has_spread(p) ? value_rounded(spread[q]) : NAN,
+                          0,
+                          0};
         f.published = paper_published_of(p, r, a, q);
         f.ratio = f.published > 0 ? value_rounded(f.ours / f.published) : NAN;
         print(t, &f);
     }
 }
 
-static void paper_each_figure(const paper *p, const paper_result *r, text *t, paper_figure_print *print)
+static void paper_each_figure(const paper *p, const paper_result *r, text *t,
+                              paper_figure_print *print)
 {
     const paper_table *table = p->table;
     for (size_t i = 0; r->walks && table->algorithms[i]; i++)
-        paper_each_quantity(p, r, table->algorithms[i], r->outcome.value[i], r->spread.value[i], table->quantities, t,
-                            print);
+        paper_each_quantity(p, r, table->algorithms[i], r->outcome.value[i], r->spread.value[i],
+                            table->quantities, t, print);
     if (r->whole)
-        paper_each_quantity(p, r, table->whole, r->outcome.whole, r->spread.whole, table->whole_quantities, t, print);
+        paper_each_quantity(p, r, table->whole, r->outcome.whole, r->spread.whole,
+                            table->whole_quantities, t, print);
 }
 
 /* --format tsv */
@@ -62,8 +71,10 @@ static void print_tsv_number(text *t, double value)
 static void print_tsv_line(text *t, const paper_figure *f)
 {
     text_printf(t, "%s\t", f->paper->table->name);
-    for (const char *c = f->result->dataset; *c; c++) text_bytes(t, *c == '\t' || *c == '\n' ? " " : c, 1);
-    text_printf(t, "\t%zu\t%s\t%s", f->result->outcome.vertices, f->algorithm->name, quantity_name(f->quantity));
+    for (const char *c = f->result->dataset; *c; c++)
+        text_bytes(t, *c == '\t' || *c == '\n' ? " " : c, 1);
+    text_printf(t, "\t%zu\t%s\t%s", f->result->outcome.vertices, f->algorithm->name,
+                quantity_name(f->quantity));
     print_tsv_number(t, f->ours);
     print_tsv_number(t, f->published);
     print_tsv_number(t, f->ratio);
@@ -85,10 +96,11 @@ static void print_json_number(text *t, const char *name, double value)
 static void print_json_object(text *t, const paper_figure *f)
 {
     bool first = t->size == 1; /* nothing but the bracket */
-    text_printf(t, "%s\n {\"table\": \"%s\", \"dataset\": ", first ? "" : ",", f->paper->table->name);
+    text_printf(t, "%s\n {\"table\": \"%s\", \"dataset\": ", first ? "" : ",",
+                f->paper->table->name);
     report_quote(t, f->result->dataset);
-    text_printf(t, ", \"vertices\": %zu, \"algorithm\": \"%s\", \"quantity\": \"%s\"", f->result->outcome.vertices,
-                f->algorithm->name, quantity_name(f->quantity));
+    text_printf(t, ", \"vertices\": %zu, \"algorithm\": \"%s\", \"quantity\": \"%s\"",
+                f->result->outcome.vertices, f->algorithm->name, quantity_name(f->quantity));
     print_json_number(t, "ours", f->ours);
     print_json_number(t, "published", f->published);
     print_json_number(t, "ratio", f->ratio);
@@ -116,8 +128,8 @@ static void print_end_line(text *t)
 
 static int quantity_decimals(quantity q)
 {
-    if (q == LOCATOR_BYTES || q == MESH_TRIANGLES || q == MESH_BORDER_EDGES || q == MESH_HOLES || q == OPTIMAL ||
-        q == SAMPLE || q == FOUND_PER_MILLION)
+    if (q == LOCATOR_BYTES || q == MESH_TRIANGLES || q == MESH_BORDER_EDGES || q == MESH_HOLES ||
+        q == OPTIMAL || q == SAMPLE || q == FOUND_PER_MILLION)
         return 0;
     if (q == LARGEST_ANGLE) return 4;
     return q == CORRELATION || q == LOCATOR_SECONDS || q == TRIANGULATION_SECONDS ? 3 : 2;
@@ -129,7 +141,8 @@ static void print_table_line(text *t, const paper_figure *f)
     int decimals = quantity_decimals(f->quantity);
     if (f->ours == 0 && isnan(f->published)) return;
     if (f->quantity == LAYERS && strcmp(f->paper->table->start, "layers") != 0) return;
-    text_printf(t, "  %-26s %-4s %-21s", f->algorithm->name, f->algorithm->abbreviation, quantity_name(f->quantity));
+    text_printf(t, "  %-26s %-4s %-21s", f->algorithm->name, f->algorithm->abbreviation,
+                quantity_name(f->quantity));
     print_cell(t, 10, decimals, f->ours);
     if (paper_has_spread(f->paper)) print_cell(t, 10, decimals, f->spread);
     print_cell(t, 10, decimals, f->published);
@@ -147,13 +160,16 @@ static double proportion_triangles(const paper *p, const paper_result *r, size_t
 }
 static double proportion_tests(const paper *p, const paper_result *r, size_t i, bool published)
 {
-    return paper_sum(p, r, i, PAPER_TESTS, published) / paper_sum(p, r, i, PAPER_TRIANGLES, published);
+    return paper_sum(p, r, i, PAPER_TESTS, published) /
+           paper_sum(p, r, i, PAPER_TRIANGLES, published);
 }
-static double proportion_side_length(const paper *p, const paper_result *r, size_t i, bool published)
+static double proportion_side_length(const paper *p, const paper_result *r, size_t i,
+                                     bool published)
 {
     return published ? paper_published(p, r, i, SIDE_LENGTH) : r->outcome.value[i][SIDE_LENGTH];
 }
-static double proportion_time_in_doubles(const paper *p, const paper_result *r, size_t i, bool published)
+static double proportion_time_in_doubles(const paper *p, const paper_result *r, size_t i,
+                                         bool published)
 {
     return published ? paper_published(p, r, i, TIME_US) : r->outcome.value[i][TIME_US];
 }
@@ -167,8 +183,10 @@ static const struct {
     const char *name;
     quantity needs; /* a quantity that the table has, and measures */
 } proportions[] = {
-    {proportion_triangles, "triangles", TRIANGLES},       {proportion_tests, "tests per triangle", ORIENT},
-    {proportion_side_length, "side length", SIDE_LENGTH}, {proportion_time_in_doubles, "time", TIME_US},
+    {proportion_triangles, "triangles", TRIANGLES},
+    {proportion_tests, "tests per triangle", ORIENT},
+    {proportion_side_length, "side length", SIDE_LENGTH},
+    {proportion_time_in_doubles, "time", TIME_US},
     {proportion_time_exact, "exact time", TIME_EXACT_US},
 };
 #define PROPORTIONS (sizeof proportions / sizeof *proportions)
@@ -180,7 +198,8 @@ static size_t proportion_reference(const paper_table *table)
     return i;
 }
 
-static double proportion_value(const paper *p, const paper_result *r, size_t i, paper_proportion *of, bool published)
+static double proportion_value(const paper *p, const paper_result *r, size_t i,
+                               paper_proportion *of, bool published)
 {
     return of(p, r, i, published) / of(p, r, proportion_reference(p->table), published);
 }
@@ -201,12 +220,13 @@ static void print_range(text *t, const paper *p, size_t i, paper_proportion *of)
     if (least <= most) text_printf(t, "  %.3f to %.3f", least, most);
 }
 
-static void print_proportion_line(text *t, const paper *p, const paper_result *r, size_t i, size_t k)
+static void print_proportion_line(text *t, const paper *p, const paper_result *r, size_t i,
+                                  size_t k)
 {
     double ours = proportion_value(p, r, i, proportions[k].of, false);
     double published = proportion_value(p, r, i, proportions[k].of, true);
-    text_printf(t, "  %-26s %-4s %-21s", p->table->algorithms[i]->name, p->table->algorithms[i]->abbreviation,
-                proportions[k].name);
+    text_printf(t, "  %-26s %-4s %-21s", p->table->algorithms[i]->name,
+                p->table->algorithms[i]->abbreviation, proportions[k].name);
     print_cell(t, 10, 3, ours);
     if (paper_has_spread(p)) print_cell(t, 10, 3, NAN);
     if (r->users_file) {
@@ -228,7 +248,8 @@ static bool paper_has_range(const paper *p)
     const char *set;
     size_t vertices;
     return published_real(p->table->name, 0, &set, &vertices) &&
-           !isnan(published_value(p->table->name, set, vertices, p->table->reference->name, TRIANGLES));
+           !isnan(published_value(p->table->name, set, vertices, p->table->reference->name,
+                                  TRIANGLES));
 }
 
 static void paper_print_proportions(text *t, const paper *p, const paper_result *r)
@@ -239,7 +260,8 @@ static void paper_print_proportions(text *t, const paper *p, const paper_result 
                     : "");
     for (size_t k = 0; k < PROPORTIONS; k++)
         for (size_t i = 0; paper_has(p, proportions[k].needs) && p->table->algorithms[i]; i++)
-            if (p->table->algorithms[i] != p->table->reference) print_proportion_line(t, p, r, i, k);
+            if (p->table->algorithms[i] != p->table->reference)
+                print_proportion_line(t, p, r, i, k);
 }
 
 static void paper_print_local_optima(text *t, const paper *p, const paper_result *r)
@@ -251,15 +273,19 @@ static void paper_print_local_optima(text *t, const paper *p, const paper_result
 
 static bool paper_is_stand_in(const paper_result *r)
 {
-    return !r->users_file && (strcmp(r->dataset, "cadastre") == 0 || strcmp(r->dataset, "lidar") == 0);
+    return !r->users_file &&
+           (strcmp(r->dataset, "cadastre") == 0 || strcmp(r->dataset, "lidar") == 0);
 }
 
 static void paper_print_table(text *t, const paper *p)
 {
-    text_printf(t, "%s: %s\n%" PRIu64 " queries on each set, from %s; means per query, times in microseconds\n",
+    text_printf(t,
+                "%s: %s\n%" PRIu64
+                " queries on each set, from %s; means per query, times in microseconds\n",
                 p->table->name, p->table->title, p->queries, p->table->from);
     if (paper_has_spread(p))
-        text_printf(t, "means over %" PRIu32 " seeds, and the standard deviation of one\n", p->settings->seeds);
+        text_printf(t, "means over %" PRIu32 " seeds, and the standard deviation of one\n",
+                    p->settings->seeds);
     for (size_t i = 0; i < p->count; i++) {
         const paper_result *r = &p->results[i];
         text_printf(t, "\n%s, %zu vertices", r->dataset, r->outcome.vertices);
@@ -282,11 +308,13 @@ void paper_print(const paper *p, text *t)
     case FORMAT_TSV:
         text_string(t, "table\tdataset\tvertices\talgorithm\tquantity\tours\tpublished\tratio");
         text_string(t, paper_has_spread(p) ? "\tspread\n" : "\n");
-        for (size_t i = 0; i < p->count; i++) paper_each_figure(p, &p->results[i], t, print_tsv_line);
+        for (size_t i = 0; i < p->count; i++)
+            paper_each_figure(p, &p->results[i], t, print_tsv_line);
         break;
     case FORMAT_JSON:
         text_string(t, "[");
-        for (size_t i = 0; i < p->count; i++) paper_each_figure(p, &p->results[i], t, print_json_object);
+        for (size_t i = 0; i < p->count; i++)
+            paper_each_figure(p, &p->results[i], t, print_json_object);
         text_string(t, "\n]\n");
         break;
     default: paper_print_table(t, p);

@@ -53,8 +53,8 @@ static void probe_measurement_release(probe_measurement *s)
 }
 
 /* Its corners, its normal as long as twice its area. */
-static void probe_measurement_corners(const probe_measurement *s, uint32_t triangle, double corner[3][3],
-                                      double normal[3])
+static void probe_measurement_corners(const probe_measurement *s, uint32_t triangle,
+                                      double corner[3][3], double normal[3])
 {
     uint32_t v[3];
     double u[3], w[3];
@@ -64,7 +64,8 @@ static void probe_measurement_corners(const probe_measurement *s, uint32_t trian
         u[k] = corner[1][k] - corner[0][k];
         w[k] = corner[2][k] - corner[0][k];
     }
-    for (size_t k = 0; k < 3; k++) normal[k] = u[(k + 1) % 3] * w[(k + 2) % 3] - u[(k + 2) % 3] * w[(k + 1) % 3];
+    for (size_t k = 0; k < 3; k++)
+        normal[k] = u[(k + 1) % 3] * w[(k + 2) % 3] - u[(k + 2) % 3] * w[(k + 1) % 3];
 }
 
 static double motion_length(const double a[3])
@@ -105,7 +106,9 @@ static int probe_measurement_prepare(probe_measurement *s, const mw_surface_info
     s->answers = malloc(BLOCK * sizeof *s->answers);
     s->touches = malloc(BLOCK * sizeof *s->touches);
     if (!s->queries || !s->answers || !s->touches) return fail_memory();
-    return mw_prober_create(s->surface, &options, &s->prober, &error) == MW_OK ? 0 : fail_mesh(s->name, &error);
+    return mw_prober_create(s->surface, &options, &s->prober, &error) == MW_OK
+               ? 0
+               : fail_mesh(s->name, &error);
 }
 
 /* --- queries */
@@ -117,19 +120,22 @@ static void probe_measurement_draw_point(probe_measurement *s, double point[3], 
     do {
         probe_measurement_corners(s, (uint32_t)(dataset_unit(&s->random) * count), corner, normal);
     } while (!normal_is_usable(normal));
-    double a = dataset_unit(&s->random), b = dataset_unit(&s->random), length = motion_length(normal);
+    double a = dataset_unit(&s->random), b = dataset_unit(&s->random),
+           length = motion_length(normal);
     if (a + b > 1) {
         a = 1 - a;
         b = 1 - b;
     }
     for (size_t k = 0; k < 3; k++) {
-        point[k] = corner[0][k] + a * (corner[1][k] - corner[0][k]) + b * (corner[2][k] - corner[0][k]);
+        point[k] =
+            corner[0][k] + a * (corner[1][k] - corner[0][k]) + b * (corner[2][k] - corner[0][k]);
         normal[k] /= length;
     }
 }
 
 /* Uniform among the directions against the normal. */
-static void probe_measurement_deviate(probe_measurement *s, const double normal[3], double motion[3])
+static void probe_measurement_deviate(probe_measurement *s, const double normal[3],
+                                      double motion[3])
 {
     double along;
     do {
@@ -164,7 +170,8 @@ static mw_probe_options paper_probe_options(const probe_measurement *s)
 }
 
 /* What a complete search finds. */
-static int probe_measurement_search(probe_measurement *s, const double *queries, size_t n, mw_touch *found)
+static int probe_measurement_search(probe_measurement *s, const double *queries, size_t n,
+                                    mw_touch *found)
 {
     mw_error error;
     mw_probe_options options = paper_probe_options(s);
@@ -195,7 +202,8 @@ static int probe_measurement_draw(probe_measurement *s, size_t n)
         if (end) return end;
         for (size_t i = 0; i < more; i++) {
             bool touches = s->touches[i].state == MW_TOUCH_HIT;
-            if ((variant == ON_SURFACE && !touches) || (variant == OFF_SURFACE && touches)) continue;
+            if ((variant == ON_SURFACE && !touches) || (variant == OFF_SURFACE && touches))
+                continue;
             memmove(s->queries + 6 * found, queries + 6 * i, 6 * sizeof *queries);
             s->answers[found++] = s->touches[i];
         }
@@ -214,16 +222,19 @@ static int probe_measurement_compare(const probe_measurement *s, size_t n)
         const double *q = s->queries + 6 * i;
         double slack = 1e-9 * s->distance;
         if (a->state == MW_TOUCH_LIMIT) continue;
-        if (a->state == MW_TOUCH_HIT && b->state == MW_TOUCH_HIT && fabs(a->distance) >= fabs(b->distance) - slack)
+        if (a->state == MW_TOUCH_HIT && b->state == MW_TOUCH_HIT &&
+            fabs(a->distance) >= fabs(b->distance) - slack)
             continue;
-        complain("%s: a touch that a complete search does not find, from %.17g %.17g %.17g along %.17g %.17g %.17g",
+        complain("%s: a touch that a complete search does not find, from %.17g %.17g %.17g along "
+                 "%.17g %.17g %.17g",
                  s->name, q[0], q[1], q[2], q[3], q[4], q[5]);
         return END_RESOURCE;
     }
     return 0;
 }
 
-static void probe_measurement_take_counts(const mw_probe_counters *c, uint32_t samples, double value[QUANTITIES])
+static void probe_measurement_take_counts(const mw_probe_counters *c, uint32_t samples,
+                                          double value[QUANTITIES])
 {
     double queries = (double)c->queries;
     value[SAMPLE] = samples;
@@ -250,7 +261,8 @@ static int probe_measurement_count(probe_measurement *s, walk_outcome *o)
         size_t n = queries - done < BLOCK ? (size_t)(queries - done) : BLOCK;
         int end = probe_measurement_draw(s, n);
         if (end) return end;
-        if (mw_probe_batch(s->prober, s->queries, n, 6, &options, s->touches, &counters, &error) != MW_OK)
+        if (mw_probe_batch(s->prober, s->queries, n, 6, &options, s->touches, &counters, &error) !=
+            MW_OK)
             return fail_mesh(s->name, &error);
         mw_probe_counters_add(&sum, &counters);
         end = probe_measurement_compare(s, n);
@@ -262,17 +274,20 @@ static int probe_measurement_count(probe_measurement *s, walk_outcome *o)
     return 0;
 }
 
-static int probe_measurement_time_share(void *self, size_t entry, size_t begin, size_t n, double *time)
+static int probe_measurement_time_share(void *self, size_t entry, size_t begin, size_t n,
+                                        double *time)
 {
     probe_measurement *s = self;
     mw_error error;
     mw_probe_cursor cursor;
     mw_probe_options options = paper_probe_options(s);
     options.seed += begin + entry;
-    if (mw_probe_cursor_init(s->prober, &options, &cursor, &error) != MW_OK) return fail_mesh(s->name, &error);
+    if (mw_probe_cursor_init(s->prober, &options, &cursor, &error) != MW_OK)
+        return fail_mesh(s->name, &error);
     const double *q = s->queries + 6 * begin;
     double clock = monotonic_seconds();
-    for (size_t i = 0; i < n; i++) s->touches[i] = mw_probe(s->prober, &cursor, q + 6 * i, q + 6 * i + 3);
+    for (size_t i = 0; i < n; i++)
+        s->touches[i] = mw_probe(s->prober, &cursor, q + 6 * i, q + 6 * i + 3);
     *time = 1e6 * (monotonic_seconds() - clock) / (double)n;
     return 0;
 }
@@ -282,7 +297,9 @@ static int probe_measurement_time(probe_measurement *s, walk_outcome *o)
     size_t share = query_rounds_share(s->paper->queries);
     int end = probe_measurement_draw(s, TIMED_ROUNDS * share);
     progress_phase("timing", s->name);
-    return end ? end : query_rounds_measure(1, share, probe_measurement_time_share, s, &o->value[0][TIME_EXACT_US]);
+    return end ? end
+               : query_rounds_measure(1, share, probe_measurement_time_share, s,
+                                      &o->value[0][TIME_EXACT_US]);
 }
 
 /* --- surfaces */
@@ -324,7 +341,8 @@ int paper_probe(paper *p, const mw_arrays *arrays, const char *name, bool users_
         mw_surface_destroy(surface);
         return fail_mesh(name, &error);
     }
-    probe_measurement s = {.paper = p, .name = name, .surface = surface, .random = ~p->settings->common.seed};
+    probe_measurement s = {
+        .paper = p, .name = name, .surface = surface, .random = ~p->settings->common.seed};
     r->walks = r->whole = true;
     r->outcome.vertices = info.vertices - info.unused_vertices;
     r->outcome.whole[MESH_TRIANGLES] = info.triangles;

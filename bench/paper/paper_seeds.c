@@ -10,7 +10,8 @@ static void seeds_take(double *mean, double *spread, size_t stride, size_t seeds
     double sum = 0, squares = 0;
     for (size_t i = 0; i < seeds; i++) sum += *(const double *)(const void *)(first + i * stride);
     sum /= (double)seeds;
-    for (size_t i = 0; i < seeds; i++) squares += pow(*(const double *)(const void *)(first + i * stride) - sum, 2);
+    for (size_t i = 0; i < seeds; i++)
+        squares += pow(*(const double *)(const void *)(first + i * stride) - sum, 2);
     *mean = sum;
     *spread = sqrt(squares / (double)(seeds > 1 ? seeds - 1 : 1));
 }

@@ -40,7 +40,8 @@ static const algorithm *star_measurement_algorithm(const star_measurement *s, si
 static mw_star_start_kind star_measurement_start(const star_measurement *s, size_t i)
 {
     const char *start = s->paper->table->start;
-    return mw_star_start_by_name(strcmp(start, "index") == 0 ? star_measurement_algorithm(s, i)->name : start);
+    return mw_star_start_by_name(
+        strcmp(start, "index") == 0 ? star_measurement_algorithm(s, i)->name : start);
 }
 
 static void star_measurement_release(star_measurement *s)
@@ -72,7 +73,8 @@ static int star_measurement_prepare(star_measurement *s, uint32_t elements)
     if (!s->queries || !s->answers || !s->locations) return fail_memory();
     for (size_t i = 0; i < s->algorithms; i++)
         if (mw_star_start_has_index(star_measurement_start(s, i)) &&
-            mw_star_index_create(s->star, star_measurement_start(s, i), &options, &s->index[i], &error) != MW_OK)
+            mw_star_index_create(s->star, star_measurement_start(s, i), &options, &s->index[i],
+                                 &error) != MW_OK)
             return fail_mesh(s->name, &error);
     return 0;
 }
@@ -104,25 +106,28 @@ static int star_measurement_compare(const star_measurement *s, size_t n, const c
         const mw_location *a = &s->locations[i], *b = &s->answers[i];
         const double *q = s->queries + 3 * i;
         if (a->triangle == b->triangle && a->where == b->where) continue;
-        complain("%s: the walks %s and auto found different facets towards %.17g %.17g %.17g", s->name, walk, q[0],
-                 q[1], q[2]);
+        complain("%s: the walks %s and auto found different facets towards %.17g %.17g %.17g",
+                 s->name, walk, q[0], q[1], q[2]);
         return END_RESOURCE;
     }
     return 0;
 }
 
-static int star_measurement_count_block(star_measurement *s, size_t n, uint64_t block, mw_counters *sums)
+static int star_measurement_count_block(star_measurement *s, size_t n, uint64_t block,
+                                        mw_counters *sums)
 {
     mw_error error;
     mw_star_query_options automatic = {.threads = s->paper->settings->common.threads};
-    if (mw_star_locate_batch(s->star, s->queries, n, 3, &automatic, s->answers, NULL, &error) != MW_OK)
+    if (mw_star_locate_batch(s->star, s->queries, n, 3, &automatic, s->answers, NULL, &error) !=
+        MW_OK)
         return fail_mesh(s->name, &error);
     for (size_t i = 0; i < s->algorithms; i++) {
         mw_counters counters;
         mw_star_query_options options = paper_star_options(s, i);
         options.counters = 1;
         options.seed += block; /* other random numbers in each block */
-        if (mw_star_locate_batch(s->star, s->queries, n, 3, &options, s->locations, &counters, &error) != MW_OK)
+        if (mw_star_locate_batch(s->star, s->queries, n, 3, &options, s->locations, &counters,
+                                 &error) != MW_OK)
             return fail_mesh(s->name, &error);
         mw_counters_add(&sums[i], &counters);
         int end = star_measurement_compare(s, n, star_measurement_algorithm(s, i)->name);
@@ -171,7 +176,8 @@ static int star_measurement_count(star_measurement *s, walk_outcome *o)
         done += n;
         progress_points(done, (double)done / (double)queries);
     }
-    for (size_t i = 0; i < s->algorithms; i++) star_measurement_take_counts(s, i, &sums[i], o->value[i]);
+    for (size_t i = 0; i < s->algorithms; i++)
+        star_measurement_take_counts(s, i, &sums[i], o->value[i]);
     return 0;
 }
 
@@ -182,7 +188,8 @@ static int star_measurement_time_share(void *self, size_t i, size_t begin, size_
     mw_star_cursor cursor;
     mw_star_query_options options = paper_star_options(s, i);
     options.seed += begin;
-    if (mw_star_cursor_init(s->star, &options, &cursor, &error) != MW_OK) return fail_mesh(s->name, &error);
+    if (mw_star_cursor_init(s->star, &options, &cursor, &error) != MW_OK)
+        return fail_mesh(s->name, &error);
     const double *q = s->queries + 3 * begin;
     double clock = monotonic_seconds();
     for (size_t k = 0; k < n; k++) s->locations[k] = mw_star_locate(s->star, &cursor, q + 3 * k);
@@ -202,8 +209,8 @@ static int star_measurement_time(star_measurement *s, walk_outcome *o)
 }
 
 /* With an index of so many elements; 0: without one. */
-static int paper_measure_star(paper *p, const mw_surface *surface, const mw_star *star, const char *set,
-                              bool users_file, uint32_t elements)
+static int paper_measure_star(paper *p, const mw_surface *surface, const mw_star *star,
+                              const char *set, bool users_file, uint32_t elements)
 {
     char name[256];
     mw_star_info info;

@@ -7,25 +7,36 @@
 #include <string.h>
 #include <strings.h>
 
-static const algorithm remembering = {.name = "remembering", .abbreviation = "RW", .walk = "remembering"};
-static const algorithm stochastic = {.name = "stochastic", .abbreviation = "RSW", .walk = "stochastic"};
-static const algorithm barycentric = {.name = "barycentric", .abbreviation = "BW", .walk = "barycentric"};
+static const algorithm remembering = {
+    .name = "remembering", .abbreviation = "RW", .walk = "remembering"};
+static const algorithm stochastic = {
+    .name = "stochastic", .abbreviation = "RSW", .walk = "stochastic"};
+static const algorithm barycentric = {
+    .name = "barycentric", .abbreviation = "BW", .walk = "barycentric"};
 static const algorithm straight = {.name = "straight", .abbreviation = "SW", .walk = "straight"};
-static const algorithm normal_straight = {.name = "normal-straight", .abbreviation = "NSW", .walk = "normal-straight"};
-static const algorithm orthogonal = {.name = "orthogonal", .abbreviation = "OW", .walk = "orthogonal"};
+static const algorithm normal_straight = {
+    .name = "normal-straight", .abbreviation = "NSW", .walk = "normal-straight"};
+static const algorithm orthogonal = {
+    .name = "orthogonal", .abbreviation = "OW", .walk = "orthogonal"};
 static const algorithm improved_orthogonal = {
     .name = "improved-orthogonal", .abbreviation = "IOW", .walk = "improved-orthogonal"};
-static const algorithm improved_orthogonal_vertex = {
-    .name = "improved-orthogonal-vertex", .abbreviation = "IOW", .walk = "improved-orthogonal-vertex"};
+static const algorithm improved_orthogonal_vertex = {.name = "improved-orthogonal-vertex",
+                                                     .abbreviation = "IOW",
+                                                     .walk = "improved-orthogonal-vertex"};
 static const algorithm hybrid = {.name = "hybrid", .abbreviation = "HW", .walk = "hybrid"};
-static const algorithm direct_computed = {.name = "direct-dw2", .abbreviation = "DW2", .walk = "direct"};
-static const algorithm direct_stored = {
-    .name = "direct-dw1", .abbreviation = "DW1", .walk = "direct", .preparation = FILLED_WITH_AREAS};
+static const algorithm direct_computed = {
+    .name = "direct-dw2", .abbreviation = "DW2", .walk = "direct"};
+static const algorithm direct_stored = {.name = "direct-dw1",
+                                        .abbreviation = "DW1",
+                                        .walk = "direct",
+                                        .preparation = FILLED_WITH_AREAS};
 
 /* Appendix C, Table 2: the direct walk goes down through the layers at the vertex of the largest
  * coordinate; beside it, as the others do, at the nearest. */
-static const algorithm layers_computed = {
-    .name = "direct-dw2", .abbreviation = "DW2", .walk = "direct", .descent = MW_DESCENT_COORDINATE};
+static const algorithm layers_computed = {.name = "direct-dw2",
+                                          .abbreviation = "DW2",
+                                          .walk = "direct",
+                                          .descent = MW_DESCENT_COORDINATE};
 static const algorithm layers_stored = {.name = "direct-dw1",
                                         .abbreviation = "DW1",
                                         .walk = "direct",
@@ -39,26 +50,34 @@ static const algorithm layers_nearest = {.name = "direct-nearest",
 
 /* Appendix D: the mesh as it is; and beside it, on the same mesh with its pockets and holes filled,
  * two that need that. */
-static const algorithm border = {.name = "border", .abbreviation = "", .walk = "border", .preparation = UNFILLED};
-static const algorithm filled_straight = {.name = "straight-filled", .abbreviation = "", .walk = "straight"};
+static const algorithm border = {
+    .name = "border", .abbreviation = "", .walk = "border", .preparation = UNFILLED};
+static const algorithm filled_straight = {
+    .name = "straight-filled", .abbreviation = "", .walk = "straight"};
 static const algorithm filled_auto = {.name = "auto-filled", .abbreviation = "", .walk = "auto"};
 static const algorithm mesh = {.name = "mesh", .abbreviation = ""};
 
 /* Appendix E, Table 1: one walk in four triangulations. */
 static const algorithm delaunay = {.name = "delaunay", .abbreviation = "DT", .walk = "stochastic"};
-static const algorithm greedy = {.name = "greedy", .abbreviation = "GT", .walk = "stochastic", .kind = MW_KIND_GREEDY};
+static const algorithm greedy = {
+    .name = "greedy", .abbreviation = "GT", .walk = "stochastic", .kind = MW_KIND_GREEDY};
 static const algorithm min_weight = {
     .name = "min-weight", .abbreviation = "MWT", .walk = "stochastic", .kind = MW_KIND_MIN_WEIGHT};
-static const algorithm min_max_angle = {
-    .name = "min-max-angle", .abbreviation = "MMA", .walk = "stochastic", .kind = MW_KIND_MIN_MAX_ANGLE};
+static const algorithm min_max_angle = {.name = "min-max-angle",
+                                        .abbreviation = "MMA",
+                                        .walk = "stochastic",
+                                        .kind = MW_KIND_MIN_MAX_ANGLE};
 static const algorithm kinds = {.name = "kinds", .abbreviation = ""};
 
 /* Appendix F, Table 1; and Table 2, whose rows are ways to begin. */
 static const algorithm wu = {.name = "barycentric", .abbreviation = "WBW", .walk = "barycentric"};
-static const algorithm spatial_forgetful = {.name = "forgetful", .abbreviation = "RSW", .walk = "forgetful"};
-static const algorithm octahedron = {.name = "octahedron", .abbreviation = "WBW", .walk = "barycentric"};
+static const algorithm spatial_forgetful = {
+    .name = "forgetful", .abbreviation = "RSW", .walk = "forgetful"};
+static const algorithm octahedron = {
+    .name = "octahedron", .abbreviation = "WBW", .walk = "barycentric"};
 static const algorithm grid = {.name = "grid", .abbreviation = "OW", .walk = "orthogonal"};
-static const algorithm nonuniform_grid = {.name = "nonuniform-grid", .abbreviation = "OW", .walk = "orthogonal"};
+static const algorithm nonuniform_grid = {
+    .name = "nonuniform-grid", .abbreviation = "OW", .walk = "orthogonal"};
 
 /* Appendix G has one walk. */
 static const algorithm plane = {.name = "plane", .abbreviation = "", .walk = "plane"};
@@ -66,18 +85,20 @@ static const algorithm plane = {.name = "plane", .abbreviation = "", .walk = "pl
 #define SET(kind) (1u << DATASET_##kind)
 
 #define ONE(quantity) (UINT64_C(1) << (quantity))
-#define STAGES                                                                                                         \
-    (ONE(TRIANGLES_INIT) | ONE(TRIANGLES) | ONE(TRIANGLES_FINAL) | ONE(TRIANGLES_FINAL_MAX) | ONE(ORIENT_INIT) |       \
-     ONE(ORIENT) | ONE(ORIENT_FINAL) | ONE(IMPLICIT) | ONE(COMPARISONS) | ONE(LAYERS))
-#define STAR_STAGES                                                                                                    \
-    (ONE(TRIANGLES_INIT) | ONE(TRIANGLES) | ONE(TRIANGLES_FINAL) | ONE(ORIENT_INIT) | ONE(ORIENT) |                    \
-     ONE(ORIENT_FINAL) | ONE(COMPARISONS) | ONE(TIME_EXACT_US))
-#define PROBE_STAGES                                                                                                   \
-    (ONE(SAMPLE) | ONE(FOUND_PER_MILLION) | ONE(TRIANGLES) | ONE(TRIANGLES_WALK_MAX) | ONE(ORIENT) | ONE(ORIENT_MAX) | \
-     ONE(INTERSECTIONS) | ONE(ITERATIONS) | ONE(ITERATIONS_MAX) | ONE(TIME_EXACT_US))
-#define PROBE_SIZES                                                                                                    \
-    {                                                                                                                  \
-        154, 2904, 35946                                                                                               \
+#define STAGES                                                                                     \
+    (ONE(TRIANGLES_INIT) | ONE(TRIANGLES) | ONE(TRIANGLES_FINAL) | ONE(TRIANGLES_FINAL_MAX) |      \
+     ONE(ORIENT_INIT) | ONE(ORIENT) | ONE(ORIENT_FINAL) | ONE(IMPLICIT) | ONE(COMPARISONS) |       \
+     ONE(LAYERS))
+#define STAR_STAGES                                                                                \
+    (ONE(TRIANGLES_INIT) | ONE(TRIANGLES) | ONE(TRIANGLES_FINAL) | ONE(ORIENT_INIT) |              \
+     ONE(ORIENT) | ONE(ORIENT_FINAL) | ONE(COMPARISONS) | ONE(TIME_EXACT_US))
+#define PROBE_STAGES                                                                               \
+    (ONE(SAMPLE) | ONE(FOUND_PER_MILLION) | ONE(TRIANGLES) | ONE(TRIANGLES_WALK_MAX) |             \
+     ONE(ORIENT) | ONE(ORIENT_MAX) | ONE(INTERSECTIONS) | ONE(ITERATIONS) | ONE(ITERATIONS_MAX) |  \
+     ONE(TIME_EXACT_US))
+#define PROBE_SIZES                                                                                \
+    {                                                                                              \
+        154, 2904, 35946                                                                           \
     } /* those of the thesis' pawn, cow and bunny */
 #define TIMES (ONE(TIME_US) | ONE(TIME_EXACT_US))
 
@@ -130,8 +151,8 @@ static const paper_table tables[] = {
      .drawn = TRIANGLES},
     {.name = "C1",
      .title = "direct walk (App. C, Table 1)",
-     .algorithms = {&remembering, &stochastic, &barycentric, &straight, &improved_orthogonal, &direct_computed,
-                    &direct_stored},
+     .algorithms = {&remembering, &stochastic, &barycentric, &straight, &improved_orthogonal,
+                    &direct_computed, &direct_stored},
      .reference = &straight,
      .finish = "remembering",
      .start = "random",
@@ -143,7 +164,8 @@ static const paper_table tables[] = {
      .drawn = TRIANGLES},
     {.name = "C2",
      .title = "direct walk in layers (App. C, Table 2)",
-     .algorithms = {&remembering, &stochastic, &improved_orthogonal, &layers_computed, &layers_stored, &layers_nearest},
+     .algorithms = {&remembering, &stochastic, &improved_orthogonal, &layers_computed,
+                    &layers_stored, &layers_nearest},
      .reference = &remembering,
      .finish = "remembering",
      .start = "layers",
@@ -159,13 +181,15 @@ static const paper_table tables[] = {
      .reference = &filled_straight,
      .start = "random",
      .from = "random triangles, or the nearest of a sample",
-     .quantities = ONE(SAMPLE) | ONE(INSIDE_PERCENT) | ONE(WALK_RUNS) | ONE(TRIANGLES_INIT) | ONE(TRIANGLES) |
-                   ONE(TRIANGLES_FINAL) | ONE(ORIENT_INIT) | ONE(ORIENT) | ONE(ORIENT_FINAL) | ONE(TRIANGLES_WALK_MAX) |
-                   ONE(BORDER_RUNS) | ONE(TRIANGLES_BORDER) | ONE(ORIENT_BORDER) | ONE(TRIANGLES_BORDER_MAX) |
-                   ONE(BORDER_EDGES) | ONE(BORDER_EDGES_MAX) | ONE(TRIANGLES_TOTAL) | ONE(LOCATOR_BYTES) |
-                   ONE(LOCATOR_SECONDS) | TIMES,
+     .quantities = ONE(SAMPLE) | ONE(INSIDE_PERCENT) | ONE(WALK_RUNS) | ONE(TRIANGLES_INIT) |
+                   ONE(TRIANGLES) | ONE(TRIANGLES_FINAL) | ONE(ORIENT_INIT) | ONE(ORIENT) |
+                   ONE(ORIENT_FINAL) | ONE(TRIANGLES_WALK_MAX) | ONE(BORDER_RUNS) |
+                   ONE(TRIANGLES_BORDER) | ONE(ORIENT_BORDER) | ONE(TRIANGLES_BORDER_MAX) |
+                   ONE(BORDER_EDGES) | ONE(BORDER_EDGES_MAX) | ONE(TRIANGLES_TOTAL) |
+                   ONE(LOCATOR_BYTES) | ONE(LOCATOR_SECONDS) | TIMES,
      .whole = &mesh,
-     .whole_quantities = ONE(MESH_TRIANGLES) | ONE(MESH_BORDER_EDGES) | ONE(MESH_HOLES) | ONE(HULL_PERCENT),
+     .whole_quantities =
+         ONE(MESH_TRIANGLES) | ONE(MESH_BORDER_EDGES) | ONE(MESH_HOLES) | ONE(HULL_PERCENT),
      .subject = PAPER_DOMAINS,
      .drawn = TRIANGLES},
     {.name = "E1",
@@ -174,8 +198,8 @@ static const paper_table tables[] = {
      .reference = &delaunay,
      .start = "random",
      .from = "random triangles",
-     .quantities = ONE(TRIANGLES) | ONE(ORIENT) | ONE(EDGE_LENGTH) | ONE(SIDE_LENGTH) | ONE(LARGEST_ANGLE) |
-                   ONE(OPTIMAL) | ONE(TRIANGULATION_SECONDS),
+     .quantities = ONE(TRIANGLES) | ONE(ORIENT) | ONE(EDGE_LENGTH) | ONE(SIDE_LENGTH) |
+                   ONE(LARGEST_ANGLE) | ONE(OPTIMAL) | ONE(TRIANGULATION_SECONDS),
      .whole = &kinds,
      .whole_quantities = ONE(CORRELATION),
      .sets = SET(UNIFORM),
@@ -184,8 +208,8 @@ static const paper_table tables[] = {
      .drawn = TRIANGLES},
     {.name = "E2",
      .title = "survey of the walks (App. E, Table 2 and Fig. 12)",
-     .algorithms = {&remembering, &stochastic, &barycentric, &straight, &normal_straight, &orthogonal,
-                    &improved_orthogonal},
+     .algorithms = {&remembering, &stochastic, &barycentric, &straight, &normal_straight,
+                    &orthogonal, &improved_orthogonal},
      .reference = &straight,
      .finish = "stochastic",
      .start = "random",
@@ -266,7 +290,8 @@ static const paper_table tables[] = {
 const paper_table *paper_table_named(const char *name)
 {
     if (!name) {
-        complain("bench paper: which table? A1, A2, B1, B2, C1, C2, D1, E1, E2, F1, F2, G1, G2 or G3");
+        complain(
+            "bench paper: which table? A1, A2, B1, B2, C1, C2, D1, E1, E2, F1, F2, G1, G2 or G3");
         return NULL;
     }
     spelling s = spelling_of(name);
@@ -286,9 +311,12 @@ static const struct {
     quantity sum, more;
     double shared; /* triangles counted in both */
 } columns[] = {
-    {"A1", &straight, TRIANGLES, TRIANGLES_INIT, 1},         {"A1", &straight, ORIENT, ORIENT_INIT, 0},
-    {"A1", &normal_straight, TRIANGLES, TRIANGLES_FINAL, 0}, {"B1", &hybrid, TRIANGLES, TRIANGLES_INIT, 1},
-    {"B2", &hybrid, TRIANGLES, TRIANGLES_INIT, 1},           {"D1", &border, TRIANGLES_TOTAL, WALK_RUNS, 1},
+    {"A1", &straight, TRIANGLES, TRIANGLES_INIT, 1},
+    {"A1", &straight, ORIENT, ORIENT_INIT, 0},
+    {"A1", &normal_straight, TRIANGLES, TRIANGLES_FINAL, 0},
+    {"B1", &hybrid, TRIANGLES, TRIANGLES_INIT, 1},
+    {"B2", &hybrid, TRIANGLES, TRIANGLES_INIT, 1},
+    {"D1", &border, TRIANGLES_TOTAL, WALK_RUNS, 1},
     {"E2", &orthogonal, TRIANGLES, TRIANGLES_INIT, 1},
 };
 

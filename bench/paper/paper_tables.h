@@ -7,18 +7,26 @@
 
 /* What a table is about: points that are triangulated; planar meshes (App. D); star-shaped
  * polyhedra (App. F); surfaces (App. G). */
-typedef enum paper_subject { PAPER_POINTS, PAPER_DOMAINS, PAPER_STARS, PAPER_SURFACES } paper_subject;
+typedef enum paper_subject {
+    PAPER_POINTS,
+    PAPER_DOMAINS,
+    PAPER_STARS,
+    PAPER_SURFACES
+} paper_subject;
 
 typedef struct paper_table {
     const char *name, *title;
     const algorithm *algorithms[MOST_ALGORITHMS + 1]; /* NULL ends them */
-    const algorithm *reference;                       /* ratios between walks are taken to this one */
-    const char *finish;                               /* NULL: auto */
-    const char *start, *from;                         /* where walks begin: its name, and in words */
-    uint64_t quantities;                              /* 1 << quantity: those of each algorithm */
-    const algorithm *whole;                           /* NULL, or the name of what a set as a whole has, */
-    uint64_t whole_quantities;                        /* these */
-    unsigned sets;                                    /* 1 << dataset_kind */
+    /* ratios between walks are taken to this one */
+    const algorithm *reference;
+    const char *finish; /* NULL: auto */
+    /* where walks begin: its name, and in words */
+    const char *start, *from;
+    uint64_t quantities; /* 1 << quantity: those of each algorithm */
+    /* NULL, or the name of what a set as a whole has, */
+    const algorithm *whole;
+    uint64_t whole_quantities; /* these */
+    unsigned sets;             /* 1 << dataset_kind */
     size_t sizes[MOST_SIZES];
     paper_subject subject;
     bool enclosed; /* four corners are added to the points */

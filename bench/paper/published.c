@@ -19,8 +19,12 @@ typedef struct published_row {
 } published_row;
 
 static const published_row rows[] = {
-#define PUBLISHED(table, dataset, vertices, algorithm, ...)                                                            \
-    {#table,       dataset, vertices, algorithm, sizeof(published_cell[]){__VA_ARGS__} / sizeof(published_cell),       \
+#define PUBLISHED(table, dataset, vertices, algorithm, ...)                                        \
+    {#table,                                                                                       \
+     dataset,                                                                                      \
+     vertices,                                                                                     \
+     algorithm,                                                                                    \
+     sizeof(published_cell[]){__VA_ARGS__} / sizeof(published_cell),                               \
      {__VA_ARGS__}},
 #include "bench/paper/published.def"
 };
@@ -38,10 +42,12 @@ static bool published_row_is_about(const published_row *r, const char *table, co
     return strcmp(r->table, table) == 0 && strcmp(r->algorithm, walk) == 0;
 }
 
-double published_value(const char *table, const char *set, size_t vertices, const char *walk, quantity q)
+double published_value(const char *table, const char *set, size_t vertices, const char *walk,
+                       quantity q)
 {
     for (const published_row *r = rows; r < rows + ROWS; r++) {
-        if (!published_row_is_about(r, table, walk) || r->vertices != vertices || strcmp(r->dataset, set) != 0)
+        if (!published_row_is_about(r, table, walk) || r->vertices != vertices ||
+            strcmp(r->dataset, set) != 0)
             continue;
         const double *value = published_row_cell(r, q);
         return value ? *value : NAN;
@@ -68,7 +74,8 @@ static bool published_row_is_real(const published_row *r, const char *table)
 bool published_real(const char *table, size_t i, const char **set, size_t *vertices)
 {
     for (const published_row *r = rows; r < rows + ROWS; r++) {
-        bool again = r > rows && published_row_is_real(r - 1, table) && r[-1].vertices == r->vertices;
+        bool again =
+            r > rows && published_row_is_real(r - 1, table) && r[-1].vertices == r->vertices;
         if (!published_row_is_real(r, table) || again || i-- > 0) continue;
         *set = r->dataset;
         *vertices = r->vertices;

@@ -8,7 +8,8 @@
 
 /* The number that a table prints for an algorithm on a set of so many vertices; NaN where it prints
  * none. */
-double published_value(const char *table, const char *set, size_t vertices, const char *walk, quantity q);
+double published_value(const char *table, const char *set, size_t vertices, const char *walk,
+                       quantity q);
 
 /* Has the table a column of this quantity for the algorithm, whatever the data? */
 bool published_prints(const char *table, const char *walk, quantity q);

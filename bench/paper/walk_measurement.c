@@ -20,8 +20,9 @@ typedef struct walk_measurement {
     mw_mesh *mesh[MW_KIND_COUNT]; /* by kind of triangulation; one that was given is the first */
     mw_locator *locator[MW_KIND_COUNT][PREPARATIONS];
     double seconds[MW_KIND_COUNT][PREPARATIONS]; /* that it took to make them */
-    mw_locator *place;                           /* the queries are in its mesh; NULL: in that of the trial */
-    mw_index *index[DESCENTS];                   /* of layers, by descent */
+    /* the queries are in its mesh; NULL: in that of the trial */
+    mw_locator *place;
+    mw_index *index[DESCENTS]; /* of layers, by descent */
     double *queries;
     mw_location *answers, *locations;
     uint64_t random; /* of the queries */
@@ -49,8 +50,9 @@ static int walk_trial_fail(const walk_trial *t, const mw_error *error)
 static int make_locator(walk_measurement *s, mw_triangulation_kind kind, preparation how)
 {
     mw_error error;
-    mw_locator_options options = {
-        .areas = how == FILLED_WITH_AREAS, .fill = how == UNFILLED ? 2 : 1, .threads = s->trial->threads};
+    mw_locator_options options = {.areas = how == FILLED_WITH_AREAS,
+                                  .fill = how == UNFILLED ? 2 : 1,
+                                  .threads = s->trial->threads};
     if (s->locator[kind][how]) return 0;
     double clock = monotonic_seconds();
     if (mw_locator_create(s->mesh[kind], &options, &s->locator[kind][how], &error) != MW_OK)
@@ -63,9 +65,11 @@ static int make_locator(walk_measurement *s, mw_triangulation_kind kind, prepara
 static int make_layers(walk_measurement *s, mw_descent descent)
 {
     mw_error error;
-    mw_index_options options = {.layers = s->trial->layers, .descent = descent, .seed = s->trial->seed};
+    mw_index_options options = {
+        .layers = s->trial->layers, .descent = descent, .seed = s->trial->seed};
     if (s->index[descent]) return 0;
-    if (mw_index_create(s->locator[0][FILLED], MW_START_LAYERS, &options, &s->index[descent], &error) != MW_OK)
+    if (mw_index_create(s->locator[0][FILLED], MW_START_LAYERS, &options, &s->index[descent],
+                        &error) != MW_OK)
         return walk_trial_fail(s->trial, &error);
     return 0;
 }
@@ -103,12 +107,13 @@ static double border_length(const mw_mesh *mesh)
     return sum;
 }
 
-static void walk_outcome_take_kind(const walk_measurement *s, size_t i, const mw_kind_report *report, double seconds,
-                                   walk_outcome *o)
+static void walk_outcome_take_kind(const walk_measurement *s, size_t i,
+                                   const mw_kind_report *report, double seconds, walk_outcome *o)
 {
     double *value = o->value[i];
     value[EDGE_LENGTH] = report->edge_length;
-    value[SIDE_LENGTH] = 2 * report->edge_length - border_length(s->mesh[s->trial->algorithms[i]->kind]);
+    value[SIDE_LENGTH] =
+        2 * report->edge_length - border_length(s->mesh[s->trial->algorithms[i]->kind]);
     value[LARGEST_ANGLE] = report->largest_angle * (180 / acos(-1));
     value[OPTIMAL] = report->optimal;
     value[TRIANGULATION_SECONDS] = seconds;
@@ -125,8 +130,8 @@ static int walk_measurement_triangulate(walk_measurement *s, walk_outcome *o)
         mw_triangulation_kind kind = s->trial->algorithms[i]->kind;
         if (!s->mesh[kind]) {
             double clock = monotonic_seconds();
-            if (mw_triangulate(kind, data->points, data->count, 2, NULL, NULL, &report, &s->mesh[kind], &error) !=
-                MW_OK)
+            if (mw_triangulate(kind, data->points, data->count, 2, NULL, NULL, &report,
+                               &s->mesh[kind], &error) != MW_OK)
                 return walk_trial_fail(s->trial, &error);
             seconds = monotonic_seconds() - clock;
         }
@@ -156,8 +161,8 @@ static bool in_mesh(const mw_location *at)
 /* So many drawn in vain, beyond a thousand for each found, are no accident. */
 #define DRAWN_IN_VAIN 1000000
 
-static int walk_measurement_locate(walk_measurement *s, const mw_locator *locator, const double *queries, size_t n,
-                                   mw_location *found)
+static int walk_measurement_locate(walk_measurement *s, const mw_locator *locator,
+                                   const double *queries, size_t n, mw_location *found)
 {
     mw_error error;
     mw_query_options options = {.seed = s->trial->seed, .threads = s->trial->threads};
@@ -173,7 +178,8 @@ static int walk_measurement_draw(walk_measurement *s, size_t n)
     size_t found = 0, drawn = 0;
     while (found < n) {
         if (drawn > 1000 * found + DRAWN_IN_VAIN) {
-            complain("%s: the mesh fills less than a thousandth of the extent of its points", s->trial->name);
+            complain("%s: the mesh fills less than a thousandth of the extent of its points",
+                     s->trial->name);
             return END_INPUT;
         }
         size_t more = n - found;
@@ -182,13 +188,15 @@ static int walk_measurement_draw(walk_measurement *s, size_t n)
         int end = walk_measurement_locate(s, place, queries, more, s->locations);
         if (end) return end;
         for (size_t i = 0; i < more; i++)
-            if (in_mesh(&s->locations[i])) memmove(s->queries + 2 * found++, queries + 2 * i, 2 * sizeof *queries);
+            if (in_mesh(&s->locations[i]))
+                memmove(s->queries + 2 * found++, queries + 2 * i, 2 * sizeof *queries);
         drawn += more;
     }
     return 0;
 }
 
-static mw_query_options walk_options(const walk_measurement *s, const algorithm *a, mw_arithmetic arithmetic)
+static mw_query_options walk_options(const walk_measurement *s, const algorithm *a,
+                                     mw_arithmetic arithmetic)
 {
     return (mw_query_options){
         .walk = mw_walk_by_name(s->trial->walk ? s->trial->walk : a->walk),
@@ -212,10 +220,12 @@ static int walk_measurement_answer(walk_measurement *s, size_t i, size_t n)
 {
     const algorithm *const *algorithms = s->trial->algorithms;
     if (i > 0 && algorithms[i]->kind == algorithms[i - 1]->kind) return 0;
-    return walk_measurement_locate(s, s->locator[algorithms[i]->kind][FILLED], s->queries, n, s->answers);
+    return walk_measurement_locate(s, s->locator[algorithms[i]->kind][FILLED], s->queries, n,
+                                   s->answers);
 }
 
-static int walk_measurement_count_block(walk_measurement *s, size_t n, uint64_t block, mw_counters *sums)
+static int walk_measurement_count_block(walk_measurement *s, size_t n, uint64_t block,
+                                        mw_counters *sums)
 {
     mw_error error;
     for (size_t i = 0; i < s->algorithms; i++) {
@@ -224,11 +234,13 @@ static int walk_measurement_count_block(walk_measurement *s, size_t n, uint64_t 
         mw_query_options options = walk_options(s, a, MW_EXACT);
         options.counters = 1;
         options.seed = s->trial->seed + block; /* other random numbers in each block */
-        if (mw_locate_batch(locator_for(s, a), s->queries, n, 2, &options, s->locations, &counters, &error) != MW_OK)
+        if (mw_locate_batch(locator_for(s, a), s->queries, n, 2, &options, s->locations, &counters,
+                            &error) != MW_OK)
             return walk_trial_fail(s->trial, &error);
         mw_counters_add(&sums[i], &counters);
         int end = walk_measurement_answer(s, i, n);
-        locations_pair pair = {s->trial->walk ? s->trial->walk : a->walk, "auto", s->locations, s->answers};
+        locations_pair pair = {s->trial->walk ? s->trial->walk : a->walk, "auto", s->locations,
+                               s->answers};
         if (end == 0) end = locations_compare(s->trial->name, s->queries, n, &pair);
         if (end) return end;
     }
@@ -265,7 +277,8 @@ static void walk_outcome_take_means(const mw_counters *c, double value[QUANTITIE
     value[BORDER_EDGES_MAX] = (double)c->border_edges_max;
 }
 
-static void walk_outcome_take_counts(const walk_measurement *s, size_t i, const mw_counters *sum, walk_outcome *o)
+static void walk_outcome_take_counts(const walk_measurement *s, size_t i, const mw_counters *sum,
+                                     walk_outcome *o)
 {
     const algorithm *a = s->trial->algorithms[i];
     mw_index_info index = {.layers = 1};
@@ -300,7 +313,8 @@ static int walk_measurement_count(walk_measurement *s, walk_outcome *o)
 }
 
 /* Of each walk its time in doubles, then exact. */
-static int walk_measurement_time_share(void *self, size_t entry, size_t begin, size_t n, double *time)
+static int walk_measurement_time_share(void *self, size_t entry, size_t begin, size_t n,
+                                       double *time)
 {
     mw_error error;
     mw_cursor cursor;
@@ -308,10 +322,12 @@ static int walk_measurement_time_share(void *self, size_t entry, size_t begin, s
     const algorithm *a = s->trial->algorithms[entry / 2];
     mw_query_options options = walk_options(s, a, entry % 2 ? MW_EXACT : MW_DOUBLE);
     options.seed = s->trial->seed + begin;
-    if (mw_cursor_init(locator_for(s, a), &options, &cursor, &error) != MW_OK) return walk_trial_fail(s->trial, &error);
+    if (mw_cursor_init(locator_for(s, a), &options, &cursor, &error) != MW_OK)
+        return walk_trial_fail(s->trial, &error);
     const double *q = s->queries + 2 * begin;
     double clock = monotonic_seconds();
-    for (size_t i = 0; i < n; i++) s->locations[i] = mw_locate(locator_for(s, a), &cursor, q[2 * i], q[2 * i + 1]);
+    for (size_t i = 0; i < n; i++)
+        s->locations[i] = mw_locate(locator_for(s, a), &cursor, q[2 * i], q[2 * i + 1]);
     *time = 1e6 * (monotonic_seconds() - clock) / (double)n;
     return 0;
 }
@@ -323,7 +339,8 @@ static int walk_measurement_time(walk_measurement *s, walk_outcome *o)
     s->random = ~s->trial->seed;
     int end = walk_measurement_draw(s, TIMED_ROUNDS * share);
     progress_phase("timing", s->trial->name);
-    if (end == 0) end = query_rounds_measure(2 * s->algorithms, share, walk_measurement_time_share, s, times);
+    if (end == 0)
+        end = query_rounds_measure(2 * s->algorithms, share, walk_measurement_time_share, s, times);
     for (size_t i = 0; i < s->algorithms && end == 0; i++) {
         o->value[i][TIME_US] = times[2 * i];
         o->value[i][TIME_EXACT_US] = times[2 * i + 1];

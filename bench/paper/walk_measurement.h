@@ -36,8 +36,10 @@ typedef struct algorithm {
 typedef struct walk_trial {
     const char *name; /* for messages */
     const dataset *data;
-    mw_mesh *mesh;                      /* a mesh to be taken as it is; NULL: the points are triangulated */
-    const mw_mesh *place;               /* queries are uniform in this mesh; NULL: in that of the trial */
+    /* a mesh to be taken as it is; NULL: the points are triangulated */
+    mw_mesh *mesh;
+    /* queries are uniform in this mesh; NULL: in that of the trial */
+    const mw_mesh *place;
     const algorithm *const *algorithms; /* NULL ends them */
     const char *walk;                   /* NULL, or the walk that all take instead of their own */
     const char *finish;                 /* walk that ends the cheap ones */

@@ -25,7 +25,8 @@ static const peers_defaults beside_peers = {
     .sets = "uniform,clusters,gaussian,rectangle,slivers",
     .sizes = {{10000, 100000, 1000000}, 3},
     .engines = (1u << ENGINES) - 1,
-    .tasks = ENGINE_IN(RANDOM) | ENGINE_IN(SORTED) | ENGINE_IN(COHERENT) | ENGINE_IN(HALF_OUTSIDE) | ENGINE_IN(TOTAL),
+    .tasks = ENGINE_IN(RANDOM) | ENGINE_IN(SORTED) | ENGINE_IN(COHERENT) | ENGINE_IN(HALF_OUTSIDE) |
+             ENGINE_IN(TOTAL),
 };
 static const peers_defaults over_sizes = {
     .name = "scale",
@@ -65,7 +66,8 @@ static int peers_run_set(const char *name, void *self)
     int kind = dataset_named(name), end = 0;
     for (size_t i = 0; i < r->sizes.count && end == 0; i++) {
         dataset data;
-        if (!dataset_make(&data, (dataset_kind)kind, r->sizes.size[i], false, r->settings->common.seed))
+        if (!dataset_make(&data, (dataset_kind)kind, r->sizes.size[i], false,
+                          r->settings->common.seed))
             return fail_memory();
         end = peers_run_points(r, dataset_name(kind), &data);
         dataset_release(&data);
@@ -95,7 +97,8 @@ static int peers_run_file(const char *path, void *self)
     mw_mesh_file mesh;
     int end = dataset_read_mesh(&data, &mesh, path);
     if (end) return end;
-    end = mesh.triangle_count ? peers_run_mesh(r, base_name(path), &mesh) : peers_run_points(r, base_name(path), &data);
+    end = mesh.triangle_count ? peers_run_mesh(r, base_name(path), &mesh)
+                              : peers_run_points(r, base_name(path), &data);
     mw_mesh_file_release(&mesh);
     dataset_release(&data);
     return end;
@@ -124,7 +127,8 @@ static int peers_check_file(const char *path, void *self)
 static int peers_check_settings(const bench_settings *s, const peers_defaults *d)
 {
     if (s->enclose != ENCLOSE_AUTO || s->no_times) {
-        complain("bench %s takes times of sets as they are: leave out --enclose and --no-times", d->name);
+        complain("bench %s takes times of sets as they are: leave out --enclose and --no-times",
+                 d->name);
         return END_USAGE;
     }
     if (s->plot && d == &beside_peers) {
@@ -175,7 +179,8 @@ static int peers_take_settings(peers_run *r, const peers_defaults *d, const char
     if (end == 0 && s->engines) end = engine_list_named(s->engines, &r->plan.engines);
     if (end == 0 && s->tasks) end = word_list_names(s->tasks, &engine_task_choices, &r->plan.tasks);
     if (end == 0)
-        end = s->data ? word_list_each(s->data, peers_check_file, r) : word_list_each(sets, peers_check_set, NULL);
+        end = s->data ? word_list_each(s->data, peers_check_file, r)
+                      : word_list_each(sets, peers_check_set, NULL);
     if (end == 0) end = peers_check_plan(&r->plan);
     if (end == 0) end = peers_check_plot(r);
     return end ? end : files_try_output(s->common.output, NULL);
@@ -196,7 +201,8 @@ static int peers_run_all(const bench_settings *s, const char *set, const peers_d
     int end = peers_take_settings(&r, d, sets);
     if (end) return end;
     peers_leave_out_missing(&r);
-    end = s->data ? word_list_each(s->data, peers_run_file, &r) : word_list_each(sets, peers_run_set, &r);
+    end = s->data ? word_list_each(s->data, peers_run_file, &r)
+                  : word_list_each(sets, peers_run_set, &r);
     if (end == 0 && s->plot) end = comparison_plot(&r.table, s->plot);
     if (end == 0) {
         text t = {0};

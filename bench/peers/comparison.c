@@ -64,7 +64,8 @@ static void structure_drop(comparison_structure *b)
 static engine_library structure_library(const comparison *c, const comparison_structure *b)
 {
     for (size_t k = 0; k < c->count; k++)
-        if (c->competitors[k].code->structure == b->structure) return engines[c->competitors[k].id].library;
+        if (c->competitors[k].code->structure == b->structure)
+            return engines[c->competitors[k].id].library;
     return LIBRARY_MESHWALK;
 }
 
@@ -104,7 +105,8 @@ static void drop_rebuilt(comparison *c, const competitor *e)
 {
     for (size_t k = 0; k < c->structure_count; k++) {
         comparison_structure *b = &c->structures[k];
-        if (b->structure == e->code->structure && b->threads == e->threads && structure_is_rebuilt(c, b))
+        if (b->structure == e->code->structure && b->threads == e->threads &&
+            structure_is_rebuilt(c, b))
             structure_drop(b);
     }
 }
@@ -148,7 +150,8 @@ static uint64_t answers_hash(const uint64_t *answers, size_t n)
 static int answers_contradict(const comparison *c, size_t i)
 {
     const double *q = c->queries->queries + 2 * i;
-    complain("%s: nothing was found at %.17g %.17g, where there is a triangle", c->workload->name, q[0], q[1]);
+    complain("%s: nothing was found at %.17g %.17g, where there is a triangle", c->workload->name,
+             q[0], q[1]);
     return END_RESOURCE;
 }
 
@@ -160,7 +163,8 @@ static int answers_check(const comparison *c, const comparison_structure *b, com
     for (size_t i = 0; i < e->queries; i++) {
         bool right = answer_is_right(c, b, i);
         wrong += !right;
-        if (right && !b->structure->corners && c->answers[i] != ENGINE_NONE && !c->queries->inside[i])
+        if (right && !b->structure->corners && c->answers[i] != ENGINE_NONE &&
+            !c->queries->inside[i])
             return answers_contradict(c, i);
     }
     e->checked = true;
@@ -195,7 +199,8 @@ static int competitor_triangulate(const comparison *c, competitor *e, run_second
 {
     size_t bytes = 0;
     const engine_mesh *mesh = &c->workload->mesh;
-    *seconds = (run_seconds){.build = e->code->triangulate(mesh->points, mesh->point_count, e->threads, &bytes)};
+    *seconds = (run_seconds){
+        .build = e->code->triangulate(mesh->points, mesh->point_count, e->threads, &bytes)};
     e->bytes = (double)bytes;
     return seconds->build >= 0 ? 0 : competitor_fail(c, e);
 }
@@ -208,7 +213,8 @@ static int competitor_run(comparison *c, competitor *e, size_t queries, run_seco
     *seconds = (run_seconds){.build = b->seconds};
     e->bytes = b->bytes;
     if (c->task != TASK_CONNECTIVITY)
-        seconds->locate = e->code->locate(b->self, c->queries->queries, queries, e->threads, c->answers);
+        seconds->locate =
+            e->code->locate(b->self, c->queries->queries, queries, e->threads, c->answers);
     if (seconds->locate < 0) return competitor_fail(c, e);
     return queries == e->queries && c->queries ? answers_check(c, b, e) : 0;
 }
@@ -226,21 +232,24 @@ static int competitor_choose_queries(comparison *c, competitor *e)
         n = (size_t)next;
     }
     drop_rebuilt(c, e);
-    e->queries = n == most || seconds.locate > SLOW ? n : (size_t)((double)n * SLOW / seconds.locate);
+    e->queries =
+        n == most || seconds.locate > SLOW ? n : (size_t)((double)n * SLOW / seconds.locate);
     return 0;
 }
 
 /* What takes all its time to build is not repeated. */
 static bool competitor_is_slow(const comparison *c, const competitor *e)
 {
-    return (c->task == TASK_DELAUNAY || c->task == TASK_CONNECTIVITY) && e->first[BUILD_SECONDS] > SLOW;
+    return (c->task == TASK_DELAUNAY || c->task == TASK_CONNECTIVITY) &&
+           e->first[BUILD_SECONDS] > SLOW;
 }
 
 static double ns_per_query(const comparison *c, const competitor *e, const run_seconds *seconds)
 {
     if (!c->queries) return NAN;
     double locate = 1e9 * seconds->locate / (double)e->queries;
-    return c->task == TASK_TOTAL ? locate + 1e9 * seconds->build / (double)c->queries->count : locate;
+    return c->task == TASK_TOTAL ? locate + 1e9 * seconds->build / (double)c->queries->count
+                                 : locate;
 }
 
 /* A run of a round. */
@@ -280,7 +289,8 @@ static int comparison_table_add(comparison_table *table, const comparison_row *r
     return 0;
 }
 
-static int competitor_add_row(const comparison *c, size_t k, const rounds_results *results, comparison_table *table)
+static int competitor_add_row(const comparison *c, size_t k, const rounds_results *results,
+                              comparison_table *table)
 {
     const competitor *e = &c->competitors[k];
     comparison_row row = {
@@ -301,7 +311,8 @@ static int competitor_add_row(const comparison *c, size_t k, const rounds_result
 
 static void comparison_enter(comparison *c, engine_id id, unsigned threads)
 {
-    c->competitors[c->count++] = (competitor){.id = id, .code = engine_code_of(id), .threads = threads, .bytes = NAN};
+    c->competitors[c->count++] =
+        (competitor){.id = id, .code = engine_code_of(id), .threads = threads, .bytes = NAN};
 }
 
 static void comparison_begin_task(comparison *c, engine_task task)
@@ -342,8 +353,9 @@ static size_t most_queries(const workload *w)
 
 int comparison_measure(const comparison_plan *plan, const workload *on, comparison_table *table)
 {
-    static const engine_task order[] = {TASK_DELAUNAY,     TASK_RANDOM, TASK_SORTED,       TASK_COHERENT,
-                                        TASK_HALF_OUTSIDE, TASK_DENSE,  TASK_CONNECTIVITY, TASK_TOTAL};
+    static const engine_task order[] = {TASK_DELAUNAY,     TASK_RANDOM,       TASK_SORTED,
+                                        TASK_COHERENT,     TASK_HALF_OUTSIDE, TASK_DENSE,
+                                        TASK_CONNECTIVITY, TASK_TOTAL};
     comparison *c = calloc(1, sizeof *c);
     if (!c) return fail_memory();
     *c = (comparison){.plan = plan, .workload = on};

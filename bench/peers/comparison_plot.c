@@ -23,7 +23,8 @@ static void plotted_panel_name(const comparison_row *r, plot_title words)
 
 static void plotted_curve_name(const comparison_row *r, plot_title words)
 {
-    snprintf(words, sizeof(plot_title), r->threads > 1 ? "%s on %u" : "%s", engines[r->engine].name, r->threads);
+    snprintf(words, sizeof(plot_title), r->threads > 1 ? "%s on %u" : "%s", engines[r->engine].name,
+             r->threads);
 }
 
 /* The number of a name, which is added if it is new. */
@@ -49,24 +50,29 @@ static void drawing_add_point(comparison_drawing *d, const comparison_row *r)
     plotted_curve_name(r, name);
     size_t k = plotted_name_number(name, d->curve_names, &d->plot.curves);
     if (k >= PLOT_CURVES || panel->curve[k].count == PLOT_POINTS) return;
-    panel->curve[k].point[panel->curve[k].count++] = (plot_point){(double)r->vertices, plotted_value(r), NAN};
+    panel->curve[k].point[panel->curve[k].count++] =
+        (plot_point){(double)r->vertices, plotted_value(r), NAN};
 }
 
 static void drawing_name_all(comparison_drawing *d)
 {
     if (d->plot.curves > PLOT_CURVES) {
-        complain("bench scale: the plot shows the first %d of %zu engines", PLOT_CURVES, d->plot.curves);
+        complain("bench scale: the plot shows the first %d of %zu engines", PLOT_CURVES,
+                 d->plot.curves);
         d->plot.curves = PLOT_CURVES;
     }
-    for (size_t k = 0; k < d->plot.curves; k++) d->plot.name[k] = d->plot.label[k] = d->curve_names[k];
+    for (size_t k = 0; k < d->plot.curves; k++)
+        d->plot.name[k] = d->plot.label[k] = d->curve_names[k];
     for (size_t k = 0; k < d->plot.count; k++) d->panels[k].title = d->panel_names[k];
     d->plot.panels = d->panels;
 }
 
 int comparison_plot(const comparison_table *table, const char *path)
 {
-    comparison_drawing d = {
-        .plot = {.title = "point location", .x_label = "vertices", .y_label = "nanoseconds", .log_y = true}};
+    comparison_drawing d = {.plot = {.title = "point location",
+                                     .x_label = "vertices",
+                                     .y_label = "nanoseconds",
+                                     .log_y = true}};
     d.panels = calloc(table->count, sizeof *d.panels);
     d.panel_names = calloc(table->count, sizeof *d.panel_names);
     d.curve_names = calloc(table->count, sizeof *d.curve_names);

@@ -7,8 +7,9 @@
 #include <string.h>
 
 #define COLUMNS 9
-static const char *const names[COLUMNS] = {"task",         "dataset", "vertices", "engine", "threads",
-                                           "ns_per_query", "build_s", "bytes",    "wrong"};
+static const char *const names[COLUMNS] = {"task",    "dataset", "vertices",
+                                           "engine",  "threads", "ns_per_query",
+                                           "build_s", "bytes",   "wrong"};
 #define WIDEST 256
 
 static void comparison_number(char *cell, int decimals, double value)
@@ -69,10 +70,12 @@ static void comparison_print_json(const comparison_table *table, text *t)
 }
 
 /* Words to the left, numbers to the right. */
-static void comparison_print_aligned(const char *const cells[COLUMNS], const int width[COLUMNS], text *t)
+static void comparison_print_aligned(const char *const cells[COLUMNS], const int width[COLUMNS],
+                                     text *t)
 {
     for (size_t k = 0; k < COLUMNS; k++)
-        text_printf(t, comparison_column_is_text(k) ? "%s%-*s" : "%s%*s", k ? "  " : "", width[k], cells[k]);
+        text_printf(t, comparison_column_is_text(k) ? "%s%-*s" : "%s%*s", k ? "  " : "", width[k],
+                    cells[k]);
     text_string(t, "\n");
 }
 
@@ -103,7 +106,8 @@ static void comparison_print_table(const comparison_table *table, text *t)
     }
 }
 
-void comparison_print(const comparison_table *table, const comparison_plan *plan, int format, text *t)
+void comparison_print(const comparison_table *table, const comparison_plan *plan, int format,
+                      text *t)
 {
     if (format == FORMAT_JSON) {
         comparison_print_json(table, t);

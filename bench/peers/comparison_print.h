@@ -6,6 +6,7 @@
 #include "cli/frame/text.h"
 
 /* `format`: one of settings.h. */
-void comparison_print(const comparison_table *table, const comparison_plan *plan, int format, text *t);
+void comparison_print(const comparison_table *table, const comparison_plan *plan, int format,
+                      text *t);
 
 #endif

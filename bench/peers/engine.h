@@ -20,15 +20,18 @@ typedef enum engine_task {
     TASK_SORTED,       /* the same, given along a Hilbert curve */
     TASK_COHERENT,     /* a stream with steps of about one edge */
     TASK_HALF_OUTSIDE, /* every other one, at random, is in no triangle */
-    TASK_TOTAL,        /* as random, from the arrays of the mesh to the answers: what is built counts */
-    TASK_DENSE,        /* each triangle is as likely as any other: as dense as the mesh is, in random order */
+    /* as random, from the arrays of the mesh to the answers: what is built counts */
+    TASK_TOTAL,
+    /* each triangle is as likely as any other: as dense as the mesh is, in random order */
+    TASK_DENSE,
     TASK_DELAUNAY,     /* the Delaunay triangulation of the points */
     TASK_CONNECTIVITY, /* from the arrays of the mesh to the first query */
     TASKS
 } engine_task;
 
 #define ENGINE_IN(task) (1u << TASK_##task)
-#define ENGINE_UNORDERED (ENGINE_IN(RANDOM) | ENGINE_IN(HALF_OUTSIDE) | ENGINE_IN(TOTAL) | ENGINE_IN(DENSE))
+#define ENGINE_UNORDERED                                                                           \
+    (ENGINE_IN(RANDOM) | ENGINE_IN(HALF_OUTSIDE) | ENGINE_IN(TOTAL) | ENGINE_IN(DENSE))
 #define ENGINE_ORDERED (ENGINE_IN(SORTED) | ENGINE_IN(COHERENT))
 
 typedef enum engine_library {
@@ -78,13 +81,15 @@ typedef struct engine_structure {
 typedef struct engine_code {
     const engine_structure *structure;
     /* Returns seconds. */
-    double (*locate)(void *self, const double *queries, size_t n, unsigned threads, uint64_t *answers);
+    double (*locate)(void *self, const double *queries, size_t n, unsigned threads,
+                     uint64_t *answers);
     /* For TASK_DELAUNAY alone: returns seconds. */
     double (*triangulate)(const double *points, size_t n, unsigned threads, size_t *bytes);
 } engine_code;
 
 /* Is q in the triangle, its border included? A triangle without area has no inside. Exact. */
-static inline bool engine_contains(const double *a, const double *b, const double *c, const double *q)
+static inline bool engine_contains(const double *a, const double *b, const double *c,
+                                   const double *q)
 {
     double area = mw_orient2d(a, b, c);
     if (area < 0) {
@@ -92,7 +97,8 @@ static inline bool engine_contains(const double *a, const double *b, const doubl
         b = c;
         c = other;
     }
-    return area != 0 && mw_orient2d(a, b, q) >= 0 && mw_orient2d(b, c, q) >= 0 && mw_orient2d(c, a, q) >= 0;
+    return area != 0 && mw_orient2d(a, b, q) >= 0 && mw_orient2d(b, c, q) >= 0 &&
+           mw_orient2d(c, a, q) >= 0;
 }
 
 #ifdef __cplusplus

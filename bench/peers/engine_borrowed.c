@@ -33,7 +33,8 @@ static uint32_t *borrowed_engine_neighbours(const mw_arrays *arrays)
         return NULL;
     }
     for (uint32_t t = 0; t < arrays->triangle_count; t++)
-        for (unsigned k = 0; k < 3; k++) neighbours[3 * (size_t)t + (k + 2) % 3] = mw_mesh_neighbour(mesh, t, k, NULL);
+        for (unsigned k = 0; k < 3; k++)
+            neighbours[3 * (size_t)t + (k + 2) % 3] = mw_mesh_neighbour(mesh, t, k, NULL);
     mw_mesh_destroy(mesh);
     return neighbours;
 }
@@ -50,7 +51,8 @@ double engine_borrowed_build(const engine_mesh *m, unsigned threads, void **self
     if (o && (o->neighbours = borrowed_engine_neighbours(&arrays.mesh))) {
         arrays.neighbours = o->neighbours;
         double clock = monotonic_seconds();
-        if (mw_mesh_borrow(&arrays, &options, &o->mesh, NULL) == MW_OK) return monotonic_seconds() - clock;
+        if (mw_mesh_borrow(&arrays, &options, &o->mesh, NULL) == MW_OK)
+            return monotonic_seconds() - clock;
     }
     engine_borrowed_destroy(o);
     *self = NULL;
@@ -77,22 +79,26 @@ static bool borrowed_engine_make_room(borrowed_engine *o, size_t n)
 
 static void borrowed_engine_take_answers(const borrowed_engine *o, size_t n, uint64_t *answers)
 {
-    for (size_t i = 0; i < n; i++) answers[i] = o->found[i].triangle == MW_NONE ? ENGINE_NONE : o->found[i].triangle;
+    for (size_t i = 0; i < n; i++)
+        answers[i] = o->found[i].triangle == MW_NONE ? ENGINE_NONE : o->found[i].triangle;
 }
 
-double engine_borrowed_locate(void *self, const double *queries, size_t n, unsigned threads, uint64_t *answers)
+double engine_borrowed_locate(void *self, const double *queries, size_t n, unsigned threads,
+                              uint64_t *answers)
 {
     borrowed_engine *o = self;
     mw_borrowed_query_options options = {.threads = threads};
     if (!borrowed_engine_make_room(o, n)) return ENGINE_FAILED;
     double clock = monotonic_seconds();
-    if (mw_borrowed_locate_batch(o->mesh, queries, n, 2, &options, o->found, NULL, NULL) != MW_OK) return ENGINE_FAILED;
+    if (mw_borrowed_locate_batch(o->mesh, queries, n, 2, &options, o->found, NULL, NULL) != MW_OK)
+        return ENGINE_FAILED;
     double seconds = monotonic_seconds() - clock;
     borrowed_engine_take_answers(o, n, answers);
     return seconds;
 }
 
-double engine_borrowed_locate_single(void *self, const double *queries, size_t n, unsigned threads, uint64_t *answers)
+double engine_borrowed_locate_single(void *self, const double *queries, size_t n, unsigned threads,
+                                     uint64_t *answers)
 {
     borrowed_engine *o = self;
     mw_borrowed_cursor cursor = {0};

@@ -11,12 +11,14 @@
 #include <unistd.h>
 
 const engine engines[ENGINES] = {
-#define ENGINE(id, name, library, exact, parallel, tasks, help) {name, help, LIBRARY_##library, exact, parallel, tasks},
+#define ENGINE(id, name, library, exact, parallel, tasks, help)                                    \
+    {name, help, LIBRARY_##library, exact, parallel, tasks},
 #include "bench/peers/engine.def"
 };
 
 static const struct {
-    const char *name, *package; /* in Debian; it is wanted when the program is built, but of Python's when it runs */
+    /* in Debian; it is wanted when the program is built, but of Python's when it runs */
+    const char *name, *package;
     bool python;
     size_t bytes; /* per vertex that building takes, about; 0: not to be asked */
 } libraries[LIBRARIES] = {
@@ -116,8 +118,8 @@ bool engine_library_has_room(engine_library library, size_t vertices)
 {
     double wanted = (double)libraries[library].bytes * (double)vertices, there = available_memory();
     if (wanted <= there || there == 0) return true;
-    complain("%s wants about %.0f GB for %zu vertices, and there are %.0f", libraries[library].name, wanted / 1e9,
-             vertices, there / 1e9);
+    complain("%s wants about %.0f GB for %zu vertices, and there are %.0f", libraries[library].name,
+             wanted / 1e9, vertices, there / 1e9);
     return false;
 }
 
@@ -126,15 +128,18 @@ bool engine_library_has_room(engine_library library, size_t vertices)
 static bool engine_set_has_library(uint32_t set, engine_library library, bool present)
 {
     for (engine_id id = 0; id < ENGINES; id++)
-        if (engine_is_in(set, id) && engines[id].library == library && (engine_code_of(id) != NULL) == present)
+        if (engine_is_in(set, id) && engines[id].library == library &&
+            (engine_code_of(id) != NULL) == present)
             return true;
     return false;
 }
 
 static const char *why_library_is_missing(engine_library library)
 {
-    if (!built_with_peers) return "this program was built without its peers (cmake -DMW_BUILD_BENCH=ON)";
-    return libraries[library].python ? "python3 does not find it" : "it was not found when this program was built";
+    if (!built_with_peers)
+        return "this program was built without its peers (cmake -DMW_BUILD_BENCH=ON)";
+    return libraries[library].python ? "python3 does not find it"
+                                     : "it was not found when this program was built";
 }
 
 void engine_list_complain_missing(uint32_t set)
@@ -162,10 +167,11 @@ void engine_list_describe(uint32_t set, text *t)
     machine_processor(processor, sizeof processor);
     machine_date(date);
 #ifdef __clang__
-    text_printf(t, "%s, %ld processors; clang %d.%d.%d", processor, sysconf(_SC_NPROCESSORS_ONLN), __clang_major__,
-                __clang_minor__, __clang_patchlevel__);
+    text_printf(t, "%s, %ld processors; clang %d.%d.%d", processor, sysconf(_SC_NPROCESSORS_ONLN),
+                __clang_major__, __clang_minor__, __clang_patchlevel__);
 #else
-    text_printf(t, "%s, %ld processors; gcc %s", processor, sysconf(_SC_NPROCESSORS_ONLN), __VERSION__);
+    text_printf(t, "%s, %ld processors; gcc %s", processor, sysconf(_SC_NPROCESSORS_ONLN),
+                __VERSION__);
 #endif
 #ifndef __OPTIMIZE__
     text_string(t, ", not optimised");

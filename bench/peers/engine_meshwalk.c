@@ -31,7 +31,8 @@ static void meshwalk_engine_destroy(void *self)
     free(o);
 }
 
-static bool meshwalk_engine_make(meshwalk_engine *o, const engine_mesh *m, unsigned threads, mw_start_kind start)
+static bool meshwalk_engine_make(meshwalk_engine *o, const engine_mesh *m, unsigned threads,
+                                 mw_start_kind start)
 {
     mw_arrays arrays = {
         .points = m->points,
@@ -43,10 +44,12 @@ static bool meshwalk_engine_make(meshwalk_engine *o, const engine_mesh *m, unsig
     mw_locator_options prepare = {.threads = threads};
     return mw_mesh_create(&arrays, &options, &o->mesh, NULL) == MW_OK &&
            mw_locator_create(o->mesh, &prepare, &o->locator, NULL) == MW_OK &&
-           (!mw_start_has_index(start) || mw_index_create(o->locator, start, NULL, &o->index, NULL) == MW_OK);
+           (!mw_start_has_index(start) ||
+            mw_index_create(o->locator, start, NULL, &o->index, NULL) == MW_OK);
 }
 
-static double meshwalk_engine_build(const engine_mesh *m, unsigned threads, mw_start_kind start, void **self)
+static double meshwalk_engine_build(const engine_mesh *m, unsigned threads, mw_start_kind start,
+                                    void **self)
 {
     meshwalk_engine *o = calloc(1, sizeof *o);
     *self = o;
@@ -97,41 +100,48 @@ static bool meshwalk_engine_make_room(meshwalk_engine *o, size_t n)
 
 static void meshwalk_engine_take_answers(const meshwalk_engine *o, size_t n, uint64_t *answers)
 {
-    for (size_t i = 0; i < n; i++) answers[i] = o->found[i].triangle == MW_NONE ? ENGINE_NONE : o->found[i].triangle;
+    for (size_t i = 0; i < n; i++)
+        answers[i] = o->found[i].triangle == MW_NONE ? ENGINE_NONE : o->found[i].triangle;
 }
 
-static double meshwalk_locate_batch(void *self, const double *queries, size_t n, unsigned threads, uint64_t *answers)
+static double meshwalk_locate_batch(void *self, const double *queries, size_t n, unsigned threads,
+                                    uint64_t *answers)
 {
     meshwalk_engine *o = self;
     mw_query_options options = {.threads = threads, .index = o->index};
     if (!meshwalk_engine_make_room(o, n)) return ENGINE_FAILED;
     double clock = monotonic_seconds();
-    if (mw_locate_batch(o->locator, queries, n, 2, &options, o->found, NULL, NULL) != MW_OK) return ENGINE_FAILED;
+    if (mw_locate_batch(o->locator, queries, n, 2, &options, o->found, NULL, NULL) != MW_OK)
+        return ENGINE_FAILED;
     double seconds = monotonic_seconds() - clock;
     meshwalk_engine_take_answers(o, n, answers);
     return seconds;
 }
 
-static double meshwalk_locate_one_by_one(meshwalk_engine *o, const double *queries, size_t n, mw_start_kind start,
-                                         uint64_t *answers)
+static double meshwalk_locate_one_by_one(meshwalk_engine *o, const double *queries, size_t n,
+                                         mw_start_kind start, uint64_t *answers)
 {
     mw_cursor cursor;
     mw_query_options options = {.start = start, .index = o->index};
-    if (!meshwalk_engine_make_room(o, n) || mw_cursor_init(o->locator, &options, &cursor, NULL) != MW_OK)
+    if (!meshwalk_engine_make_room(o, n) ||
+        mw_cursor_init(o->locator, &options, &cursor, NULL) != MW_OK)
         return ENGINE_FAILED;
     double clock = monotonic_seconds();
-    for (size_t i = 0; i < n; i++) o->found[i] = mw_locate(o->locator, &cursor, queries[2 * i], queries[2 * i + 1]);
+    for (size_t i = 0; i < n; i++)
+        o->found[i] = mw_locate(o->locator, &cursor, queries[2 * i], queries[2 * i + 1]);
     double seconds = monotonic_seconds() - clock;
     meshwalk_engine_take_answers(o, n, answers);
     return seconds;
 }
 
-static double meshwalk_locate_single(void *self, const double *queries, size_t n, unsigned threads, uint64_t *answers)
+static double meshwalk_locate_single(void *self, const double *queries, size_t n, unsigned threads,
+                                     uint64_t *answers)
 {
     (void)threads;
     return meshwalk_locate_one_by_one(self, queries, n, MW_START_AUTO, answers);
 }
-static double meshwalk_locate_last(void *self, const double *queries, size_t n, unsigned threads, uint64_t *answers)
+static double meshwalk_locate_last(void *self, const double *queries, size_t n, unsigned threads,
+                                   uint64_t *answers)
 {
     (void)threads;
     return meshwalk_locate_one_by_one(self, queries, n, MW_START_LAST, answers);
@@ -151,16 +161,17 @@ static double meshwalk_triangulate(const double *points, size_t n, unsigned thre
 
 const engine_code *engine_meshwalk_code(engine_id id)
 {
-    static const engine_structure plain = {meshwalk_version, meshwalk_build_auto, meshwalk_engine_bytes, NULL,
-                                           meshwalk_engine_destroy};
-    static const engine_structure grid = {meshwalk_version, meshwalk_build_grid, meshwalk_engine_bytes, NULL,
-                                          meshwalk_engine_destroy};
-    static const engine_structure two_levels = {meshwalk_version, meshwalk_build_two_levels, meshwalk_engine_bytes,
-                                                NULL, meshwalk_engine_destroy};
-    static const engine_structure curve = {meshwalk_version, meshwalk_build_curve, meshwalk_engine_bytes, NULL,
-                                           meshwalk_engine_destroy};
-    static const engine_structure borrowed = {meshwalk_version, engine_borrowed_build, engine_borrowed_bytes, NULL,
-                                              engine_borrowed_destroy};
+    static const engine_structure plain = {meshwalk_version, meshwalk_build_auto,
+                                           meshwalk_engine_bytes, NULL, meshwalk_engine_destroy};
+    static const engine_structure grid = {meshwalk_version, meshwalk_build_grid,
+                                          meshwalk_engine_bytes, NULL, meshwalk_engine_destroy};
+    static const engine_structure two_levels = {meshwalk_version, meshwalk_build_two_levels,
+                                                meshwalk_engine_bytes, NULL,
+                                                meshwalk_engine_destroy};
+    static const engine_structure curve = {meshwalk_version, meshwalk_build_curve,
+                                           meshwalk_engine_bytes, NULL, meshwalk_engine_destroy};
+    static const engine_structure borrowed = {meshwalk_version, engine_borrowed_build,
+                                              engine_borrowed_bytes, NULL, engine_borrowed_destroy};
     static const engine_code codes[] = {
         [ENGINE_MESHWALK] = {&plain, meshwalk_locate_batch, meshwalk_triangulate},
         [ENGINE_MESHWALK_SINGLE] = {&plain, meshwalk_locate_single, NULL},

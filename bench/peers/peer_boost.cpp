@@ -40,8 +40,9 @@ BoostBox box_of(const engine_mesh &mesh, size_t triangle)
     const uint32_t *v = mesh.triangles + 3 * triangle;
     double low[2], high[2];
     for (size_t k = 0; k < 2; k++) {
-        auto [least, most] = std::minmax(
-            {mesh.points[2 * size_t(v[0]) + k], mesh.points[2 * size_t(v[1]) + k], mesh.points[2 * size_t(v[2]) + k]});
+        auto [least, most] =
+            std::minmax({mesh.points[2 * size_t(v[0]) + k], mesh.points[2 * size_t(v[1]) + k],
+                         mesh.points[2 * size_t(v[2]) + k]});
         low[k] = least;
         high[k] = most;
     }
@@ -56,7 +57,8 @@ struct BoostBoxes {
     explicit BoostBoxes(const engine_mesh &of) : mesh(of)
     {
         std::vector<BoostEntry> entries(mesh.triangle_count);
-        for (size_t t = 0; t < mesh.triangle_count; t++) entries[t] = {box_of(mesh, t), static_cast<uint32_t>(t)};
+        for (size_t t = 0; t < mesh.triangle_count; t++)
+            entries[t] = {box_of(mesh, t), static_cast<uint32_t>(t)};
         tree = BoostTree(entries.begin(), entries.end());
     }
 };
@@ -65,9 +67,11 @@ uint64_t find(const BoostBoxes &boxes, const double *query)
 {
     uint64_t answer = ENGINE_NONE;
     auto look = [&](const BoostEntry &entry) {
-        if (answer == ENGINE_NONE && triangle_contains(boxes.mesh, entry.second, query)) answer = entry.second;
+        if (answer == ENGINE_NONE && triangle_contains(boxes.mesh, entry.second, query))
+            answer = entry.second;
     };
-    boxes.tree.query(bg::index::intersects(BoostPoint(query[0], query[1])), boost::make_function_output_iterator(look));
+    boxes.tree.query(bg::index::intersects(BoostPoint(query[0], query[1])),
+                     boost::make_function_output_iterator(look));
     return answer;
 }
 
@@ -87,8 +91,9 @@ double locate(void *self, const double *queries, size_t n, unsigned threads, uin
 const engine_code *peer_boost_engine(engine_id id)
 {
     using namespace peer_boost;
-    static const engine_structure tree = {version, BuiltStructure<BoostBoxes>::build, BuiltStructure<BoostBoxes>::bytes,
-                                          nullptr, BuiltStructure<BoostBoxes>::destroy};
+    static const engine_structure tree = {version, BuiltStructure<BoostBoxes>::build,
+                                          BuiltStructure<BoostBoxes>::bytes, nullptr,
+                                          BuiltStructure<BoostBoxes>::destroy};
     static const engine_code code = {&tree, locate, nullptr};
     return id == ENGINE_BOOST ? &code : nullptr;
 }

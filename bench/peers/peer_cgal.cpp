@@ -24,7 +24,8 @@ template <class Triangulation> struct CgalBuilt {
 
 using CgalPlain = CgalBuilt<Delaunay>;
 
-template <class Triangulation> double insert(CgalBuilt<Triangulation> &built, const double *coordinates, size_t n)
+template <class Triangulation>
+double insert(CgalBuilt<Triangulation> &built, const double *coordinates, size_t n)
 {
     std::vector<Point> points = cgal_points(coordinates, n);
     size_t before = heap_bytes();
@@ -78,7 +79,8 @@ template <class Triangulation> void corners(const void *, uint64_t answer, doubl
 }
 
 // What surrounds the convex hull are faces, too.
-template <class Triangulation> void take_infinite(const Triangulation &t, size_t n, uint64_t *answers)
+template <class Triangulation>
+void take_infinite(const Triangulation &t, size_t n, uint64_t *answers)
 {
     for (size_t i = 0; i < n; i++) {
         auto *face = reinterpret_cast<const typename Triangulation::Face *>(answers[i]);
@@ -119,7 +121,8 @@ double locate_last(void *self, const double *queries, size_t n, unsigned, uint64
 {
     const Delaunay &t = static_cast<CgalPlain *>(self)->triangulation;
     Delaunay::Face_handle face = t.infinite_face();
-    return locate_each(t, n, answers, [&](size_t i) { return face = t.locate(point(queries, i), face); });
+    return locate_each(t, n, answers,
+                       [&](size_t i) { return face = t.locate(point(queries, i), face); });
 }
 
 double locate_jumping(void *self, const double *queries, size_t n, unsigned, uint64_t *answers)
@@ -161,8 +164,9 @@ double locate_sorted(void *self, const double *queries, size_t n, unsigned, uint
     Stopwatch watch;
     std::vector<size_t> order(n);
     std::iota(order.begin(), order.end(), 0);
-    CGAL::hilbert_sort(order.begin(), order.end(),
-                       CGAL::Spatial_sort_traits_adapter_2<Kernel, NumberedQueries>(NumberedQueries{queries}));
+    CGAL::hilbert_sort(
+        order.begin(), order.end(),
+        CGAL::Spatial_sort_traits_adapter_2<Kernel, NumberedQueries>(NumberedQueries{queries}));
     Delaunay::Face_handle face = t.infinite_face();
     for (size_t i : order) {
         face = t.locate(point(queries, i), face);
@@ -189,10 +193,11 @@ try {
 const engine_code *peer_cgal_engine(engine_id id)
 {
     using namespace peer_cgal;
-    static const engine_structure plain = {cgal_version, build<Delaunay>, bytes<Delaunay>, corners<Delaunay>,
-                                           destroy<Delaunay>};
-    static const engine_structure levels = {cgal_version, build<DelaunayHierarchy>, bytes<DelaunayHierarchy>,
-                                            corners<DelaunayHierarchy>, destroy<DelaunayHierarchy>};
+    static const engine_structure plain = {cgal_version, build<Delaunay>, bytes<Delaunay>,
+                                           corners<Delaunay>, destroy<Delaunay>};
+    static const engine_structure levels = {cgal_version, build<DelaunayHierarchy>,
+                                            bytes<DelaunayHierarchy>, corners<DelaunayHierarchy>,
+                                            destroy<DelaunayHierarchy>};
     static const engine_code alone = {&plain, nullptr, triangulate};
     static const engine_code hierarchy = {&levels, locate_plainly<DelaunayHierarchy>, nullptr};
     static const engine_code walk = {&plain, locate_plainly<Delaunay>, nullptr};

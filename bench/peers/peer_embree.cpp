@@ -25,16 +25,19 @@ class EmbreePlane
 
     void fill(const engine_mesh &mesh)
     {
-        auto *xyz = static_cast<float *>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                                 3 * sizeof(float), mesh.point_count));
-        void *triangles = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                                  3 * sizeof(uint32_t), mesh.triangle_count);
+        auto *xyz = static_cast<float *>(
+            rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                    3 * sizeof(float), mesh.point_count));
+        void *triangles =
+            rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                    3 * sizeof(uint32_t), mesh.triangle_count);
         if (!xyz || !triangles) throw std::bad_alloc();
         for (size_t i = 0; i < mesh.point_count; i++) {
             for (size_t k = 0; k < 2; k++) xyz[3 * i + k] = rounded(mesh.points[2 * i + k], k);
             xyz[3 * i + 2] = 0;
         }
-        std::copy(mesh.triangles, mesh.triangles + 3 * mesh.triangle_count, static_cast<uint32_t *>(triangles));
+        std::copy(mesh.triangles, mesh.triangles + 3 * mesh.triangle_count,
+                  static_cast<uint32_t *>(triangles));
     }
 
     void find_middle(const engine_mesh &mesh)
@@ -58,12 +61,14 @@ class EmbreePlane
     {
         find_middle(mesh);
         fill(mesh);
-        rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST); // no ray is to slip through between triangles
+        rtcSetSceneFlags(scene,
+                         RTC_SCENE_FLAG_ROBUST); // no ray is to slip through between triangles
         rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_HIGH);
         rtcCommitGeometry(geometry);
         rtcAttachGeometry(scene, geometry);
         rtcCommitScene(scene);
-        if (rtcGetDeviceError(device) != RTC_ERROR_NONE) throw std::runtime_error("Embree has failed");
+        if (rtcGetDeviceError(device) != RTC_ERROR_NONE)
+            throw std::runtime_error("Embree has failed");
     }
     ~EmbreePlane()
     {
@@ -102,7 +107,8 @@ RTCIntersectContext context_for(bool coherent)
 {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    context.flags = coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+    context.flags =
+        coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
     return context;
 }
 
@@ -111,7 +117,8 @@ uint64_t answer_of(unsigned triangle)
     return triangle == RTC_INVALID_GEOMETRY_ID ? ENGINE_NONE : triangle;
 }
 
-double locate_single(void *self, const double *queries, size_t n, unsigned threads, uint64_t *answers)
+double locate_single(void *self, const double *queries, size_t n, unsigned threads,
+                     uint64_t *answers)
 {
     const EmbreePlane &plane = *static_cast<const EmbreePlane *>(self);
     Stopwatch watch;
@@ -137,8 +144,8 @@ constexpr size_t width = 8;
 
 // The queries `number(i)` for i from `begin` to `end`.
 template <class Number>
-void locate_packets(const EmbreePlane &plane, const double *queries, size_t begin, size_t end, bool coherent,
-                    const Number &number, uint64_t *answers)
+void locate_packets(const EmbreePlane &plane, const double *queries, size_t begin, size_t end,
+                    bool coherent, const Number &number, uint64_t *answers)
 {
     RTCIntersectContext context = context_for(coherent);
     RTCRayHit8 rays = {};
@@ -162,8 +169,8 @@ void locate_packets(const EmbreePlane &plane, const double *queries, size_t begi
     }
 }
 
-double locate_in_packets(void *self, const double *queries, size_t n, unsigned threads, bool coherent,
-                         uint64_t *answers)
+double locate_in_packets(void *self, const double *queries, size_t n, unsigned threads,
+                         bool coherent, uint64_t *answers)
 {
     const EmbreePlane &plane = *static_cast<const EmbreePlane *>(self);
     Stopwatch watch;
@@ -174,17 +181,20 @@ double locate_in_packets(void *self, const double *queries, size_t n, unsigned t
     return watch.seconds();
 }
 
-double locate_packets_any(void *self, const double *queries, size_t n, unsigned threads, uint64_t *answers)
+double locate_packets_any(void *self, const double *queries, size_t n, unsigned threads,
+                          uint64_t *answers)
 {
     return locate_in_packets(self, queries, n, threads, false, answers);
 }
 
-double locate_coherent(void *self, const double *queries, size_t n, unsigned threads, uint64_t *answers)
+double locate_coherent(void *self, const double *queries, size_t n, unsigned threads,
+                       uint64_t *answers)
 {
     return locate_in_packets(self, queries, n, threads, true, answers);
 }
 
-double locate_sorted(void *self, const double *queries, size_t n, unsigned threads, uint64_t *answers)
+double locate_sorted(void *self, const double *queries, size_t n, unsigned threads,
+                     uint64_t *answers)
 {
     const EmbreePlane &plane = *static_cast<const EmbreePlane *>(self);
     Stopwatch watch;
@@ -204,8 +214,10 @@ const engine_code *peer_embree_engine(engine_id id)
 {
     using namespace peer_embree;
     static const engine_structure tree = {embree_version, build, bytes, nullptr, destroy};
-    static const engine_code single = {&tree, locate_single, nullptr}, packets = {&tree, locate_packets_any, nullptr};
-    static const engine_code sorted = {&tree, locate_sorted, nullptr}, coherent = {&tree, locate_coherent, nullptr};
+    static const engine_code single = {&tree, locate_single, nullptr},
+                             packets = {&tree, locate_packets_any, nullptr};
+    static const engine_code sorted = {&tree, locate_sorted, nullptr},
+                             coherent = {&tree, locate_coherent, nullptr};
     switch (id) {
     case ENGINE_EMBREE_SINGLE: return &single;
     case ENGINE_EMBREE_PACKETS: return &packets;

@@ -121,8 +121,9 @@ double locate(void *self, const double *queries, size_t n, unsigned threads, uin
 const engine_code *peer_geos_engine(engine_id id)
 {
     using namespace peer_geos;
-    static const engine_structure tree = {version, BuiltStructure<GeosBoxes>::build, BuiltStructure<GeosBoxes>::bytes,
-                                          nullptr, BuiltStructure<GeosBoxes>::destroy};
+    static const engine_structure tree = {version, BuiltStructure<GeosBoxes>::build,
+                                          BuiltStructure<GeosBoxes>::bytes, nullptr,
+                                          BuiltStructure<GeosBoxes>::destroy};
     static const engine_code code = {&tree, locate, nullptr};
     return id == ENGINE_GEOS ? &code : nullptr;
 }

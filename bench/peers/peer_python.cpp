@@ -96,7 +96,8 @@ class SharedFile
     {
         if (ftruncate(fd, 0) != 0) python_fail("a file in memory cannot be cleared");
         for (size_t done = 0; done < size;) {
-            ssize_t more = pwrite(fd, static_cast<const char *>(bytes) + done, size - done, off_t(done));
+            ssize_t more =
+                pwrite(fd, static_cast<const char *>(bytes) + done, size - done, off_t(done));
             if (more <= 0) python_fail("a file in memory cannot be written");
             done += size_t(more);
         }
@@ -134,15 +135,23 @@ class PythonProcess
         std::string number[4];
         const SharedFile *const shared[] = {&points, &triangles, &queries, &answers};
         for (size_t k = 0; k < 4; k++) number[k] = std::to_string(shared[k]->fd);
-        const char *words[] = {
-            "python3",         "-c",   script, library, number[0].c_str(), number[1].c_str(), number[2].c_str(),
-            number[3].c_str(), nullptr};
+        const char *words[] = {"python3",
+                               "-c",
+                               script,
+                               library,
+                               number[0].c_str(),
+                               number[1].c_str(),
+                               number[2].c_str(),
+                               number[3].c_str(),
+                               nullptr};
         posix_spawn_file_actions_t actions;
         posix_spawn_file_actions_init(&actions);
         posix_spawn_file_actions_adddup2(&actions, in, STDIN_FILENO);
         posix_spawn_file_actions_adddup2(&actions, out, STDOUT_FILENO);
         posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-        if (posix_spawnp(&pid, words[0], &actions, nullptr, const_cast<char *const *>(words), environ) != 0) pid = 0;
+        if (posix_spawnp(&pid, words[0], &actions, nullptr, const_cast<char *const *>(words),
+                         environ) != 0)
+            pid = 0;
         posix_spawn_file_actions_destroy(&actions);
     }
 
@@ -186,8 +195,10 @@ class PythonProcess
     PythonReply ask(const char *task, size_t count)
     {
         PythonReply reply;
-        if (fprintf(to, "%s %zu\n", task, count) < 0 || fflush(to) != 0) python_fail("python3 has ended");
-        if (sscanf(line().c_str(), "%lf %zu %zu", &reply.seconds, &reply.bytes, &reply.triangles) != 3)
+        if (fprintf(to, "%s %zu\n", task, count) < 0 || fflush(to) != 0)
+            python_fail("python3 has ended");
+        if (sscanf(line().c_str(), "%lf %zu %zu", &reply.seconds, &reply.bytes, &reply.triangles) !=
+            3)
             python_fail("python3 has failed");
         return reply;
     }
@@ -265,7 +276,8 @@ size_t bytes(const void *self)
 void corners(const void *self, uint64_t answer, double xy[6])
 {
     const PythonFinder &finder = *static_cast<const PythonFinder *>(self);
-    for (size_t k = 0; k < 6; k++) xy[k] = finder.points[2 * size_t(finder.own[3 * answer + k / 2]) + k % 2];
+    for (size_t k = 0; k < 6; k++)
+        xy[k] = finder.points[2 * size_t(finder.own[3 * answer + k / 2]) + k % 2];
 }
 
 void destroy(void *self)
@@ -292,7 +304,9 @@ const engine_code *peer_python_engine(engine_id id)
 {
     using namespace peer_python;
     static const engine_structure delaunay = {scipy_version, build_scipy, bytes, corners, destroy};
-    static const engine_structure map = {matplotlib_version, build_matplotlib, bytes, nullptr, destroy};
-    static const engine_code scipy = {&delaunay, locate, nullptr}, matplotlib = {&map, locate, nullptr};
+    static const engine_structure map = {matplotlib_version, build_matplotlib, bytes, nullptr,
+                                         destroy};
+    static const engine_code scipy = {&delaunay, locate, nullptr},
+                             matplotlib = {&map, locate, nullptr};
     return id == ENGINE_SCIPY ? &scipy : id == ENGINE_MATPLOTLIB ? &matplotlib : nullptr;
 }

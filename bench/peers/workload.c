@@ -17,7 +17,8 @@ static int workload_prepare(workload *w)
 {
     mw_error error;
     mw_locator_options options = {.threads = w->threads, .progress = progress_of_call()};
-    if (mw_locator_create(w->drawn_in, &options, &w->locator, &error) != MW_OK) return workload_fail(w, &error);
+    if (mw_locator_create(w->drawn_in, &options, &w->locator, &error) != MW_OK)
+        return workload_fail(w, &error);
     w->mesh.points = w->points;
     w->mesh.triangles = w->triangles;
     return 0;
@@ -28,17 +29,22 @@ static int workload_take_triangles(workload *w)
     size_t count = mw_mesh_triangle_count(w->drawn_in);
     w->triangles = malloc(3 * count * sizeof *w->triangles);
     if (!w->triangles) return fail_memory();
-    for (size_t t = 0; t < count; t++) mw_mesh_triangle(w->drawn_in, (uint32_t)t, w->triangles + 3 * t);
+    for (size_t t = 0; t < count; t++)
+        mw_mesh_triangle(w->drawn_in, (uint32_t)t, w->triangles + 3 * t);
     w->mesh.triangle_count = count;
     return workload_prepare(w);
 }
 
-int workload_from_points(workload *w, const char *name, dataset *data, const common_settings *common)
+int workload_from_points(workload *w, const char *name, dataset *data,
+                         const common_settings *common)
 {
     mw_error error;
     mw_delaunay_options options = {.threads = common->threads, .progress = progress_of_call()};
-    *w = (workload){
-        .threads = common->threads, .name = name, .points = data->points, .region = *data, .seed = common->seed};
+    *w = (workload){.threads = common->threads,
+                    .name = name,
+                    .points = data->points,
+                    .region = *data,
+                    .seed = common->seed};
     w->mesh.point_count = data->count;
     data->points = w->region.points = NULL;
     progress_phase("triangulating", name);
@@ -47,7 +53,8 @@ int workload_from_points(workload *w, const char *name, dataset *data, const com
     return workload_take_triangles(w);
 }
 
-int workload_from_mesh(workload *w, const char *name, const mw_mesh_file *file, const common_settings *common)
+int workload_from_mesh(workload *w, const char *name, const mw_mesh_file *file,
+                       const common_settings *common)
 {
     mw_error error;
     mw_mesh_options options = {.threads = common->threads, .progress = progress_of_call()};
@@ -55,7 +62,8 @@ int workload_from_mesh(workload *w, const char *name, const mw_mesh_file *file, 
     *w = (workload){.threads = common->threads, .name = name, .seed = common->seed};
     w->points = malloc(2 * (file->point_count + 1) * sizeof *w->points);
     if (!w->points) return fail_memory();
-    for (size_t i = 0; i < file->point_count; i++) memcpy(w->points + 2 * i, file->points + 3 * i, 2 * sizeof(double));
+    for (size_t i = 0; i < file->point_count; i++)
+        memcpy(w->points + 2 * i, file->points + 3 * i, 2 * sizeof(double));
     w->mesh.point_count = file->point_count;
     w->region = (dataset){.points = w->points, .count = file->point_count};
     bool fits = dataset_bound(&w->region, file->point_count);
@@ -65,7 +73,8 @@ int workload_from_mesh(workload *w, const char *name, const mw_mesh_file *file, 
         return END_INPUT;
     }
     progress_phase("linking", name);
-    if (mw_mesh_create(&arrays, &options, &w->drawn_in, &error) != MW_OK) return workload_fail(w, &error);
+    if (mw_mesh_create(&arrays, &options, &w->drawn_in, &error) != MW_OK)
+        return workload_fail(w, &error);
     return workload_take_triangles(w);
 }
 
@@ -105,7 +114,8 @@ static int workload_locate(const workload *w, const double *queries, size_t n, m
 /* A point of a random triangle, uniform in it up to rounding. */
 static void workload_draw_dense(workload *w, double *query)
 {
-    const uint32_t *v = w->triangles + 3 * (size_t)(dataset_unit(&w->random) * (double)w->mesh.triangle_count);
+    const uint32_t *v =
+        w->triangles + 3 * (size_t)(dataset_unit(&w->random) * (double)w->mesh.triangle_count);
     double s = dataset_unit(&w->random), t = dataset_unit(&w->random);
     if (s + t > 1) {
         s = 1 - s;
@@ -148,7 +158,8 @@ static int workload_draw_from(workload *w, const drawn_source *from, double *que
                 memmove(queries + 2 * found++, new + 2 * i, 2 * sizeof *new);
         drawn += more;
         if (end == 0 && drawn > 1000 * found + DRAWN_IN_VAIN) {
-            complain("%s: the mesh fills less than a thousandth of the extent of its points", w->name);
+            complain("%s: the mesh fills less than a thousandth of the extent of its points",
+                     w->name);
             end = END_INPUT;
         }
     }
@@ -173,8 +184,8 @@ static int workload_draw_half_outside(workload *w, double *queries, size_t n)
     }
     int end = workload_draw_inside(w, queries, n / 2);
     if (end == 0)
-        end =
-            workload_draw_from(w, &(drawn_source){.region = &wide, .outside = true}, queries + 2 * (n / 2), n - n / 2);
+        end = workload_draw_from(w, &(drawn_source){.region = &wide, .outside = true},
+                                 queries + 2 * (n / 2), n - n / 2);
     for (size_t i = n; i > 1 && end == 0; i--) {
         double other[2], *a = queries + 2 * (i - 1);
         double *b = queries + 2 * (size_t)(dataset_unit(&w->random) * (double)i);
@@ -222,7 +233,9 @@ static int workload_draw_sorted(workload *w, double *queries, size_t n)
     uint32_t *place = workload_triangle_places(w);
     mw_location *found = malloc(n * sizeof *found);
     placed_query *all = malloc(n * sizeof *all);
-    int end = !place ? END_RESOURCE : found && all ? workload_draw_inside(w, queries, n) : fail_memory();
+    int end = !place         ? END_RESOURCE
+              : found && all ? workload_draw_inside(w, queries, n)
+                             : fail_memory();
     if (end == 0) end = workload_locate(w, queries, n, found);
     for (size_t i = 0; i < n && end == 0; i++)
         all[i] = (placed_query){{queries[2 * i], queries[2 * i + 1]}, place[found[i].triangle]};
@@ -252,8 +265,8 @@ static double workload_edge_length(const workload *w, uint32_t triangle)
 
 /* The next point, an edge's length on, in about the same direction; false: all ways lead out of the
  * mesh. */
-static bool workload_step(workload *w, mw_cursor *cursor, uint32_t *triangle, double *heading, const double *from,
-                          double *to)
+static bool workload_step(workload *w, mw_cursor *cursor, uint32_t *triangle, double *heading,
+                          const double *from, double *to)
 {
     double length = workload_edge_length(w, *triangle);
     for (int tries = 0; tries < HEADINGS; tries++) {
@@ -276,7 +289,8 @@ static int workload_draw_coherent(workload *w, double *queries, size_t n)
     mw_query_options options = {.start = MW_START_LAST};
     uint32_t triangle = 0;
     double heading = 0;
-    if (mw_cursor_init(w->locator, &options, &cursor, &error) != MW_OK) return workload_fail(w, &error);
+    if (mw_cursor_init(w->locator, &options, &cursor, &error) != MW_OK)
+        return workload_fail(w, &error);
     for (size_t i = 0; i < n; i++) {
         double *q = queries + 2 * i;
         if (i > 0 && workload_step(w, &cursor, &triangle, &heading, q - 2, q)) continue;

@@ -31,9 +31,11 @@ typedef struct workload {
 
 /* The points are triangulated, and become those of the workload. Each of these returns 0 or an exit
  * code after a complaint. */
-int workload_from_points(workload *w, const char *name, dataset *data, const common_settings *common);
+int workload_from_points(workload *w, const char *name, dataset *data,
+                         const common_settings *common);
 /* The mesh is taken as it is. */
-int workload_from_mesh(workload *w, const char *name, const mw_mesh_file *file, const common_settings *common);
+int workload_from_mesh(workload *w, const char *name, const mw_mesh_file *file,
+                       const common_settings *common);
 /* Draw n queries for each of the tasks (ENGINE_IN), and give back what only drawing needs: beside a
  * large mesh there is no room for it. */
 int workload_draw_queries(workload *w, uint32_t tasks, size_t n);

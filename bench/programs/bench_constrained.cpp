@@ -77,14 +77,17 @@ ConstrainedScene coast(size_t n, size_t inside, std::mt19937_64 &random)
     auto radius = [&](double angle) {
         double r = 2;
         for (size_t k = 0; k < 20; k++)
-            r += depth[k] * std::sin(std::floor(std::pow(1.7, static_cast<double>(k))) * angle + phase[k]);
+            r += depth[k] *
+                 std::sin(std::floor(std::pow(1.7, static_cast<double>(k))) * angle + phase[k]);
         return r;
     };
     for (size_t i = 0; i < n; i++) {
-        double angle = 6.283185307179586 * static_cast<double>(i) / static_cast<double>(n), r = radius(angle);
+        double angle = 6.283185307179586 * static_cast<double>(i) / static_cast<double>(n),
+               r = radius(angle);
         add(s, r * std::cos(angle), r * std::sin(angle));
     }
-    for (size_t i = 0; i < n; i++) join(s, static_cast<uint32_t>(i), static_cast<uint32_t>((i + 1) % n));
+    for (size_t i = 0; i < n; i++)
+        join(s, static_cast<uint32_t>(i), static_cast<uint32_t>((i + 1) % n));
     while (s.points.size() < 2 * (n + inside)) {
         double x = 8 * uniform(random) - 4, y = 8 * uniform(random) - 4;
         if (std::hypot(x, y) < radius(std::atan2(y, x))) add(s, x, y);
@@ -119,7 +122,8 @@ ConstrainedScene parcels(size_t n, std::mt19937_64 &random)
         corner.push_back(add(s, static_cast<double>(i % side) + 0.5 * uniform(random),
                              static_cast<double>(i / side) + 0.5 * uniform(random)));
     auto border = [&](uint32_t a, uint32_t b) {
-        double x = s.points[2 * a], y = s.points[2 * a + 1], dx = s.points[2 * b] - x, dy = s.points[2 * b + 1] - y;
+        double x = s.points[2 * a], y = s.points[2 * a + 1], dx = s.points[2 * b] - x,
+               dy = s.points[2 * b + 1] - y;
         uint32_t from = a;
         for (double t : {0.31, 0.67}) {
             uint32_t to = add(s, x + t * dx, y + t * dy);
@@ -141,7 +145,8 @@ ConstrainedScene across(size_t n, size_t lines, std::mt19937_64 &random)
 {
     ConstrainedScene s;
     for (size_t i = 0; i < lines; i++) {
-        double low = static_cast<double>(i) / static_cast<double>(lines), room = 0.9 / static_cast<double>(lines);
+        double low = static_cast<double>(i) / static_cast<double>(lines),
+               room = 0.9 / static_cast<double>(lines);
         uint32_t a = add(s, 0, low + room * uniform(random));
         join(s, a, add(s, 1, low + room * uniform(random)));
     }
@@ -162,7 +167,8 @@ double run_ours(const ConstrainedScene &s, size_t &triangles)
     mw_constrain_options one_thread = {};
     one_thread.threads = 1;
     Stopwatch watch;
-    if (mw_constrained_delaunay(&given, &one_thread, nullptr, nullptr, nullptr, &mesh, &error) != MW_OK)
+    if (mw_constrained_delaunay(&given, &one_thread, nullptr, nullptr, nullptr, &mesh, &error) !=
+        MW_OK)
         fail(error.message);
     double seconds = watch.seconds();
     triangles = mw_mesh_triangle_count(mesh);
@@ -170,8 +176,8 @@ double run_ours(const ConstrainedScene &s, size_t &triangles)
     return seconds;
 }
 
-double run_peer(const std::vector<Point> &points, const std::vector<std::pair<size_t, size_t>> &pairs,
-                size_t &triangles)
+double run_peer(const std::vector<Point> &points,
+                const std::vector<std::pair<size_t, size_t>> &pairs, size_t &triangles)
 {
     Constrained triangulation;
     Stopwatch watch;
@@ -189,18 +195,21 @@ double run_plain(const ConstrainedScene &s)
     mw_delaunay_options one_thread = {};
     one_thread.threads = 1;
     Stopwatch watch;
-    if (mw_delaunay(s.points.data(), s.points.size() / 2, 2, &one_thread, nullptr, nullptr, &mesh, &error) != MW_OK)
+    if (mw_delaunay(s.points.data(), s.points.size() / 2, 2, &one_thread, nullptr, nullptr, &mesh,
+                    &error) != MW_OK)
         fail(error.message);
     double seconds = watch.seconds();
     mw_mesh_destroy(mesh);
     return seconds;
 }
 
-void measure(const std::string &name, const ConstrainedScene &s, const ProgramOptions &options, TextTable &table)
+void measure(const std::string &name, const ConstrainedScene &s, const ProgramOptions &options,
+             TextTable &table)
 {
     const std::vector<Point> points = cgal_points(s.points);
     std::vector<std::pair<size_t, size_t>> pairs;
-    for (size_t i = 0; i < s.segments.size(); i += 2) pairs.emplace_back(s.segments[i], s.segments[i + 1]);
+    for (size_t i = 0; i < s.segments.size(); i += 2)
+        pairs.emplace_back(s.segments[i], s.segments[i + 1]);
     size_t triangles[2];
     Competitors competitors;
     size_t ours = competitors.enter([&] { return run_ours(s, triangles[0]); });
@@ -208,11 +217,12 @@ void measure(const std::string &name, const ConstrainedScene &s, const ProgramOp
     size_t plain = competitors.enter([&] { return run_plain(s); });
     competitors.measure(options);
     if (triangles[0] != triangles[1])
-        fail(name + ": " + std::to_string(triangles[0]) + " triangles, CGAL has " + std::to_string(triangles[1]));
+        fail(name + ": " + std::to_string(triangles[0]) + " triangles, CGAL has " +
+             std::to_string(triangles[1]));
     table.row({name, std::to_string(points.size()), std::to_string(pairs.size()),
-               number(1e3 * competitors.median(plain), 1), number(1e3 * competitors.median(ours), 1),
-               number(1e3 * competitors.least(ours), 1), number(1e3 * competitors.median(peer), 1),
-               number(1e3 * competitors.least(peer), 1),
+               number(1e3 * competitors.median(plain), 1),
+               number(1e3 * competitors.median(ours), 1), number(1e3 * competitors.least(ours), 1),
+               number(1e3 * competitors.median(peer), 1), number(1e3 * competitors.least(peer), 1),
                number(competitors.median(ours) / competitors.median(peer), 3)});
 }
 
@@ -235,10 +245,11 @@ int main(int argc, char **argv)
     ProgramOptions defaults;
     defaults.rounds = 5;
     defaults.data = {"coast", "coast-filled", "short", "middling", "parcels", "across", "bundle"};
-    ProgramOptions options =
-        parse_options(argc, argv, defaults, "constrained triangulation beside CGAL, ms; --data: scenes");
+    ProgramOptions options = parse_options(
+        argc, argv, defaults, "constrained triangulation beside CGAL, ms; --data: scenes");
     print_machine(options.tsv, cgal_version());
-    TextTable table({"scene", "points", "segments", "Delaunay", "meshwalk", "(least)", "CGAL", "(least)", "ratio"});
+    TextTable table({"scene", "points", "segments", "Delaunay", "meshwalk", "(least)", "CGAL",
+                     "(least)", "ratio"});
     for (const auto &name : options.data) {
         std::mt19937_64 random(options.seed);
         measure(name, make(name, random), options, table);

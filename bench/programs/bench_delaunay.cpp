@@ -21,7 +21,8 @@ double run_ours(const Coordinates &points, unsigned threads, size_t &triangles)
     mw_delaunay_options setup = {};
     setup.threads = threads;
     Stopwatch watch;
-    if (mw_delaunay(points.data(), points.size() / 2, 2, &setup, nullptr, nullptr, &mesh, &error) != MW_OK)
+    if (mw_delaunay(points.data(), points.size() / 2, 2, &setup, nullptr, nullptr, &mesh, &error) !=
+        MW_OK)
         fail(error.message);
     double seconds = watch.seconds();
     triangles = mw_mesh_triangle_count(mesh);
@@ -47,12 +48,13 @@ void measure(const std::string &name, size_t size, const ProgramOptions &options
     Competitors competitors;
     size_t ours = competitors.enter([&] { return run_ours(points, 1, triangles[0]); });
     size_t peer = competitors.enter([&] { return run_peer(same, triangles[1]); });
-    size_t more = options.threads == 1
-                      ? ours
-                      : competitors.enter([&] { return run_ours(points, options.threads, triangles[2]); });
+    size_t more = options.threads == 1 ? ours : competitors.enter([&] {
+        return run_ours(points, options.threads, triangles[2]);
+    });
     competitors.measure(options);
     if (triangles[0] != triangles[1] || (more != ours && triangles[2] != triangles[0]))
-        fail(name + ": " + std::to_string(triangles[0]) + " triangles, CGAL has " + std::to_string(triangles[1]));
+        fail(name + ": " + std::to_string(triangles[0]) + " triangles, CGAL has " +
+             std::to_string(triangles[1]));
     double scale = 1e9 / static_cast<double>(n);
     std::vector<std::string> row = {name, std::to_string(n), std::to_string(triangles[0])};
     for (size_t competitor : {ours, peer}) {
@@ -75,9 +77,11 @@ int main(int argc, char **argv)
     ProgramOptions defaults;
     defaults.sizes = {10000, 100000, 1000000};
     defaults.data = {"uniform", "grid", "gaussian", "clusters"};
-    ProgramOptions options = parse_options(argc, argv, defaults, "Delaunay triangulation beside CGAL, ns per point");
+    ProgramOptions options =
+        parse_options(argc, argv, defaults, "Delaunay triangulation beside CGAL, ns per point");
     print_machine(options.tsv, cgal_version());
-    std::vector<std::string> head = {"data", "points", "triangles", "meshwalk", "(least)", "CGAL", "(least)", "ratio"};
+    std::vector<std::string> head = {"data",    "points", "triangles", "meshwalk",
+                                     "(least)", "CGAL",   "(least)",   "ratio"};
     if (options.threads > 1)
         for (const char *title : {"on threads", "(least)", "of one's time"}) head.push_back(title);
     TextTable table(head);

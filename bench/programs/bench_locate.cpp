@@ -27,11 +27,13 @@ struct LocateScene {
     std::vector<Delaunay::Face_handle> faces;
 
     LocateScene(const std::string &name, size_t size, const ProgramOptions &options)
-        : points(make_points(name, size, options.seed)), queries(make_queries(points, options.queries, options.seed)),
+        : points(make_points(name, size, options.seed)),
+          queries(make_queries(points, options.queries, options.seed)),
           peer_queries(cgal_points(queries))
     {
         mw_error error;
-        if (mw_delaunay(points.data(), points.size() / 2, 2, NULL, nullptr, nullptr, &mesh, &error) != MW_OK ||
+        if (mw_delaunay(points.data(), points.size() / 2, 2, NULL, nullptr, nullptr, &mesh,
+                        &error) != MW_OK ||
             mw_locator_create(mesh, nullptr, &locator, &error) != MW_OK)
             fail(error.message);
         std::vector<Point> same = cgal_points(points);
@@ -76,8 +78,9 @@ double run_peer_sorted(const LocateScene &scene, CgalFaces &found)
     Stopwatch watch;
     std::vector<size_t> order(found.size());
     std::iota(order.begin(), order.end(), 0);
-    CGAL::spatial_sort(order.begin(), order.end(),
-                       CGAL::Spatial_sort_traits_adapter_2<Kernel, Map>(Map(scene.peer_queries.data())));
+    CGAL::spatial_sort(
+        order.begin(), order.end(),
+        CGAL::Spatial_sort_traits_adapter_2<Kernel, Map>(Map(scene.peer_queries.data())));
     Delaunay::Face_handle face = scene.faces[0];
     for (size_t i : order) {
         face = scene.peer.locate(scene.peer_queries[i], face);
@@ -87,11 +90,13 @@ double run_peer_sorted(const LocateScene &scene, CgalFaces &found)
 }
 
 // Where both found the inside of a triangle, it has to be the same one.
-void compare(const LocateScene &scene, const std::vector<mw_location> &ours, const CgalFaces &theirs)
+void compare(const LocateScene &scene, const std::vector<mw_location> &ours,
+             const CgalFaces &theirs)
 {
     for (size_t i = 0; i < ours.size(); i++) {
         if (ours[i].where != MW_INSIDE || scene.peer.is_infinite(theirs[i])) {
-            if (ours[i].where == MW_INSIDE || (ours[i].where == MW_OUTSIDE && !scene.peer.is_infinite(theirs[i])))
+            if (ours[i].where == MW_INSIDE ||
+                (ours[i].where == MW_OUTSIDE && !scene.peer.is_infinite(theirs[i])))
                 fail("query " + std::to_string(i) + ": one found it inside, one outside");
             continue;
         }
@@ -99,7 +104,8 @@ void compare(const LocateScene &scene, const std::vector<mw_location> &ours, con
         std::array<Point, 3> a, b;
         mw_mesh_triangle(scene.mesh, ours[i].triangle, corners);
         for (size_t k = 0; k < 3; k++) {
-            a[k] = Point(scene.points[2 * size_t(corners[k])], scene.points[2 * size_t(corners[k]) + 1]);
+            a[k] = Point(scene.points[2 * size_t(corners[k])],
+                         scene.points[2 * size_t(corners[k]) + 1]);
             b[k] = theirs[i]->vertex(static_cast<int>(k))->point();
         }
         std::sort(a.begin(), a.end());
@@ -115,21 +121,25 @@ struct LocateLine {
     bool counted;
 };
 
-void print_lines(const std::string &name, const LocateScene &scene, const std::vector<LocateLine> &lines,
-                 const Competitors &competitors, TextTable &table)
+void print_lines(const std::string &name, const LocateScene &scene,
+                 const std::vector<LocateLine> &lines, const Competitors &competitors,
+                 TextTable &table)
 {
     double queries = static_cast<double>(scene.query_count()), base = 0;
     for (const LocateLine &line : lines)
-        if (line.walk == "CGAL" && line.start == "random") base = competitors.median(line.competitor);
+        if (line.walk == "CGAL" && line.start == "random")
+            base = competitors.median(line.competitor);
     for (const LocateLine &line : lines) {
         double median = competitors.median(line.competitor);
         auto each = [&](uint64_t count) {
             return line.counted ? number(double(count) / queries, 2) : std::string("-");
         };
-        table.row({name, std::to_string(scene.points.size() / 2), line.walk, line.start, line.way,
-                   number(1e9 * median / queries, 1), number(1e9 * competitors.least(line.competitor) / queries, 1),
-                   number(median / base, 3), each(line.counters.triangles_visited),
-                   each(line.counters.orient_init + line.counters.orient + line.counters.orient_final)});
+        table.row(
+            {name, std::to_string(scene.points.size() / 2), line.walk, line.start, line.way,
+             number(1e9 * median / queries, 1),
+             number(1e9 * competitors.least(line.competitor) / queries, 1),
+             number(median / base, 3), each(line.counters.triangles_visited),
+             each(line.counters.orient_init + line.counters.orient + line.counters.orient_final)});
     }
 }
 
@@ -150,8 +160,8 @@ void measure(const std::string &name, size_t size, const ProgramOptions &options
             return batch ? locate_in_batch(scene.locator, scene.queries, how(walk, start, 0), found)
                          : locate_singly(scene.locator, scene.queries, how(walk, start, 0), found);
         });
-        lines.push_back({mw_walk_name(walk), mw_start_name(start), batch ? "batch" : "single", competitor,
-                         count(walk, start), true});
+        lines.push_back({mw_walk_name(walk), mw_start_name(start), batch ? "batch" : "single",
+                         competitor, count(walk, start), true});
     };
     for (const std::string &walk : options.walks)
         for (bool batch : {false, true}) {
@@ -168,8 +178,12 @@ void measure(const std::string &name, size_t size, const ProgramOptions &options
                      competitors.enter([&] { return run_peer_random(scene, options.seed, faces); }),
                      {},
                      false});
-    lines.push_back(
-        {"CGAL", "sorted", "single", competitors.enter([&] { return run_peer_sorted(scene, faces); }), {}, false});
+    lines.push_back({"CGAL",
+                     "sorted",
+                     "single",
+                     competitors.enter([&] { return run_peer_sorted(scene, faces); }),
+                     {},
+                     false});
     competitors.measure(options);
     print_lines(name, scene, lines, competitors, table);
 }
@@ -184,9 +198,11 @@ int main(int argc, char **argv)
     defaults.queries = 5000;
 #define MW_WALK_ENTRY(id, symbol, name, source, help) defaults.walks.push_back(name);
 #include <meshwalk/walks.def>
-    ProgramOptions options = parse_options(argc, argv, defaults, "point location beside CGAL, ns per query");
+    ProgramOptions options =
+        parse_options(argc, argv, defaults, "point location beside CGAL, ns per query");
     print_machine(options.tsv, cgal_version());
-    TextTable table({"data", "points", "walk", "start", "way", "ns/query", "(least)", "ratio", "triangles", "tests"});
+    TextTable table({"data", "points", "walk", "start", "way", "ns/query", "(least)", "ratio",
+                     "triangles", "tests"});
     for (const auto &name : options.data)
         for (size_t size : options.sizes) measure(name, size, options, table);
     table.print(options.tsv);

@@ -1,6 +1,6 @@
-// bench_polygons - point in polygon beside GEOS, in one process and on one thread: mw_polygons with a
-// batch of mw_locate_batch, and GEOS's STRtree over the boxes of its polygons, each prepared. Both list
-// all polygons that a point is in or on; the numbers of these have to agree.
+// bench_polygons - point in polygon beside GEOS, in one process and on one thread: mw_polygons
+// with a batch of mw_locate_batch, and GEOS's STRtree over the boxes of its polygons, each
+// prepared. Both list all polygons that a point is in or on; the numbers of these have to agree.
 #include "bench/programs/program.h"
 
 #include <geos_c.h>
@@ -41,7 +41,8 @@ PolygonScene parcels(size_t side, std::mt19937_64 &random)
             double t = a < b || k == 0 ? shares[k] : shares[3 - k];
             size_t from = a < b || k == 0 ? a : b, to = a < b || k == 0 ? b : a;
             for (size_t axis = 0; axis < 2; axis++)
-                ring.push_back(corner[2 * from + axis] + t * (corner[2 * to + axis] - corner[2 * from + axis]));
+                ring.push_back(corner[2 * from + axis] +
+                               t * (corner[2 * to + axis] - corner[2 * from + axis]));
         }
     };
     for (size_t i = 0; i < side * side; i++) {
@@ -103,7 +104,8 @@ struct Ours {
         mw_error error;
         Stopwatch watch;
         for (size_t p = 0; p < s.rings.size(); p++) {
-            auto first = static_cast<uint32_t>(points.size() / 2), n = static_cast<uint32_t>(s.rings[p].size() / 2);
+            auto first = static_cast<uint32_t>(points.size() / 2),
+                 n = static_cast<uint32_t>(s.rings[p].size() / 2);
             points.insert(points.end(), s.rings[p].begin(), s.rings[p].end());
             for (uint32_t i = 0; i < n; i++) {
                 segments.push_back(first + i);
@@ -135,9 +137,11 @@ struct Ours {
         at.resize(n);
         hits = 0;
         Stopwatch watch;
-        if (mw_locate_batch(locator, queries.data(), n, 2, &options, at.data(), nullptr, &error) != MW_OK)
+        if (mw_locate_batch(locator, queries.data(), n, 2, &options, at.data(), nullptr, &error) !=
+            MW_OK)
             fail(error.message);
-        for (size_t i = 0; i < n; i++) hits += mw_polygons_at(polygons, &queries[2 * i], &at[i], found, 256);
+        for (size_t i = 0; i < n; i++)
+            hits += mw_polygons_at(polygons, &queries[2 * i], &at[i], found, 256);
         return watch.seconds();
     }
     size_t bytes() const
@@ -169,7 +173,8 @@ class Peer
     {
         Search &search = *static_cast<Search *>(self);
         auto *polygon = static_cast<const GEOSPreparedGeometry *>(item);
-        if (GEOSPreparedIntersects_r(search.peer->handle, polygon, search.point) == 1) search.hits++;
+        if (GEOSPreparedIntersects_r(search.peer->handle, polygon, search.point) == 1)
+            search.hits++;
     }
 
     void add(const std::vector<double> &ring)
@@ -177,12 +182,13 @@ class Peer
         std::vector<double> closed = ring;
         closed.push_back(ring[0]);
         closed.push_back(ring[1]);
-        GEOSCoordSequence *line =
-            GEOSCoordSeq_copyFromBuffer_r(handle, closed.data(), static_cast<unsigned>(closed.size() / 2), 0, 0);
+        GEOSCoordSequence *line = GEOSCoordSeq_copyFromBuffer_r(
+            handle, closed.data(), static_cast<unsigned>(closed.size() / 2), 0, 0);
         GEOSGeometry *shell = GEOSGeom_createLinearRing_r(handle, line);
         geometry.push_back(GEOSGeom_createPolygon_r(handle, shell, nullptr, 0));
         prepared.push_back(GEOSPrepare_r(handle, geometry.back()));
-        GEOSSTRtree_insert_r(handle, tree, geometry.back(), const_cast<GEOSPreparedGeometry *>(prepared.back()));
+        GEOSSTRtree_insert_r(handle, tree, geometry.back(),
+                             const_cast<GEOSPreparedGeometry *>(prepared.back()));
     }
 
   public:
@@ -225,8 +231,8 @@ class Peer
 
 // --- all together ---
 
-void measure(const std::string &name, const PolygonScene &s, const ProgramOptions &options, std::mt19937_64 &random,
-             TextTable &table)
+void measure(const std::string &name, const PolygonScene &s, const ProgramOptions &options,
+             std::mt19937_64 &random, TextTable &table)
 {
     std::vector<double> queries;
     for (size_t i = 0; i < 2 * options.queries; i++)
@@ -236,20 +242,24 @@ void measure(const std::string &name, const PolygonScene &s, const ProgramOption
     size_t hits[2], points = 0;
     for (const auto &ring : s.rings) points += ring.size() / 2;
     Competitors building, asking;
-    size_t our_build = building.enter([&] { return ours = std::make_unique<Ours>(), ours->build(s); });
-    size_t peer_build = building.enter([&] { return peer = std::make_unique<Peer>(), peer->build(s); });
+    size_t our_build =
+        building.enter([&] { return ours = std::make_unique<Ours>(), ours->build(s); });
+    size_t peer_build =
+        building.enter([&] { return peer = std::make_unique<Peer>(), peer->build(s); });
     building.measure(options.rounds < 3 ? options.rounds : 3, 0);
     size_t our_query = asking.enter([&] { return ours->query(queries, hits[0]); });
     size_t peer_query = asking.enter([&] { return peer->query(queries, hits[1]); });
     asking.measure(options);
-    if (hits[0] != hits[1]) fail(name + ": " + std::to_string(hits[0]) + " hits, GEOS has " + std::to_string(hits[1]));
+    if (hits[0] != hits[1])
+        fail(name + ": " + std::to_string(hits[0]) + " hits, GEOS has " + std::to_string(hits[1]));
     double each = 1e9 / static_cast<double>(options.queries);
-    table.row({name, std::to_string(s.rings.size()), std::to_string(points),
-               number(static_cast<double>(hits[0]) / static_cast<double>(options.queries), 2),
-               number(static_cast<double>(ours->bytes()) / static_cast<double>(points), 0),
-               number(1e3 * building.median(our_build), 1), number(1e3 * building.median(peer_build), 1),
-               number(each * asking.median(our_query), 0), number(each * asking.median(peer_query), 0),
-               number(asking.median(our_query) / asking.median(peer_query), 3)});
+    table.row(
+        {name, std::to_string(s.rings.size()), std::to_string(points),
+         number(static_cast<double>(hits[0]) / static_cast<double>(options.queries), 2),
+         number(static_cast<double>(ours->bytes()) / static_cast<double>(points), 0),
+         number(1e3 * building.median(our_build), 1), number(1e3 * building.median(peer_build), 1),
+         number(each * asking.median(our_query), 0), number(each * asking.median(peer_query), 0),
+         number(asking.median(our_query) / asking.median(peer_query), 3)});
 }
 
 } // namespace
@@ -260,11 +270,11 @@ int main(int argc, char **argv)
     defaults.rounds = 5;
     defaults.queries = 100000;
     defaults.data = {"parcels", "coast", "overlaps"};
-    ProgramOptions options =
-        parse_options(argc, argv, defaults, "point in polygon beside GEOS; --data: scenes; --queries: points");
+    ProgramOptions options = parse_options(
+        argc, argv, defaults, "point in polygon beside GEOS; --data: scenes; --queries: points");
     print_machine(options.tsv, std::string("GEOS ") + GEOS_VERSION);
-    TextTable table(
-        {"scene", "polygons", "points", "hits", "bytes/point", "build ms", "(GEOS)", "ns/query", "(GEOS)", "ratio"});
+    TextTable table({"scene", "polygons", "points", "hits", "bytes/point", "build ms", "(GEOS)",
+                     "ns/query", "(GEOS)", "ratio"});
     for (const auto &name : options.data) {
         std::mt19937_64 random(options.seed);
         measure(name, make(name, random), options, random, table);

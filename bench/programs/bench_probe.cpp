@@ -13,8 +13,9 @@ namespace
 
 using namespace bench;
 
-const double reach_share = 0.01;    // of the diagonal: the largest distance of a touch
-const double hover_share = 0.001;   // of the diagonal: height of the probe above the surface where it touches
+const double reach_share = 0.01; // of the diagonal: the largest distance of a touch
+const double hover_share =
+    0.001; // of the diagonal: height of the probe above the surface where it touches
 const double free_share = 0.03;     // and where it does not
 const double step_share = 0.1;      // of an edge: from query to query
 const double lean = 0.3;            // the motion points forward by so much
@@ -73,7 +74,8 @@ struct ProbeScene {
     mw_prober *plain = nullptr, *boxed = nullptr;
     double diagonal, edge;
 
-    ProbeScene(const std::string &name, const ProgramOptions &options) : model(make_model(name, options.seed))
+    ProbeScene(const std::string &name, const ProgramOptions &options)
+        : model(make_model(name, options.seed))
     {
         mw_error error;
         mw_arrays arrays = model.arrays();
@@ -87,7 +89,8 @@ struct ProbeScene {
         double size[3];
         for (size_t k = 0; k < 3; k++) size[k] = info.high[k] - info.low[k];
         diagonal = std::sqrt(dot(size, size));
-        edge = std::sqrt(info.area / static_cast<double>(model.triangle_count()) * 4 / std::sqrt(3.0));
+        edge =
+            std::sqrt(info.area / static_cast<double>(model.triangle_count()) * 4 / std::sqrt(3.0));
     }
     ~ProbeScene()
     {
@@ -115,7 +118,8 @@ struct ProbeScene {
         mw_surface_triangle(surface, triangle, v);
         for (size_t k = 0; k < 3; k++) mw_surface_vertex(surface, v[k], p[k]);
         for (size_t k = 0; k < 3; k++) a[k] = p[1][k] - p[0][k], b[k] = p[2][k] - p[0][k];
-        for (size_t k = 0; k < 3; k++) n[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
+        for (size_t k = 0; k < 3; k++)
+            n[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
         normalise(n);
     }
     std::vector<std::string> row(const std::string &what) const
@@ -189,7 +193,8 @@ struct ProbeVerdict {
     }
     void print(std::vector<std::string> &cells) const
     {
-        for (size_t count : {hits, same, other, missed, invented}) cells.push_back(std::to_string(count));
+        for (size_t count : {hits, same, other, missed, invented})
+            cells.push_back(std::to_string(count));
     }
 };
 
@@ -210,7 +215,8 @@ Coordinates make_path(const ProbeScene &scene, double height, size_t n, uint64_t
     for (size_t i = 0; i < n; i++) {
         mw_nearest_surface_point hit;
         mw_error error;
-        if (mw_nearest_on_surface(scene.boxed, p, INFINITY, &hit, &error) != MW_OK) fail(error.message);
+        if (mw_nearest_on_surface(scene.boxed, p, INFINITY, &hit, &error) != MW_OK)
+            fail(error.message);
         for (size_t k = 0; k < 3; k++) moved[k] = hit.point[k] - moved[k];
         double turn = dot(moved, moved) < step * step / 4 ? 1 : 0.02;
         scene.normal(hit.triangle, up);
@@ -233,7 +239,8 @@ Coordinates make_path(const ProbeScene &scene, double height, size_t n, uint64_t
 // --- the time of each query
 
 // A pass over the path; the clock is read once for each query.
-template <class Who> double pass(Who &who, const double *path, ProbeAnswers &answers, std::vector<double> &seconds)
+template <class Who>
+double pass(Who &who, const double *path, ProbeAnswers &answers, std::vector<double> &seconds)
 {
     using clock = std::chrono::steady_clock;
     clock::time_point begin = clock::now(), last = begin;
@@ -249,7 +256,8 @@ template <class Who> double pass(Who &who, const double *path, ProbeAnswers &ans
 double share(std::vector<double> values, double part)
 {
     size_t rank = static_cast<size_t>(part * static_cast<double>(values.size() - 1));
-    std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(rank), values.end());
+    std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(rank),
+                     values.end());
     return values[rank];
 }
 
@@ -298,7 +306,8 @@ class ProbePasses
             typical.push_back(share(one, 0.5));
             worst = std::max(worst, share(one, 1));
         }
-        auto late = std::count_if(typical.begin(), typical.end(), [=](double t) { return t > budget; });
+        auto late =
+            std::count_if(typical.begin(), typical.end(), [=](double t) { return t > budget; });
         for (double seconds : {mean(typical), share(typical, 0.999), share(typical, 1), worst})
             cells.push_back(number(1e6 * seconds, 2));
         cells.push_back(number(1e3 * budget, 0));
@@ -306,10 +315,12 @@ class ProbePasses
     }
 };
 
-void measure_still(const ProbeScene &scene, const ProgramOptions &options, bool contact, TextTable &table)
+void measure_still(const ProbeScene &scene, const ProgramOptions &options, bool contact,
+                   TextTable &table)
 {
-    Coordinates path = make_path(scene, (contact ? hover_share : free_share) * scene.diagonal,
-                                 contact ? options.queries : std::max<size_t>(1, options.queries / 10), options.seed);
+    Coordinates path = make_path(
+        scene, (contact ? hover_share : free_share) * scene.diagonal,
+        contact ? options.queries : std::max<size_t>(1, options.queries / 10), options.seed);
     EmbreeDevice device(options.threads);
     EmbreeCaster caster(device, scene.model, filter_fronts);
     Competitors competitors;
@@ -321,7 +332,8 @@ void measure_still(const ProbeScene &scene, const ProgramOptions &options, bool 
     auto print = [&](const char *who, ProbePasses &passes) {
         std::vector<std::string> cells = scene.row(contact ? "contact" : "free");
         cells.push_back(who);
-        passes.print(cells, static_cast<size_t>(options.warmup), contact ? contact_budget : free_budget);
+        passes.print(cells, static_cast<size_t>(options.warmup),
+                     contact ? contact_budget : free_budget);
         ProbeVerdict verdict;
         verdict.add(passes.answers, certain.answers, tolerance(scene));
         verdict.print(cells);
@@ -381,12 +393,14 @@ void measure_builds(const ProbeScene &scene, const ProgramOptions &options, Text
     Competitors competitors;
     size_t surface = competitors.enter([&] { return build_surface(scene.model); });
     size_t boxes = competitors.enter([&] { return build_boxes(scene, options.threads, info); });
-    size_t embree = competitors.enter([&] { return build_caster(scene.model, options.threads, bytes); });
+    size_t embree =
+        competitors.enter([&] { return build_caster(scene.model, options.threads, bytes); });
     competitors.measure(options);
     auto print = [&](const char *what, size_t competitor, size_t size) {
         std::vector<std::string> cells = scene.row(what);
         double triangles = static_cast<double>(scene.model.triangle_count());
-        cells.insert(cells.end(), {number(1e3 * competitors.median(competitor), 1), number(double(size) / 1e6, 2),
+        cells.insert(cells.end(), {number(1e3 * competitors.median(competitor), 1),
+                                   number(double(size) / 1e6, 2),
                                    number(static_cast<double>(size) / triangles, 1)});
         table.row(cells);
     };
@@ -402,7 +416,8 @@ struct Wave {
     double waves[3], across[3], amplitude;
     const double turn = 0.12; // of its phase, from frame to frame
 
-    explicit Wave(const ProbeScene &scene) : waves{9, 6, 3}, across{0, 0.6, 0.8}, amplitude(0.002 * scene.diagonal)
+    explicit Wave(const ProbeScene &scene)
+        : waves{9, 6, 3}, across{0, 0.6, 0.8}, amplitude(0.002 * scene.diagonal)
     {
         for (double &n : waves) n /= scene.diagonal;
     }
@@ -421,8 +436,9 @@ const size_t frame_queries = 1000;
 struct SurfaceFollower {
     std::string name;
     std::function<double()> update; // what it costs to follow the surface: seconds
-    std::function<void(const double *, ProbeAnswers &, std::vector<double> &)> probe; // the queries of a frame
-    std::vector<double> updates, queries;                                             // seconds
+    std::function<void(const double *, ProbeAnswers &, std::vector<double> &)>
+        probe;                            // the queries of a frame
+    std::vector<double> updates, queries; // seconds
     ProbeVerdict verdict;
     ProbeAnswers answers = ProbeAnswers(frame_queries);
 
@@ -435,26 +451,29 @@ struct SurfaceFollower {
     }
 };
 
-template <class Who> SurfaceFollower follower(const std::string &name, std::function<double()> update, Who who)
+template <class Who>
+SurfaceFollower follower(const std::string &name, std::function<double()> update, Who who)
 {
     SurfaceFollower f;
     f.name = name;
     f.update = std::move(update);
-    f.probe = [who](const double *path, ProbeAnswers &answers, std::vector<double> &seconds) mutable {
-        pass(who, path, answers, seconds);
-    };
+    f.probe = [who](const double *path, ProbeAnswers &answers,
+                    std::vector<double> &seconds) mutable { pass(who, path, answers, seconds); };
     return f;
 }
 
-void print_followers(const ProbeScene &scene, const std::vector<SurfaceFollower> &followers, TextTable &table)
+void print_followers(const ProbeScene &scene, const std::vector<SurfaceFollower> &followers,
+                     TextTable &table)
 {
     for (const SurfaceFollower &f : followers) {
         std::vector<std::string> cells = scene.row(f.name);
         double each = 1e9 * mean(f.updates) / static_cast<double>(scene.model.vertex_count());
         double update = mean(f.updates), query = mean_of_most(f.queries);
-        cells.insert(cells.end(), {number(1e3 * update, 4), number(1e3 * share(f.updates, 1), 4), number(each, 3),
-                                   number(1e6 * query, 2), number(1e6 * share(f.queries, 0.999), 2),
-                                   number(1e3 * (update + query * static_cast<double>(frame_queries)), 3)});
+        cells.insert(cells.end(),
+                     {number(1e3 * update, 4), number(1e3 * share(f.updates, 1), 4),
+                      number(each, 3), number(1e6 * query, 2),
+                      number(1e6 * share(f.queries, 0.999), 2),
+                      number(1e3 * (update + query * static_cast<double>(frame_queries)), 3)});
         f.verdict.print(cells);
         table.row(cells);
     }
@@ -472,7 +491,8 @@ struct MovingSurface {
     EmbreeCaster refit, rebuild;
 
     MovingSurface(const ProbeScene &s, const ProgramOptions &options)
-        : scene(s), wave(s), device(options.threads), refit(device, s.model, filter_fronts, Moving::refit),
+        : scene(s), wave(s), device(options.threads),
+          refit(device, s.model, filter_fronts, Moving::refit),
           rebuild(device, s.model, filter_fronts, Moving::rebuild)
     {
         for (mw_prober *&one : boxed) one = scene.prober(true);
@@ -519,18 +539,22 @@ struct MovingSurface {
         all.push_back(follower(
             "published", [this] { return own; }, WalkProber(scene, scene.plain, false, seed)));
         all.push_back(follower(
-            "certain, known how far", [this] { return own + fits[0]; }, WalkProber(scene, boxed[0], true, seed)));
+            "certain, known how far", [this] { return own + fits[0]; },
+            WalkProber(scene, boxed[0], true, seed)));
         all.push_back(follower(
-            "certain, not known", [this] { return own + fits[1]; }, WalkProber(scene, boxed[1], true, seed)));
+            "certain, not known", [this] { return own + fits[1]; },
+            WalkProber(scene, boxed[1], true, seed)));
         all.push_back(follower("Embree, refit", update(refit), RayProber{refit, scene.reach()}));
-        all.push_back(follower("Embree, rebuilt", update(rebuild), RayProber{rebuild, scene.reach()}));
+        all.push_back(
+            follower("Embree, rebuilt", update(rebuild), RayProber{rebuild, scene.reach()}));
         return all;
     }
 };
 
 void measure_moving(const ProbeScene &scene, const ProgramOptions &options, TextTable &table)
 {
-    Coordinates path = make_path(scene, hover_share * scene.diagonal, frames * frame_queries, options.seed);
+    Coordinates path =
+        make_path(scene, hover_share * scene.diagonal, frames * frame_queries, options.seed);
     MovingSurface film(scene, options);
     std::vector<SurfaceFollower> followers = film.followers(options.seed);
     WalkProber oracle(scene, film.boxed[2], true, options.seed);
@@ -543,7 +567,8 @@ void measure_moving(const ProbeScene &scene, const ProgramOptions &options, Text
         film.show(frame, options.threads);
         queries = &path[6 * frame_queries * static_cast<size_t>(frame)];
         for (size_t i = 0; i < frame_queries; i++) {
-            film.wave.move(queries + 6 * i, frame, queries + 6 * i); // the probe goes with the surface
+            film.wave.move(queries + 6 * i, frame,
+                           queries + 6 * i); // the probe goes with the surface
             exact[i] = oracle(queries + 6 * i);
         }
     });
@@ -565,13 +590,15 @@ int main(int argc, char **argv)
     defaults.data = {"bumps:250000"};
     defaults.queries = 20000;
     defaults.rounds = 5;
-    ProgramOptions options = parse_options(argc, argv, defaults, "probes of surfaces beside Embree");
+    ProgramOptions options =
+        parse_options(argc, argv, defaults, "probes of surfaces beside Embree");
     print_machine(options.tsv, embree_version());
     TextTable builds({"data", "triangles", "built", "ms", "MB", "bytes/triangle"});
-    TextTable still({"data", "triangles", "probe", "who", "mean us", "99.9 %", "worst", "worst seen", "budget ms",
-                     "late", "hits", "same", "other", "missed", "invented"});
-    TextTable moving({"data", "triangles", "who", "update ms", "(worst)", "ns/vertex", "probe us", "99.9 %", "frame ms",
-                      "hits", "same", "other", "missed", "invented"});
+    TextTable still({"data", "triangles", "probe", "who", "mean us", "99.9 %", "worst",
+                     "worst seen", "budget ms", "late", "hits", "same", "other", "missed",
+                     "invented"});
+    TextTable moving({"data", "triangles", "who", "update ms", "(worst)", "ns/vertex", "probe us",
+                      "99.9 %", "frame ms", "hits", "same", "other", "missed", "invented"});
     for (const auto &name : options.data) {
         ProbeScene scene(name, options);
         measure_builds(scene, options, builds);

@@ -1,6 +1,6 @@
-// bench_regular - the regular triangulation of weighted points, beside CGAL's, in one process: both must
-// have the same triangles and as many hidden points. Weights are random, up to the mean area of a
-// point: one in seven uniform points is hidden. Freeing the result is not timed.
+// bench_regular - the regular triangulation of weighted points, beside CGAL's, in one process:
+// both must have the same triangles and as many hidden points. Weights are random, up to the mean
+// area of a point: one in seven uniform points is hidden. Freeing the result is not timed.
 #include "bench/core/cgal.h"
 #include "bench/programs/inputs.h"
 #include "bench/programs/program.h"
@@ -31,8 +31,8 @@ double run_ours(const Coordinates &points, const Coordinates &weights, Result &r
     options.threads = 1;
     options.weights = weights.data();
     Stopwatch watch;
-    if (mw_triangulate(MW_KIND_REGULAR, points.data(), weights.size(), 2, &options, nullptr, &report, &mesh, &error) !=
-        MW_OK)
+    if (mw_triangulate(MW_KIND_REGULAR, points.data(), weights.size(), 2, &options, nullptr,
+                       &report, &mesh, &error) != MW_OK)
         fail(error.message);
     double seconds = watch.seconds();
     result = {mw_mesh_triangle_count(mesh), report.hidden + report.delaunay.duplicates};
@@ -78,10 +78,12 @@ void measure(const std::string &name, size_t size, const ProgramOptions &options
     size_t peer = competitors.enter([&] { return run_peer(same, results[1]); });
     competitors.measure(options);
     if (results[0].triangles != results[1].triangles || results[0].hidden != results[1].hidden)
-        fail(name + ": " + std::to_string(results[0].triangles) + " triangles, " + std::to_string(results[0].hidden) +
-             " hidden; CGAL has " + std::to_string(results[1].triangles) + ", " + std::to_string(results[1].hidden));
+        fail(name + ": " + std::to_string(results[0].triangles) + " triangles, " +
+             std::to_string(results[0].hidden) + " hidden; CGAL has " +
+             std::to_string(results[1].triangles) + ", " + std::to_string(results[1].hidden));
     double scale = 1e9 / static_cast<double>(weights.size());
-    std::vector<std::string> row = {name, std::to_string(weights.size()), std::to_string(results[0].triangles),
+    std::vector<std::string> row = {name, std::to_string(weights.size()),
+                                    std::to_string(results[0].triangles),
                                     std::to_string(results[0].hidden)};
     for (size_t competitor : {ours, peer}) {
         row.push_back(number(scale * competitors.median(competitor), 1));
@@ -98,9 +100,11 @@ int main(int argc, char **argv)
     ProgramOptions defaults;
     defaults.sizes = {10000, 100000, 1000000};
     defaults.data = {"uniform", "grid", "gaussian", "clusters"};
-    ProgramOptions options = parse_options(argc, argv, defaults, "regular triangulation beside CGAL, ns per point");
+    ProgramOptions options =
+        parse_options(argc, argv, defaults, "regular triangulation beside CGAL, ns per point");
     print_machine(options.tsv, cgal_version());
-    TextTable table({"data", "points", "triangles", "hidden", "meshwalk", "(least)", "CGAL", "(least)", "ratio"});
+    TextTable table({"data", "points", "triangles", "hidden", "meshwalk", "(least)", "CGAL",
+                     "(least)", "ratio"});
     for (const auto &name : options.data)
         for (size_t size : options.sizes) measure(name, size, options, table);
     table.print(options.tsv);

@@ -16,7 +16,8 @@ using namespace bench;
 using StarLocations = std::vector<mw_location>;
 using Facets = std::vector<uint32_t>; // by Embree; MW_NONE: it found none
 
-const mw_star_start_kind indexed[] = {MW_STAR_START_GRID, MW_STAR_START_NONUNIFORM_GRID, MW_STAR_START_OCTAHEDRON};
+const mw_star_start_kind indexed[] = {MW_STAR_START_GRID, MW_STAR_START_NONUNIFORM_GRID,
+                                      MW_STAR_START_OCTAHEDRON};
 
 // A polyhedron with its centre at the origin, prepared.
 struct Polyhedron {
@@ -36,7 +37,8 @@ struct Polyhedron {
     void add_index(mw_star_start_kind start)
     {
         mw_error error;
-        if (mw_star_index_create(star, start, nullptr, &index[start], &error) != MW_OK) fail(error.message);
+        if (mw_star_index_create(star, start, nullptr, &index[start], &error) != MW_OK)
+            fail(error.message);
     }
     size_t index_bytes(mw_star_start_kind start) const
     {
@@ -77,8 +79,8 @@ struct StarBuild {
     size_t competitor, bytes;
 };
 
-void print_builds(const Model &model, const std::vector<StarBuild> &builds, const Competitors &competitors,
-                  TextTable &table)
+void print_builds(const Model &model, const std::vector<StarBuild> &builds,
+                  const Competitors &competitors, TextTable &table)
 {
     for (const StarBuild &one : builds) {
         double bytes = static_cast<double>(one.bytes);
@@ -99,7 +101,8 @@ void measure_builds(const Model &model, const ProgramOptions &options, TextTable
     kept.prepare(model, true, &error);
     mw_star_describe(kept.star, &info);
     for (bool angles : {false, true}) {
-        size_t bytes = mw_surface_bytes(kept.surface) + info.bytes - (angles ? 0 : info.angle_bytes);
+        size_t bytes =
+            mw_surface_bytes(kept.surface) + info.bytes - (angles ? 0 : info.angle_bytes);
         size_t competitor = competitors.enter([=, &model] {
             Polyhedron made;
             mw_error why;
@@ -117,7 +120,8 @@ void measure_builds(const Model &model, const ProgramOptions &options, TextTable
             kept.add_index(start);
             return watch.seconds();
         });
-        builds.push_back({std::string("index: ") + mw_star_start_name(start), competitor, kept.index_bytes(start)});
+        builds.push_back({std::string("index: ") + mw_star_start_name(start), competitor,
+                          kept.index_bytes(start)});
     }
     EmbreeDevice device(options.threads);
     size_t before = device.bytes();
@@ -136,7 +140,8 @@ void measure_builds(const Model &model, const ProgramOptions &options, TextTable
 
 // --- queries
 
-mw_star_query_options how(const Polyhedron &p, mw_star_walk_kind walk, mw_star_start_kind start, bool count)
+mw_star_query_options how(const Polyhedron &p, mw_star_walk_kind walk, mw_star_start_kind start,
+                          bool count)
 {
     mw_star_query_options options = {};
     options.walk = walk;
@@ -147,25 +152,29 @@ mw_star_query_options how(const Polyhedron &p, mw_star_walk_kind walk, mw_star_s
     return options;
 }
 
-double rays_singly(const Polyhedron &p, const Coordinates &rays, const mw_star_query_options &options,
-                   StarLocations &found, mw_counters *counters = nullptr)
+double rays_singly(const Polyhedron &p, const Coordinates &rays,
+                   const mw_star_query_options &options, StarLocations &found,
+                   mw_counters *counters = nullptr)
 {
     mw_star_cursor cursor;
     mw_error error;
     if (mw_star_cursor_init(p.star, &options, &cursor, &error) != MW_OK) fail(error.message);
     Stopwatch watch;
-    for (size_t i = 0; i < found.size(); i++) found[i] = mw_star_locate(p.star, &cursor, &rays[3 * i]);
+    for (size_t i = 0; i < found.size(); i++)
+        found[i] = mw_star_locate(p.star, &cursor, &rays[3 * i]);
     double seconds = watch.seconds();
     if (counters) *counters = cursor.counters;
     return seconds;
 }
 
-double rays_in_batch(const Polyhedron &p, const Coordinates &rays, const mw_star_query_options &options,
-                     StarLocations &found, mw_counters *counters = nullptr)
+double rays_in_batch(const Polyhedron &p, const Coordinates &rays,
+                     const mw_star_query_options &options, StarLocations &found,
+                     mw_counters *counters = nullptr)
 {
     mw_error error;
     Stopwatch watch;
-    if (mw_star_locate_batch(p.star, rays.data(), found.size(), 3, &options, found.data(), counters, &error) != MW_OK)
+    if (mw_star_locate_batch(p.star, rays.data(), found.size(), 3, &options, found.data(), counters,
+                             &error) != MW_OK)
         fail(error.message);
     return watch.seconds();
 }
@@ -185,7 +194,8 @@ double cast_single(const EmbreeCaster &caster, const Coordinates &rays, Facets &
     return watch.seconds();
 }
 
-double cast_packets(const EmbreeCaster &caster, const Coordinates &rays, RTCIntersectContextFlags flags, Facets &facets)
+double cast_packets(const EmbreeCaster &caster, const Coordinates &rays,
+                    RTCIntersectContextFlags flags, Facets &facets)
 {
     Stopwatch watch;
     for (size_t i = 0; i < facets.size(); i += 8) {
@@ -205,7 +215,8 @@ double cast_packets(const EmbreeCaster &caster, const Coordinates &rays, RTCInte
             packet.hit.geomID[k] = packet.hit.primID[k] = RTC_INVALID_GEOMETRY_ID;
         }
         rtcIntersect8(valid, caster, &context, &packet);
-        for (size_t k = 0; k < 8 && i + k < facets.size(); k++) facets[i + k] = packet.hit.primID[k];
+        for (size_t k = 0; k < 8 && i + k < facets.size(); k++)
+            facets[i + k] = packet.hit.primID[k];
     }
     return watch.seconds();
 }
@@ -238,8 +249,8 @@ class StarQueries
 
   public:
     StarQueries(const Polyhedron &polyhedron, const Coordinates &queries)
-        : p(polyhedron), mixed(queries), sorted(in_morton_order(queries)), found(queries.size() / 3),
-          facets(queries.size() / 3)
+        : p(polyhedron), mixed(queries), sorted(in_morton_order(queries)),
+          found(queries.size() / 3), facets(queries.size() / 3)
     {
     }
     void enter(mw_star_walk_kind walk, mw_star_start_kind start, bool batch, bool in_order)
@@ -262,12 +273,14 @@ class StarQueries
     }
     void enter(const EmbreeCaster &caster, bool packets, bool in_order)
     {
-        auto flags = in_order ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+        auto flags =
+            in_order ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
         size_t competitor = competitors.enter([=, &caster] {
             return packets ? cast_packets(caster, rays(in_order), flags, facets)
                            : cast_single(caster, rays(in_order), facets);
         });
-        lines.push_back({"Embree", "-", packets ? "packets of 8" : "single", order(in_order), competitor, {}});
+        lines.push_back(
+            {"Embree", "-", packets ? "packets of 8" : "single", order(in_order), competitor, {}});
     }
     void measure(const Model &model, const ProgramOptions &options, TextTable &table)
     {
@@ -278,12 +291,15 @@ class StarQueries
         for (const StarLine &line : lines) {
             double median = competitors.median(line.competitor);
             auto each = [&](uint64_t count) {
-                return line.walk == "Embree" ? std::string("-") : number(double(count) / queries, 2);
+                return line.walk == "Embree" ? std::string("-")
+                                             : number(double(count) / queries, 2);
             };
-            table.row({model.name, std::to_string(model.triangle_count()), line.walk, line.start, line.way, line.order,
-                       number(1e9 * median / queries, 1), number(1e9 * competitors.least(line.competitor) / queries, 1),
+            table.row({model.name, std::to_string(model.triangle_count()), line.walk, line.start,
+                       line.way, line.order, number(1e9 * median / queries, 1),
+                       number(1e9 * competitors.least(line.competitor) / queries, 1),
                        number(median / base, 3), each(line.counters.triangles_visited),
-                       each(line.counters.orient_init + line.counters.orient + line.counters.orient_final)});
+                       each(line.counters.orient_init + line.counters.orient +
+                            line.counters.orient_final)});
         }
     }
 };
@@ -305,8 +321,9 @@ void measure_queries(const Model &model, const ProgramOptions &options, TextTabl
     for (const std::string &name : options.walks) {
         mw_star_walk_kind walk = mw_star_walk_by_name(name.c_str());
         if (walk == MW_STAR_WALK_COUNT) fail("no such walk: " + name);
-        for (mw_star_start_kind start : {MW_STAR_START_LAST, MW_STAR_START_SAMPLE, MW_STAR_START_GRID,
-                                         MW_STAR_START_NONUNIFORM_GRID, MW_STAR_START_OCTAHEDRON})
+        for (mw_star_start_kind start :
+             {MW_STAR_START_LAST, MW_STAR_START_SAMPLE, MW_STAR_START_GRID,
+              MW_STAR_START_NONUNIFORM_GRID, MW_STAR_START_OCTAHEDRON})
             star_queries.enter(walk, start, false, false);
         star_queries.enter(walk, MW_STAR_START_LAST, false, true);
     }
@@ -346,12 +363,15 @@ bool touches(const mw_surface *surface, const mw_location &place, uint32_t facet
     uint32_t own[3], other[3];
     mw_surface_triangle(surface, place.triangle, own);
     mw_surface_triangle(surface, facet, other);
-    auto shared = [&](size_t corner) { return std::find(other, other + 3, own[corner % 3]) != other + 3; };
+    auto shared = [&](size_t corner) {
+        return std::find(other, other + 3, own[corner % 3]) != other + 3;
+    };
     return facet == place.triangle || (place.where == MW_ON_VERTEX && shared(place.local)) ||
            (place.where == MW_ON_EDGE && shared(place.local) && shared(place.local + 1u));
 }
 
-void count_wrong(const Model &model, const std::string &given, const ProgramOptions &options, TextTable &table)
+void count_wrong(const Model &model, const std::string &given, const ProgramOptions &options,
+                 TextTable &table)
 {
     Polyhedron p;
     mw_error error;
@@ -359,8 +379,9 @@ void count_wrong(const Model &model, const std::string &given, const ProgramOpti
     EmbreeDevice device(options.threads);
     EmbreeCaster caster(device, model);
     for (std::string through : {"anything", "edges", "vertices"}) {
-        Coordinates rays = through == "anything" ? make_directions(options.queries, options.seed)
-                                                 : rays_at(model, through == "vertices", options.queries);
+        Coordinates rays = through == "anything"
+                               ? make_directions(options.queries, options.seed)
+                               : rays_at(model, through == "vertices", options.queries);
         if (given == "short" && through == "anything") shorten(rays);
         StarLocations found(rays.size() / 3);
         Facets facets(found.size());
@@ -370,10 +391,12 @@ void count_wrong(const Model &model, const std::string &given, const ProgramOpti
         for (size_t i = 0; i < facets.size(); i++) {
             ties += found[i].where != MW_INSIDE;
             lost += facets[i] == RTC_INVALID_GEOMETRY_ID;
-            wrong += facets[i] != RTC_INVALID_GEOMETRY_ID && !touches(p.surface, found[i], facets[i]);
+            wrong +=
+                facets[i] != RTC_INVALID_GEOMETRY_ID && !touches(p.surface, found[i], facets[i]);
         }
-        table.row({model.name, std::to_string(model.triangle_count()), given, through, std::to_string(found.size()),
-                   std::to_string(ties), std::to_string(lost), std::to_string(wrong)});
+        table.row({model.name, std::to_string(model.triangle_count()), given, through,
+                   std::to_string(found.size()), std::to_string(ties), std::to_string(lost),
+                   std::to_string(wrong)});
     }
 }
 
@@ -385,14 +408,14 @@ int main(int argc, char **argv)
     defaults.data = {"icosahedron:163842", "star:100000"};
     defaults.queries = 50000;
     defaults.walks = {"stochastic", "orthogonal"};
-    ProgramOptions options =
-        parse_options(argc, argv, defaults, "rays from the centre of star-shaped polyhedra beside Embree");
+    ProgramOptions options = parse_options(
+        argc, argv, defaults, "rays from the centre of star-shaped polyhedra beside Embree");
     print_machine(options.tsv, embree_version());
     TextTable builds({"data", "facets", "built", "ms", "(least)", "MB", "bytes/facet"});
-    TextTable queries({"data", "facets", "walk", "start", "way", "order", "ns/query", "(least)", "ratio",
-                       "facets/query", "tests/query"});
-    TextTable wrong(
-        {"data", "facets", "given", "rays through", "rays", "on edge or vertex", "Embree: none", "another"});
+    TextTable queries({"data", "facets", "walk", "start", "way", "order", "ns/query", "(least)",
+                       "ratio", "facets/query", "tests/query"});
+    TextTable wrong({"data", "facets", "given", "rays through", "rays", "on edge or vertex",
+                     "Embree: none", "another"});
     for (const auto &name : options.data) {
         Model model = centred(make_model(name, options.seed));
         measure_builds(model, options, builds);

@@ -16,15 +16,18 @@ struct StartsScene {
     mw_index *index[MW_START_COUNT] = {};
 
     StartsScene(const std::string &name, size_t size, const ProgramOptions &options)
-        : points(make_points(name, size, options.seed)), queries(make_queries(points, options.queries, options.seed))
+        : points(make_points(name, size, options.seed)),
+          queries(make_queries(points, options.queries, options.seed))
     {
         mw_error error;
-        if (mw_delaunay(points.data(), points.size() / 2, 2, NULL, nullptr, nullptr, &mesh, &error) != MW_OK ||
+        if (mw_delaunay(points.data(), points.size() / 2, 2, NULL, nullptr, nullptr, &mesh,
+                        &error) != MW_OK ||
             mw_locator_create(mesh, nullptr, &locator, &error) != MW_OK)
             fail(error.message);
         for (int i = 0; i < MW_START_COUNT; i++) {
             auto start = static_cast<mw_start_kind>(i);
-            if (mw_start_has_index(start) && mw_index_create(locator, start, nullptr, &index[i], &error) != MW_OK)
+            if (mw_start_has_index(start) &&
+                mw_index_create(locator, start, nullptr, &index[i], &error) != MW_OK)
                 fail(error.message);
         }
     }
@@ -58,7 +61,8 @@ std::vector<StartRule> all_starts()
     return starts;
 }
 
-mw_query_options how(const StartsScene &scene, mw_walk_kind walk, const StartRule &start, bool count)
+mw_query_options how(const StartsScene &scene, mw_walk_kind walk, const StartRule &start,
+                     bool count)
 {
     mw_query_options options = {};
     options.walk = walk;
@@ -71,14 +75,16 @@ mw_query_options how(const StartsScene &scene, mw_walk_kind walk, const StartRul
 }
 
 // Whatever the start, the answers are the same.
-void compare(const std::vector<mw_location> &found, const std::vector<mw_location> &expected, const StartRule &start)
+void compare(const std::vector<mw_location> &found, const std::vector<mw_location> &expected,
+             const StartRule &start)
 {
     for (size_t i = 0; i < found.size(); i++)
         if (found[i].triangle != expected[i].triangle || found[i].where != expected[i].where)
             fail("query " + std::to_string(i) + ": another triangle from the start " + start.name);
 }
 
-void measure(const std::string &name, size_t size, mw_walk_kind walk, const ProgramOptions &options, TextTable &table)
+void measure(const std::string &name, size_t size, mw_walk_kind walk, const ProgramOptions &options,
+             TextTable &table)
 {
     StartsScene scene(name, size, options);
     std::vector<mw_location> found(scene.query_count()), expected(scene.query_count());
@@ -87,24 +93,29 @@ void measure(const std::string &name, size_t size, mw_walk_kind walk, const Prog
     Competitors competitors;
     locate_in_batch(scene.locator, scene.queries, how(scene, walk, starts[0], false), expected);
     for (const StartRule &start : starts) {
-        single.push_back(competitors.enter(
-            [&] { return locate_singly(scene.locator, scene.queries, how(scene, walk, start, false), found); }));
-        batch.push_back(competitors.enter(
-            [&] { return locate_in_batch(scene.locator, scene.queries, how(scene, walk, start, false), found); }));
+        single.push_back(competitors.enter([&] {
+            return locate_singly(scene.locator, scene.queries, how(scene, walk, start, false),
+                                 found);
+        }));
+        batch.push_back(competitors.enter([&] {
+            return locate_in_batch(scene.locator, scene.queries, how(scene, walk, start, false),
+                                   found);
+        }));
     }
     competitors.measure(options);
     for (size_t i = 0; i < starts.size(); i++) {
         mw_counters counters;
         mw_index_info info = {};
         double queries = static_cast<double>(scene.query_count());
-        locate_in_batch(scene.locator, scene.queries, how(scene, walk, starts[i], true), found, &counters);
+        locate_in_batch(scene.locator, scene.queries, how(scene, walk, starts[i], true), found,
+                        &counters);
         compare(found, expected, starts[i]);
         if (scene.index[starts[i].kind]) mw_index_describe(scene.index[starts[i].kind], &info);
-        table.row({name, std::to_string(scene.points.size() / 2), mw_walk_name(walk), starts[i].name,
-                   number(1e9 * competitors.median(single[i]) / queries, 0),
+        table.row({name, std::to_string(scene.points.size() / 2), mw_walk_name(walk),
+                   starts[i].name, number(1e9 * competitors.median(single[i]) / queries, 0),
                    number(1e9 * competitors.median(batch[i]) / queries, 0),
-                   number(static_cast<double>(counters.triangles_visited) / queries, 2), std::to_string(info.bytes),
-                   number(1e3 * info.seconds, 1)});
+                   number(static_cast<double>(counters.triangles_visited) / queries, 2),
+                   std::to_string(info.bytes), number(1e3 * info.seconds, 1)});
     }
 }
 
@@ -118,9 +129,11 @@ int main(int argc, char **argv)
     defaults.queries = 20000;
     defaults.rounds = 5;
     defaults.walks = {"remembering"};
-    ProgramOptions options = parse_options(argc, argv, defaults, "ways to choose the first triangle, ns per query");
+    ProgramOptions options =
+        parse_options(argc, argv, defaults, "ways to choose the first triangle, ns per query");
     print_machine(options.tsv, "no peer");
-    TextTable table({"data", "points", "walk", "start", "single", "batch", "triangles", "index bytes", "built in ms"});
+    TextTable table({"data", "points", "walk", "start", "single", "batch", "triangles",
+                     "index bytes", "built in ms"});
     for (const auto &name : options.data)
         for (size_t size : options.sizes)
             for (const auto &walk : options.walks) {

@@ -25,24 +25,28 @@ class EmbreeCaster
 
   public:
     // Robust: rays are not to slip through between triangles. `filter`: NULL, or which hits count.
-    EmbreeCaster(const EmbreeDevice &device, const Model &model, RTCFilterFunctionN filter = nullptr,
-                 Moving moving = Moving::never)
+    EmbreeCaster(const EmbreeDevice &device, const Model &model,
+                 RTCFilterFunctionN filter = nullptr, Moving moving = Moving::never)
         : scene(rtcNewScene(device)), geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE))
     {
-        vertices = static_cast<float *>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                                3 * sizeof(float), model.vertex_count()));
-        void *triangles = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                                  3 * sizeof(uint32_t), model.triangle_count());
+        vertices = static_cast<float *>(
+            rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                    3 * sizeof(float), model.vertex_count()));
+        void *triangles =
+            rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                    3 * sizeof(uint32_t), model.triangle_count());
         place(model.points);
-        std::copy(model.triangles.begin(), model.triangles.end(), static_cast<uint32_t *>(triangles));
+        std::copy(model.triangles.begin(), model.triangles.end(),
+                  static_cast<uint32_t *>(triangles));
         rtcSetGeometryIntersectFilterFunction(geometry, filter);
         if (moving == Moving::never) {
             rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
         } else { // the quality of a geometry counts where that of the scene is low
-            rtcSetSceneFlags(scene, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_DYNAMIC));
+            rtcSetSceneFlags(
+                scene, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_DYNAMIC));
             rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_LOW);
-            rtcSetGeometryBuildQuality(geometry,
-                                       moving == Moving::refit ? RTC_BUILD_QUALITY_REFIT : RTC_BUILD_QUALITY_LOW);
+            rtcSetGeometryBuildQuality(geometry, moving == Moving::refit ? RTC_BUILD_QUALITY_REFIT
+                                                                         : RTC_BUILD_QUALITY_LOW);
         }
         rtcCommitGeometry(geometry);
         rtcAttachGeometry(scene, geometry);
@@ -60,7 +64,8 @@ class EmbreeCaster
     // New coordinates of all vertices, and what then has to be done before the next ray.
     void place(const Coordinates &points)
     {
-        std::transform(points.begin(), points.end(), vertices, [](double x) { return static_cast<float>(x); });
+        std::transform(points.begin(), points.end(), vertices,
+                       [](double x) { return static_cast<float>(x); });
     }
     void update()
     {

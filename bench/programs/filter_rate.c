@@ -129,24 +129,30 @@ enum { INCIRCLE, FAR, NEAR, ON_EDGE, LISTS };
 static const char *const list_names[LISTS] = {"incircle", "far", "near", "on edge"};
 
 /* The calls of the three edges of each triangle. */
-static void collect_calls(call_list list[LISTS], const mw_mesh *mesh, const double *xy, size_t count)
+static void collect_calls(call_list list[LISTS], const mw_mesh *mesh, const double *xy,
+                          size_t count)
 {
     uint64_t state = 2;
     uint32_t triangles = mw_mesh_triangle_count(mesh);
     for (int i = 0; i < LISTS; i++)
-        list[i] = (call_list){memory_checked(malloc((3 * (size_t)triangles + 1) * sizeof(predicate_call))), 0};
+        list[i] = (call_list){
+            memory_checked(malloc((3 * (size_t)triangles + 1) * sizeof(predicate_call))), 0};
     for (uint32_t t = 0; t < triangles; t++) {
         uint32_t corner[3];
         mw_mesh_triangle(mesh, t, corner);
         for (unsigned k = 0; k < 3; k++) {
-            mw_point a = mesh_vertex_point(mesh, corner[k]), b = mesh_vertex_point(mesh, corner[(k + 1) % 3]);
+            mw_point a = mesh_vertex_point(mesh, corner[k]),
+                     b = mesh_vertex_point(mesh, corner[(k + 1) % 3]);
             mw_point c = mesh_vertex_point(mesh, corner[(k + 2) % 3]), apex;
             const double *other = xy + 2 * (size_t)(dataset_unit(&state) * (double)count);
             double s = dataset_unit(&state), u = dataset_unit(&state);
-            call_list_add(&list[FAR], a, b,
-                          (mw_point){other[0] + u * (a.x - other[0]), other[1] + u * (a.y - other[1])}, c);
-            call_list_add(&list[ON_EDGE], a, b, (mw_point){a.x + s * (b.x - a.x), a.y + s * (b.y - a.y)}, c);
-            if (mesh_apex_across(mesh, t, (k + 1) % 3, &apex)) call_list_add(&list[NEAR], a, b, apex, c);
+            call_list_add(
+                &list[FAR], a, b,
+                (mw_point){other[0] + u * (a.x - other[0]), other[1] + u * (a.y - other[1])}, c);
+            call_list_add(&list[ON_EDGE], a, b,
+                          (mw_point){a.x + s * (b.x - a.x), a.y + s * (b.y - a.y)}, c);
+            if (mesh_apex_across(mesh, t, (k + 1) % 3, &apex))
+                call_list_add(&list[NEAR], a, b, apex, c);
             if (mesh_apex_across(mesh, t, k, &apex)) call_list_add(&list[INCIRCLE], a, b, c, apex);
         }
     }
@@ -204,7 +210,8 @@ static size_t time_incircle_exact(const call_list *list)
 
 /* ns per call. The stages are measured one after the other, not in turns: each finds the list in
  * the cache. */
-static double time_pass(size_t (*pass)(const call_list *list), const call_list *list, size_t *undecided)
+static double time_pass(size_t (*pass)(const call_list *list), const call_list *list,
+                        size_t *undecided)
 {
     double best = INFINITY;
     for (int round = 0; round < 5; round++) {
@@ -218,11 +225,13 @@ static double time_pass(size_t (*pass)(const call_list *list), const call_list *
 static void report_list(int kind, const call_list *list)
 {
     size_t undecided, none;
-    double filter = time_pass(kind == INCIRCLE ? incircle_filter : orient2d_filter, list, &undecided);
-    double exact = time_pass(kind == INCIRCLE ? time_incircle_exact : time_orient2d_exact, list, &none);
+    double filter =
+        time_pass(kind == INCIRCLE ? incircle_filter : orient2d_filter, list, &undecided);
+    double exact =
+        time_pass(kind == INCIRCLE ? time_incircle_exact : time_orient2d_exact, list, &none);
     double share = list->count ? 100 * (double)undecided / (double)list->count : 0;
-    printf("  %-9s %9zu calls, exact stage %9zu (%8.4f %%), filter %6.2f ns, exact %8.2f ns\n", list_names[kind],
-           list->count, undecided, share, filter, exact);
+    printf("  %-9s %9zu calls, exact stage %9zu (%8.4f %%), filter %6.2f ns, exact %8.2f ns\n",
+           list_names[kind], list->count, undecided, share, filter, exact);
 }
 
 static void report_points(const char *name, const point_cloud *points)
@@ -234,7 +243,8 @@ static void report_points(const char *name, const point_cloud *points)
         fprintf(stderr, "filter_rate: %s: %s\n", name, error.message);
         exit(3);
     }
-    printf("%s: %zu points, %u triangles\n", name, points->count, (unsigned)mw_mesh_triangle_count(mesh));
+    printf("%s: %zu points, %u triangles\n", name, points->count,
+           (unsigned)mw_mesh_triangle_count(mesh));
     collect_calls(list, mesh, points->xy, points->count);
     for (int i = 0; i < LISTS; i++) {
         report_list(i, &list[i]);
@@ -245,8 +255,8 @@ static void report_points(const char *name, const point_cloud *points)
 
 int main(int argc, char **argv)
 {
-    static void (*const make[3])(point_cloud * c) = {point_cloud_make_uniform, point_cloud_make_centimetres,
-                                                     point_cloud_make_grid};
+    static void (*const make[3])(point_cloud * c) = {
+        point_cloud_make_uniform, point_cloud_make_centimetres, point_cloud_make_grid};
     static const char *const made[3] = {"uniform", "centimetres", "grid"};
     for (int i = 1; i < argc || (argc == 1 && i <= 3); i++) {
         point_cloud points = {0};

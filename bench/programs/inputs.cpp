@@ -14,8 +14,8 @@ namespace bench
 namespace
 {
 
-Model copy_model(const std::string &name, const double *points, size_t point_count, const uint32_t *triangles,
-                 size_t triangle_count)
+Model copy_model(const std::string &name, const double *points, size_t point_count,
+                 const uint32_t *triangles, size_t triangle_count)
 {
     return {name, Coordinates(points, points + 3 * point_count),
             std::vector<uint32_t>(triangles, triangles + 3 * triangle_count)};
@@ -26,8 +26,8 @@ Model model_of_file(const std::string &path)
     mw_mesh_file file;
     mw_error error;
     if (mw_read_mesh(path.c_str(), NULL, &file, &error) != MW_OK) fail(error.message);
-    Model model = copy_model(path.substr(path.find_last_of('/') + 1), file.points, file.point_count, file.triangles,
-                             file.triangle_count);
+    Model model = copy_model(path.substr(path.find_last_of('/') + 1), file.points, file.point_count,
+                             file.triangles, file.triangle_count);
     mw_mesh_file_release(&file);
     return model;
 }
@@ -37,7 +37,8 @@ uint32_t morton(const double unit[3])
 {
     uint32_t key = 0;
     for (int bit = 9; bit >= 0; bit--)
-        for (int k = 0; k < 3; k++) key = key << 1 | (static_cast<uint32_t>(1023 * unit[k]) >> bit & 1);
+        for (int k = 0; k < 3; k++)
+            key = key << 1 | (static_cast<uint32_t>(1023 * unit[k]) >> bit & 1);
     return key;
 }
 
@@ -63,7 +64,8 @@ Coordinates make_queries(const Coordinates &points, size_t n, uint64_t seed)
     dataset extent = {};
     extent.points = copy.data();
     extent.count = copy.size() / 2;
-    if (!dataset_bound(&extent, extent.count)) fail("the extent of the points is too large for a double");
+    if (!dataset_bound(&extent, extent.count))
+        fail("the extent of the points is too large for a double");
     uint64_t random = ~seed;
     dataset_draw(&extent, queries.data(), n, &random);
     return queries;
@@ -87,11 +89,11 @@ Model make_model(const std::string &name, uint64_t seed)
         if (name.substr(0, colon) != polyhedron_name(kind)) continue;
         polyhedron made;
         mw_error error;
-        if (polyhedron_make(&made, static_cast<polyhedron_kind>(kind), whole(name.substr(colon + 1)), seed, &error) !=
-            MW_OK)
+        if (polyhedron_make(&made, static_cast<polyhedron_kind>(kind),
+                            whole(name.substr(colon + 1)), seed, &error) != MW_OK)
             fail(error.message);
-        Model model =
-            copy_model(polyhedron_name(kind), made.points, made.point_count, made.triangles, made.triangle_count);
+        Model model = copy_model(polyhedron_name(kind), made.points, made.point_count,
+                                 made.triangles, made.triangle_count);
         polyhedron_release(&made);
         return model;
     }
@@ -112,7 +114,8 @@ Coordinates in_morton_order(const Coordinates &points)
     double low = *extent.first, size = *extent.second - low;
     std::vector<std::pair<uint32_t, size_t>> order;
     for (size_t i = 0; i < points.size(); i += 3) {
-        const double unit[3] = {(points[i] - low) / size, (points[i + 1] - low) / size, (points[i + 2] - low) / size};
+        const double unit[3] = {(points[i] - low) / size, (points[i + 1] - low) / size,
+                                (points[i + 2] - low) / size};
         order.emplace_back(morton(unit), i);
     }
     std::sort(order.begin(), order.end());

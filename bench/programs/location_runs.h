@@ -10,8 +10,8 @@
 namespace bench
 {
 
-inline double locate_singly(const mw_locator *locator, const Coordinates &queries, const mw_query_options &options,
-                            std::vector<mw_location> &found)
+inline double locate_singly(const mw_locator *locator, const Coordinates &queries,
+                            const mw_query_options &options, std::vector<mw_location> &found)
 {
     mw_cursor cursor;
     mw_error error;
@@ -22,12 +22,14 @@ inline double locate_singly(const mw_locator *locator, const Coordinates &querie
     return watch.seconds();
 }
 
-inline double locate_in_batch(const mw_locator *locator, const Coordinates &queries, const mw_query_options &options,
-                              std::vector<mw_location> &found, mw_counters *counters = nullptr)
+inline double locate_in_batch(const mw_locator *locator, const Coordinates &queries,
+                              const mw_query_options &options, std::vector<mw_location> &found,
+                              mw_counters *counters = nullptr)
 {
     mw_error error;
     Stopwatch watch;
-    if (mw_locate_batch(locator, queries.data(), found.size(), 2, &options, found.data(), counters, &error) != MW_OK)
+    if (mw_locate_batch(locator, queries.data(), found.size(), 2, &options, found.data(), counters,
+                        &error) != MW_OK)
         fail(error.message);
     return watch.seconds();
 }

@@ -34,7 +34,8 @@ namespace
     std::fprintf(status ? stderr : stdout,
                  "%s: %s\n"
                  "  --sizes N,N,...     numbers of points\n"
-                 "  --data NAME,...     uniform grid gaussian clusters arcs rectangle, or files; of surfaces\n"
+                 "  --data NAME,...     uniform grid gaussian clusters arcs rectangle, or files; "
+                 "of surfaces\n"
                  "                      icosahedron:N star:N bumps:N knot:N (vertices), or files\n"
                  "  --rounds N          rounds that count\n"
                  "  --warmup N          rounds before them that do not\n"
@@ -86,7 +87,8 @@ void set_option(ProgramOptions &o, const std::string &name, const std::string &v
 
 } // namespace
 
-ProgramOptions parse_options(int argc, char **argv, const ProgramOptions &defaults, const char *what_it_does)
+ProgramOptions parse_options(int argc, char **argv, const ProgramOptions &defaults,
+                             const char *what_it_does)
 {
     ProgramOptions options = defaults;
     for (int i = 1; i < argc; i += 2) {
@@ -160,7 +162,8 @@ void print_machine(bool tsv, const std::string &peer)
     const char *compiler = "gcc " __VERSION__;
 #endif
     std::printf("%s%s, %u threads; %s, %s; meshwalk %s, %s; %s\n", tsv ? "# " : "", processor,
-                std::thread::hardware_concurrency(), compiler, MW_BENCH_FLAGS, mw_version(), peer.c_str(), date);
+                std::thread::hardware_concurrency(), compiler, MW_BENCH_FLAGS, mw_version(),
+                peer.c_str(), date);
 }
 
 } // namespace bench

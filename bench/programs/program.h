@@ -27,7 +27,8 @@ struct ProgramOptions {
 };
 
 // Ends the program on --help and on wrong usage.
-ProgramOptions parse_options(int argc, char **argv, const ProgramOptions &defaults, const char *what_it_does);
+ProgramOptions parse_options(int argc, char **argv, const ProgramOptions &defaults,
+                             const char *what_it_does);
 
 // Competitors that do the same work, measured in the rounds of core/rounds.h.
 class Competitors

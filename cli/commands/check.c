@@ -22,16 +22,19 @@ typedef struct check_settings {
 
 static const option check_options[] = {
     {"fix", 0, OPTION_TEXT, offsetof(check_settings, fix), "LIST",
-     "mend these, write the mesh to -o OUT, and tell each change, and what could not be mended:", &mend_repairs},
+     "mend these, write the mesh to -o OUT, and tell each change, and what could not be mended:",
+     &mend_repairs},
     {"tolerance", 0, OPTION_LENGTH, offsetof(check_settings, tolerance), "D",
-     "--fix: weld vertices that are at most D apart, and split border edges at vertices at most D off (default: 0, "
+     "--fix: weld vertices that are at most D apart, and split border edges at vertices at most D "
+     "off (default: 0, "
      "exact)",
      NULL},
     {"numbers", 0, OPTION_TEXT, offsetof(check_settings, numbers), "FILE",
      "--fix: write to FILE which numbers of vertices and triangles became which", NULL},
     {"format", 0, OPTION_CHOICE, offsetof(check_settings, format), "NAME",
      "--fix: format of OUT (default: auto, by its ending):", &mesh_formats},
-    {"json", 0, OPTION_FLAG, offsetof(check_settings, mesh.json), NULL, "print the defects as JSON", NULL},
+    {"json", 0, OPTION_FLAG, offsetof(check_settings, mesh.json), NULL, "print the defects as JSON",
+     NULL},
     {"output", 'o', OPTION_TEXT, offsetof(check_settings, mesh.common.output), "FILE",
      "write to FILE; with --fix the mended mesh (default: standard output)", NULL},
     {"quiet", 'q', OPTION_FLAG, offsetof(check_settings, mesh.common.quiet), NULL,
@@ -85,8 +88,8 @@ static const struct verdict_words {
 } verdicts[] = {
     [SPACE_PLANE] = {"embedding", "an embedding", "no embedding", "nothing to locate in"},
     [SPACE_SURFACE] = {"surface", "a sound surface", "no sound surface", "nothing to touch"},
-    [SPACE_STAR] = {"star_shaped", "star-shaped about the centre", "not star-shaped about the centre",
-                    "nothing to meet"},
+    [SPACE_STAR] = {"star_shaped", "star-shaped about the centre",
+                    "not star-shaped about the centre", "nothing to meet"},
 };
 
 /* The result of a check. */
@@ -97,20 +100,23 @@ typedef struct check_outcome {
     bool good;  /* it also has a triangle with an area: every promise holds */
 } check_outcome;
 
-static check_outcome check_outcome_of(const mesh_space_settings *s, const mw_check *check, const mw_mesh_file *file)
+static check_outcome check_outcome_of(const mesh_space_settings *s, const mw_check *check,
+                                      const mw_mesh_file *file)
 {
     size_t flat = 0;
-    for (size_t i = 0; i < check->defect_count; i++) flat += check->defects[i].kind == MW_DEFECT_FLAT;
+    for (size_t i = 0; i < check->defect_count; i++)
+        flat += check->defects[i].kind == MW_DEFECT_FLAT;
     bool area = s->space == SPACE_PLANE ? files_has_area(file) : flat < file->triangle_count;
     check_outcome o = {&verdicts[s->space], .sound = check->valid, .good = check->valid && area};
     size_t defects = check->defect_count - flat;
     char remark[48] = "";
     if (flat) snprintf(remark, sizeof remark, "; %zu flat triangle%s", flat, flat == 1 ? "" : "s");
     if (!o.sound)
-        snprintf(o.words, sizeof o.words, "%s: %zu defect%s%s", o.verdict->bad, defects, defects == 1 ? "" : "s",
-                 remark);
+        snprintf(o.words, sizeof o.words, "%s: %zu defect%s%s", o.verdict->bad, defects,
+                 defects == 1 ? "" : "s", remark);
     else if (!o.good)
-        snprintf(o.words, sizeof o.words, "no triangle with an area: %s%s", o.verdict->empty, remark);
+        snprintf(o.words, sizeof o.words, "no triangle with an area: %s%s", o.verdict->empty,
+                 remark);
     else
         snprintf(o.words, sizeof o.words, "%s: every promise holds%s", o.verdict->good, remark);
     return o;
@@ -136,7 +142,8 @@ static void check_json_begin(text *t, const char *path)
 }
 
 /* A line for each defect; before each stands `place`. */
-static void check_as_text(text *t, const char *path, const char *place, const mw_check *check, const check_outcome *o)
+static void check_as_text(text *t, const char *path, const char *place, const mw_check *check,
+                          const check_outcome *o)
 {
     for (size_t i = 0; i < check->defect_count; i++) {
         char words[256];
@@ -146,13 +153,15 @@ static void check_as_text(text *t, const char *path, const char *place, const mw
     text_printf(t, "%s: %s\n", path, o->words);
 }
 
-static mw_status check_arrays(const mesh_space_settings *s, const mw_arrays *arrays, mw_check *check, mw_error *error)
+static mw_status check_arrays(const mesh_space_settings *s, const mw_arrays *arrays,
+                              mw_check *check, mw_error *error)
 {
     mw_star_options star = {.centre = {s->centre.at[0], s->centre.at[1], s->centre.at[2]},
                             .progress = progress_of_call()};
     mw_check_options options = {.threads = s->common.threads, .progress = progress_of_call()};
     int weld = mesh_space_is_welded(s);
-    if (s->space == SPACE_SURFACE) return mw_surface_check_arrays(arrays, weld, &options, check, error);
+    if (s->space == SPACE_SURFACE)
+        return mw_surface_check_arrays(arrays, weld, &options, check, error);
     if (s->space == SPACE_STAR) return mw_star_check_arrays(arrays, weld, &star, check, error);
     return mw_check_arrays(arrays, &options, check, error);
 }
@@ -186,7 +195,8 @@ static int check_refuse(const char *why)
     return END_USAGE;
 }
 
-static int check_fix_settings(const check_settings *s, const char *const *operands, side_output *numbers)
+static int check_fix_settings(const check_settings *s, const char *const *operands,
+                              side_output *numbers)
 {
     const char *output = s->mesh.common.output;
     if (!s->fix && (s->numbers || s->tolerance > 0 || s->format))
@@ -199,8 +209,9 @@ static int check_fix_settings(const check_settings *s, const char *const *operan
 }
 
 /* Tell the changes, in the numbers of the file, and what is wrong with the mended mesh. */
-static void check_fix_tell(const check_settings *s, const char *path, const mended_mesh *m, const mw_mesh_file *file,
-                           const mw_check *check, const check_outcome *o, text *t)
+static void check_fix_tell(const check_settings *s, const char *path, const mended_mesh *m,
+                           const mw_mesh_file *file, const mw_check *check, const check_outcome *o,
+                           text *t)
 {
     const char *output = s->mesh.common.output;
     char place[512];
@@ -219,9 +230,10 @@ static void check_fix_tell(const check_settings *s, const char *path, const mend
     check_as_text(t, output, place, check, o);
 }
 
-/* Check what was mended, write it, then tell about it. One of the files may take standard output. */
-static int check_fix_write(const check_settings *s, const char *path, const mended_mesh *m, const mw_mesh_file *file,
-                           bool temporary)
+/* Check what was mended, write it, then tell about it. One of the files may take standard output.
+ * */
+static int check_fix_write(const check_settings *s, const char *path, const mended_mesh *m,
+                           const mw_mesh_file *file, bool temporary)
 {
     mw_error error;
     mw_check check;
@@ -242,12 +254,14 @@ static int check_fix_write(const check_settings *s, const char *path, const mend
     return end || o.good ? end : END_UNANSWERED;
 }
 
-static int check_fix_file(const check_settings *s, const char *path, mw_mesh_file *file, side_output *numbers)
+static int check_fix_file(const check_settings *s, const char *path, mw_mesh_file *file,
+                          side_output *numbers)
 {
     mended_mesh m = {0};
     bool temporary;
-    mw_mend_options options = {
-        .space = s->mesh.space != SPACE_PLANE, .tolerance = s->tolerance, .progress = progress_of_call()};
+    mw_mend_options options = {.space = s->mesh.space != SPACE_PLANE,
+                               .tolerance = s->tolerance,
+                               .progress = progress_of_call()};
     int end = mended_mesh_parse(s->fix, &options.repairs);
     if (end == 0) end = files_try_output(s->mesh.common.output, &temporary);
     if (end == 0) end = side_outputs_open(numbers, 1);
@@ -269,7 +283,8 @@ static int check_run(const void *settings, const char *const *operands)
     if (end == 0) end = check_fix_settings(s, operands, &numbers);
     if (end == 0) end = mesh_space_read(&s->mesh, operands, &file);
     if (end == 0)
-        end = s->fix ? check_fix_file(s, operands[0], &file, &numbers) : check_mesh_file(&s->mesh, operands[0], &file);
+        end = s->fix ? check_fix_file(s, operands[0], &file, &numbers)
+                     : check_mesh_file(&s->mesh, operands[0], &file);
     mw_mesh_file_release(&file);
     return end;
 }
@@ -281,13 +296,17 @@ const command check_command = {
     .operands = "MESH",
     .operand_count = 1,
     .summary = "list the defects of a mesh, and mend them",
-    .description =
-        "Prints every defect of MESH with its place, one on a line, and then whether the mesh is an "
-        "embedding: whether its triangles cover the plane without folds and overlaps. Exits with 0 if it "
-        "is one and with 3 if not, or if no triangle has an area. Flat triangles beside others are listed, but do "
-        "no harm. With --as, MESH is checked as a surface or as a star-shaped polyhedron in the same way. With "
-        "--fix, a mended mesh is written and told about; then the exit code is 0 if that is an embedding, and 1 if "
-        "defects remain. '-' is standard input.",
+    .description = "Prints every defect of MESH with its place, one on a line, and then whether "
+                   "the mesh is an "
+                   "embedding: whether its triangles cover the plane without folds and overlaps. "
+                   "Exits with 0 if it "
+                   "is one and with 3 if not, or if no triangle has an area. Flat triangles beside "
+                   "others are listed, but do "
+                   "no harm. With --as, MESH is checked as a surface or as a star-shaped "
+                   "polyhedron in the same way. With "
+                   "--fix, a mended mesh is written and told about; then the exit code is 0 if "
+                   "that is an embedding, and 1 if "
+                   "defects remain. '-' is standard input.",
     .options = tables,
     .essential = "fix tolerance numbers as output",
     .settings_size = sizeof(check_settings),

@@ -33,23 +33,27 @@ static const char *delaunay_name(int i)
 static const char *delaunay_help(int i)
 {
     return (const char *[]){"keep a mesh Delaunay that is so, but for its border and constraints",
-                            "make it so first, and keep it so", "flip no edge unless the stream asks for it"}[i];
+                            "make it so first, and keep it so",
+                            "flip no edge unless the stream asks for it"}[i];
 }
 static const choices delaunay_choices = {"way of --delaunay", delaunay_name, delaunay_help};
 
 static const option edit_options[] = {
     {"answers", 0, OPTION_TEXT, offsetof(edit_settings, paths[EDIT_STREAM_ANSWERS]), "FILE",
      "write the answers to locate lines to FILE (default: -, standard output)", NULL},
-    {"heights", 0, OPTION_FLAG, offsetof(edit_settings, heights), NULL, "add the column z to the answers, interpolated",
-     NULL},
+    {"heights", 0, OPTION_FLAG, offsetof(edit_settings, heights), NULL,
+     "add the column z to the answers, interpolated", NULL},
     {"changes", 0, OPTION_TEXT, offsetof(edit_settings, paths[EDIT_STREAM_CHANGES]), "FILE",
-     "write to FILE what each edit changed: its line, its vertex, the triangles made, reused and freed", NULL},
+     "write to FILE what each edit changed: its line, its vertex, the triangles made, reused and "
+     "freed",
+     NULL},
     {"numbers", 0, OPTION_TEXT, offsetof(edit_settings, paths[EDIT_STREAM_NUMBERS]), "FILE",
      "write to FILE which number became which in the mesh written, and at each compact line", NULL},
     {"log", 0, OPTION_TEXT, offsetof(edit_settings, paths[EDIT_STREAM_LOG]), "FILE",
      "write to FILE the edits that took effect, as a stream that makes the same of MESH", NULL},
     {"constraints", 0, OPTION_TEXT, offsetof(edit_settings, constraints), "FILE",
-     "the points, lines and polygons that MESH was made with: edges along them stay, as triangulate --constraints "
+     "the points, lines and polygons that MESH was made with: edges along them stay, as "
+     "triangulate --constraints "
      "takes "
      "them",
      NULL},
@@ -58,7 +62,8 @@ static const option edit_options[] = {
     {"delaunay", 0, OPTION_CHOICE, offsetof(edit_settings, delaunay), "NAME",
      "what becomes of edges that are not Delaunay (default: auto):", &delaunay_choices},
     {"skip", 0, OPTION_FLAG, offsetof(edit_settings, skip), NULL,
-     "name lines that cannot be carried out, and go on; without it the first one ends the command", NULL},
+     "name lines that cannot be carried out, and go on; without it the first one ends the command",
+     NULL},
     {"strict", 0, OPTION_FLAG, offsetof(edit_settings, strict), NULL,
      "exit with 1 if a point lies in no triangle, or --skip passed a line over", NULL},
     {"walk", 0, OPTION_CHOICE, offsetof(edit_settings, walk), "NAME",
@@ -70,9 +75,12 @@ static const option edit_options[] = {
     {"layers", 0, OPTION_COUNT, offsetof(edit_settings, layers), "N",
      "--start layers: N layers, the mesh itself counted (default: 0, by its size)", NULL},
     {"descent", 0, OPTION_CHOICE, offsetof(edit_settings, descent), "NAME",
-     "--start layers: the vertex at which to go down from one to the next (default: auto):", &point_query_descents},
+     "--start layers: the vertex at which to go down from one to the next (default: auto):",
+     &point_query_descents},
     {"format", 0, OPTION_CHOICE, offsetof(edit_settings, format), "NAME",
-     "format of the mesh written; node is two files, .node and .ele (default: auto, by its ending):", &mesh_formats},
+     "format of the mesh written; node is two files, .node and .ele (default: auto, by its "
+     "ending):",
+     &mesh_formats},
     {"output", 'o', OPTION_TEXT, offsetof(edit_settings, common.output), "FILE",
      "write the mesh to FILE, which appears under its name only when it is complete", NULL},
     {0},
@@ -101,7 +109,8 @@ static void edit_work_release(edit_work *w)
 
 static void edit_choose_outputs(const edit_settings *s, edit_stream *e)
 {
-    static const char *const options[EDIT_STREAM_OUTPUTS] = {"answers", "changes", "log", "numbers"};
+    static const char *const options[EDIT_STREAM_OUTPUTS] = {"answers", "changes", "log",
+                                                             "numbers"};
     bool taken = files_is_standard(s->common.output);
     for (int i = 0; i < EDIT_STREAM_OUTPUTS; i++) {
         e->output[i] = (side_output){.option = options[i], .path = s->paths[i]};
@@ -118,7 +127,8 @@ static int edit_check_node_file(const edit_settings *s)
 }
 
 /* Refuse wrong settings before the work begins. */
-static int edit_check_settings(const edit_settings *s, const char *const *operands, const edit_stream *e)
+static int edit_check_settings(const edit_settings *s, const char *const *operands,
+                               const edit_stream *e)
 {
     const char *output = s->common.output, *inputs[3] = {operands[0], operands[1], s->constraints};
     int count = s->constraints ? 3 : 2, end = point_query_check_index(s->cells, s->layers);
@@ -142,7 +152,8 @@ static int edit_fail_mesh(const char *path, const mw_error *error)
 static int mesh_set_fields(mw_mesh *mesh, const mw_mesh_file *file)
 {
     mw_error error;
-    mw_status status = file->has_z ? mw_mesh_set_field(mesh, "z", file->points + 2, 3, &error) : MW_OK;
+    mw_status status =
+        file->has_z ? mw_mesh_set_field(mesh, "z", file->points + 2, 3, &error) : MW_OK;
     for (size_t f = 0; f < file->field_count && status == MW_OK; f++)
         if (!file->has_z || strcmp(file->field_names[f], "z") != 0)
             status = mw_mesh_set_field(mesh, file->field_names[f], file->fields[f], 1, &error);
@@ -181,7 +192,8 @@ static int edit_work_keep_names(edit_work *w, const mw_mesh *mesh)
     }
     for (size_t i = 0; i < count; i++)
         if (!w->names[i]) return fail_memory();
-    w->stream.fields = (mw_edit_text_options){.fields = (const char *const *)w->names, .field_count = count};
+    w->stream.fields =
+        (mw_edit_text_options){.fields = (const char *const *)w->names, .field_count = count};
     return 0;
 }
 
@@ -189,20 +201,24 @@ static int edit_make_cursor(const edit_settings *s, edit_stream *e)
 {
     mw_error error;
     mw_start_kind start = (mw_start_kind)s->start;
-    mw_query_options asking = {
-        .walk = (mw_walk_kind)s->walk, .start = start, .seed = s->common.seed, .counters = s->stats};
+    mw_query_options asking = {.walk = (mw_walk_kind)s->walk,
+                               .start = start,
+                               .seed = s->common.seed,
+                               .counters = s->stats};
     mw_index_options options = {.cells = s->cells,
                                 .layers = s->layers,
                                 .descent = (mw_descent)s->descent,
                                 .seed = s->common.seed,
                                 .progress = progress_of_call()};
-    if (mw_start_has_index(start) && mw_editor_index(e->editor, start, &options, &asking.index, &error) != MW_OK)
+    if (mw_start_has_index(start) &&
+        mw_editor_index(e->editor, start, &options, &asking.index, &error) != MW_OK)
         return fail_query(&error);
     const mw_locator *locator = mw_editor_locator(e->editor);
     return mw_cursor_init(locator, &asking, &e->cursor, &error) == MW_OK ? 0 : fail_query(&error);
 }
 
-static int edit_work_make_editor(const edit_settings *s, const char *path, const mw_mesh *mesh, edit_work *w)
+static int edit_work_make_editor(const edit_settings *s, const char *path, const mw_mesh *mesh,
+                                 edit_work *w)
 {
     mw_error error;
     mw_editor_options options = {.delaunay = (mw_delaunay_mode)s->delaunay,
@@ -211,7 +227,8 @@ static int edit_work_make_editor(const edit_settings *s, const char *path, const
                                  .constrained_edge_count = w->constraints.count,
                                  .threads = s->common.threads,
                                  .progress = progress_of_call()};
-    if (mw_editor_create(mesh, &options, &w->stream.editor, &error) != MW_OK) return edit_fail_mesh(path, &error);
+    if (mw_editor_create(mesh, &options, &w->stream.editor, &error) != MW_OK)
+        return edit_fail_mesh(path, &error);
     w->stream.heights = s->heights ? mw_editor_field_by_name(w->stream.editor, "z") : MW_NONE;
     if (s->heights && w->stream.heights == MW_NONE) {
         complain("%s: has no heights for --heights", path);
@@ -226,7 +243,8 @@ static int edit_work_prepare(const edit_settings *s, const char *path, edit_work
     mw_mesh *mesh = NULL;
     int end = edit_read_mesh(path, s->common.threads, &mesh, &w->crs);
     if (end == 0 && s->constraints)
-        end = traced_constraints_read(&w->constraints, s->constraints, &s->common, mesh, path, w->crs);
+        end = traced_constraints_read(&w->constraints, s->constraints, &s->common, mesh, path,
+                                      w->crs);
     if (end == 0) end = edit_work_make_editor(s, path, mesh, w);
     mw_mesh_destroy(mesh);
     w->ready = monotonic_seconds();
@@ -242,7 +260,8 @@ static int edit_write_mesh(const edit_settings *s, edit_work *w, bool temporary)
     mw_mesh_destroy(mesh);
     v.file.crs = w->crs;
     w->crs = NULL;
-    if (end == 0) end = mesh_output_write(s->common.output, s->format, &v.file, temporary, s->common.quiet);
+    if (end == 0)
+        end = mesh_output_write(s->common.output, s->format, &v.file, temporary, s->common.quiet);
     vertex_table_release(&v);
     return end;
 }
@@ -269,11 +288,13 @@ static void edit_report_editor(report *r, const mw_editor *editor)
 static void edit_report_lines(report *r, const edit_stream *e)
 {
     report_count(r, "lines", e->lines);
-    for (int i = 0; i < MW_EDIT_KIND_COUNT; i++) report_count(r, mw_edit_name((mw_edit_kind)i), e->edits[i]);
+    for (int i = 0; i < MW_EDIT_KIND_COUNT; i++)
+        report_count(r, mw_edit_name((mw_edit_kind)i), e->edits[i]);
     report_count(r, "undo", e->undone);
     report_count(r, "compact", e->compactions);
     report_count(r, "skipped", e->skipped);
-    for (int i = 0; i < MW_WHERE_COUNT; i++) report_count(r, mw_where_name((mw_where)i), e->located.where[i]);
+    for (int i = 0; i < MW_WHERE_COUNT; i++)
+        report_count(r, mw_where_name((mw_where)i), e->located.where[i]);
 }
 
 static int edit_print_statistics(const edit_settings *s, const edit_work *w)
@@ -296,11 +317,13 @@ static int edit_print_statistics(const edit_settings *s, const edit_work *w)
 
 /* The outputs are open. The mesh is written before they are closed: if there is no room for it,
  * none of the others appears. */
-static int edit_work_run(const edit_settings *s, const char *const *operands, edit_work *w, bool temporary)
+static int edit_work_run(const edit_settings *s, const char *const *operands, edit_work *w,
+                         bool temporary)
 {
     int end = edit_work_prepare(s, operands[0], w);
     if (end == 0) end = edit_stream_run(&w->stream, operands[1]);
-    if (end == 0 && !side_outputs_failed(w->stream.output, EDIT_STREAM_OUTPUTS)) end = edit_write_mesh(s, w, temporary);
+    if (end == 0 && !side_outputs_failed(w->stream.output, EDIT_STREAM_OUTPUTS))
+        end = edit_write_mesh(s, w, temporary);
     return end;
 }
 
@@ -341,13 +364,17 @@ const command edit_command = {
     .operand_count = 2,
     .summary = "change a mesh by a stream of edits, and locate in between",
     .description =
-        "Carries out the lines of EDITS in order, then writes the mesh. A line is one of: insert X Y [Z], remove V, "
+        "Carries out the lines of EDITS in order, then writes the mesh. A line is one of: insert X "
+        "Y [Z], remove V, "
         "move V X "
-        "Y, flip V V, constrain V V, release V V, value V Z, locate X Y, undo, compact; with blanks or commas between "
+        "Y, flip V V, constrain V V, release V V, value V Z, locate X Y, undo, compact; with "
+        "blanks or commas between "
         "its "
-        "words. Vertices go by their numbers, from 0, which stay as they are while the stream runs; a new vertex gets "
+        "words. Vertices go by their numbers, from 0, which stay as they are while the stream "
+        "runs; a new vertex gets "
         "the "
-        "next one. A locate line is answered as the command locate does it: x,y,status,triangle,w0,w1,w2. The mesh "
+        "next one. A locate line is answered as the command locate does it: "
+        "x,y,status,triangle,w0,w1,w2. The mesh "
         "written is numbered anew, without gaps and in the same order. '-' is standard input.",
     .options = tables,
     .essential = "answers changes numbers log output",

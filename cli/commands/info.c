@@ -17,13 +17,17 @@ typedef struct info_settings {
 
 static const option info_options[] = {
     {"layer", 0, OPTION_TEXT, offsetof(info_settings, layer), "NAME",
-     "of a vector file that GDAL reads: the layer to describe (default: the only one; several are listed)", NULL},
-    {"json", 0, OPTION_FLAG, offsetof(info_settings, mesh.json), NULL, "print the report as JSON", NULL},
+     "of a vector file that GDAL reads: the layer to describe (default: the only one; several are "
+     "listed)",
+     NULL},
+    {"json", 0, OPTION_FLAG, offsetof(info_settings, mesh.json), NULL, "print the report as JSON",
+     NULL},
     {0},
 };
 
 /* Report numbers, or why one of them is unknown (NaN). */
-static void info_report_known(report *r, const char *name, const double *values, size_t count, const char *missing)
+static void info_report_known(report *r, const char *name, const double *values, size_t count,
+                              const char *missing)
 {
     for (size_t i = 0; i < count; i++)
         if (isnan(values[i])) {
@@ -106,7 +110,8 @@ static void info_report_surface(report *r, const mw_surface_info *info)
 }
 
 /* Report whether the surface is star-shaped about the centre, and if not, why. */
-static int info_report_star(report *r, const mesh_space_settings *s, const char *path, const mw_surface *surface)
+static int info_report_star(report *r, const mesh_space_settings *s, const char *path,
+                            const mw_surface *surface)
 {
     mw_error error;
     mw_star *star;
@@ -125,7 +130,8 @@ static int info_report_star(report *r, const mesh_space_settings *s, const char 
 }
 
 /* The next two functions fill the report. They return 0 or an exit code. */
-static int info_describe_plane(report *r, const mesh_space_settings *s, const char *path, const mw_mesh_file *file)
+static int info_describe_plane(report *r, const mesh_space_settings *s, const char *path,
+                               const mw_mesh_file *file)
 {
     mw_error error;
     mw_mesh *mesh;
@@ -146,14 +152,17 @@ static int info_describe_plane(report *r, const mesh_space_settings *s, const ch
     return end;
 }
 
-static int info_describe_surface(report *r, const mesh_space_settings *s, const char *path, const mw_mesh_file *file)
+static int info_describe_surface(report *r, const mesh_space_settings *s, const char *path,
+                                 const mw_mesh_file *file)
 {
     mw_error error;
     mw_surface *surface;
     mw_surface_info info;
     mw_arrays arrays = mw_mesh_file_arrays(file);
-    mw_surface_options options = {.tolerant = 1, .weld = mesh_space_is_welded(s), .progress = progress_of_call()};
-    if (mw_surface_create(&arrays, &options, &surface, &error) != MW_OK) return fail_mesh(path, &error);
+    mw_surface_options options = {
+        .tolerant = 1, .weld = mesh_space_is_welded(s), .progress = progress_of_call()};
+    if (mw_surface_create(&arrays, &options, &surface, &error) != MW_OK)
+        return fail_mesh(path, &error);
     int end = mw_surface_describe(surface, &info, &error) == MW_OK ? 0 : fail_mesh(path, &error);
     if (end == 0) {
         info_report_file(r, path, file, false);
@@ -170,8 +179,8 @@ static int info_describe(const mesh_space_settings *s, const char *path, const m
     report r;
     progress_phase("describing", path);
     report_begin(&r, s->json);
-    int end =
-        s->space == SPACE_PLANE ? info_describe_plane(&r, s, path, file) : info_describe_surface(&r, s, path, file);
+    int end = s->space == SPACE_PLANE ? info_describe_plane(&r, s, path, file)
+                                      : info_describe_surface(&r, s, path, file);
     report_end(&r);
     if (end == 0) return files_write_text(s->common.output, &r.text);
     text_release(&r.text);
@@ -214,12 +223,14 @@ const command info_command = {
     .operands = "MESH",
     .operand_count = 1,
     .summary = "describe a mesh",
-    .description =
-        "Prints counts, extent, area, borders, holes, components and orientation of MESH, whether it is an "
-        "embedding, convex and Delaunay, and the memory it takes. With --as, MESH is described as a surface in "
-        "space, or as a polyhedron: whether it is star-shaped about a centre. Of a vector file that GDAL reads it "
-        "lists "
-        "the layers, and what one of them holds. '-' is standard input.",
+    .description = "Prints counts, extent, area, borders, holes, components and orientation of "
+                   "MESH, whether it is an "
+                   "embedding, convex and Delaunay, and the memory it takes. With --as, MESH is "
+                   "described as a surface in "
+                   "space, or as a polyhedron: whether it is star-shaped about a centre. Of a "
+                   "vector file that GDAL reads it "
+                   "lists "
+                   "the layers, and what one of them holds. '-' is standard input.",
     .options = tables,
     .essential = "as centre json output threads",
     .settings_size = sizeof(info_settings),

@@ -12,22 +12,26 @@ typedef struct locate_settings {
 
 static const option locate_options[] = {
     {"details", 0, OPTION_FLAG, offsetof(locate_settings, details), NULL,
-     "add the columns local (edge or vertex of the triangle), border_triangle, border_edge, distance (of points "
+     "add the columns local (edge or vertex of the triangle), border_triangle, border_edge, "
+     "distance (of points "
      "outside) and hole; with --polygons: the column border_of",
      NULL},
     {"polygons", 0, OPTION_TEXT, offsetof(locate_settings, polygons.path), "FILE",
-     "locate the points in the polygons of FILE (GeoJSON, .poly, what GDAL reads), without a MESH: the columns are "
+     "locate the points in the polygons of FILE (GeoJSON, .poly, what GDAL reads), without a MESH: "
+     "the columns are "
      "status, feature and others",
      NULL},
     {"attribute", 0, OPTION_TEXT, offsetof(locate_settings, polygons.attribute), "LIST",
      "with --polygons: also columns with these attributes of the feature, by GDAL", NULL},
     {"polygon-layer", 0, OPTION_TEXT, offsetof(locate_settings, polygons.layer), "NAME",
-     "with --polygons: the layer with the polygons (default: the only one that may have any)", NULL},
+     "with --polygons: the layer with the polygons (default: the only one that may have any)",
+     NULL},
     {0},
 };
 
 /* Write the cells of --details. Points that lie in no triangle have a nearest border edge. */
-static void locate_write_details(const point_query *q, const double point[2], const mw_location *where, text *out)
+static void locate_write_details(const point_query *q, const double point[2],
+                                 const mw_location *where, text *out)
 {
     mw_nearest_border_point hit = {0};
     bool away = where->where == MW_OUTSIDE || where->where == MW_IN_HOLE || where->where == MW_NEAR;
@@ -39,8 +43,8 @@ static void locate_write_details(const point_query *q, const double point[2], co
     csv_row_count(out, where->hole != MW_NONE, where->hole);
 }
 
-static bool locate_row(const point_query *q, const void *self, const double point[2], const mw_location *where,
-                       text *out)
+static bool locate_row(const point_query *q, const void *self, const double point[2],
+                       const mw_location *where, text *out)
 {
     const locate_settings *s = self;
     csv_row_status(out, mw_where_name((mw_where)where->where), where->triangle);
@@ -51,13 +55,14 @@ static bool locate_row(const point_query *q, const void *self, const double poin
 
 #define PLAIN_ANSWERS "status", "triangle", "w0", "w1", "w2"
 static const char *const plain_answers[] = {PLAIN_ANSWERS, NULL};
-static const char *const detailed_answers[] = {PLAIN_ANSWERS, "local", "border_triangle", "border_edge", "distance",
-                                               "hole",        NULL};
+static const char *const detailed_answers[] = {
+    PLAIN_ANSWERS, "local", "border_triangle", "border_edge", "distance", "hole", NULL};
 
 static int locate_in_polygons(const locate_settings *s, const char *const *operands)
 {
     if (!operands[1]) return polygon_query_run(&s->query, &s->polygons, operands[0], s->details);
-    complain("--polygons takes the place of MESH: only POINTS may follow, not also '%s'", operands[1]);
+    complain("--polygons takes the place of MESH: only POINTS may follow, not also '%s'",
+             operands[1]);
     return END_USAGE;
 }
 
@@ -68,7 +73,8 @@ static int locate_run(const void *settings, const char *const *operands)
     if (s->polygons.path) return locate_in_polygons(s, operands);
     if (!operands[1]) return options_fail_operands(&locate_command, 1);
     if (s->polygons.attribute || s->polygons.layer) {
-        complain("option '--%s' is for --polygons", s->polygons.attribute ? "attribute" : "polygon-layer");
+        complain("option '--%s' is for --polygons",
+                 s->polygons.attribute ? "attribute" : "polygon-layer");
         return END_USAGE;
     }
     int end = point_query_open(&q, &s->query, operands, s->details, NULL, NULL);
@@ -79,7 +85,8 @@ static int locate_run(const void *settings, const char *const *operands)
     return end;
 }
 
-static const option *const tables[] = {locate_options, point_query_options, query_stream_options, common_options, NULL};
+static const option *const tables[] = {locate_options, point_query_options, query_stream_options,
+                                       common_options, NULL};
 
 const command locate_command = {
     .name = "locate",
@@ -89,11 +96,16 @@ const command locate_command = {
     .summary = "find the triangle, or the polygons, that contain each point",
     .description =
         "Writes every row of POINTS as it is, and behind it status,triangle,w0,w1,w2. The status "
-        "is inside, edge, vertex, outside, hole, near or bad; the triangle is its number in MESH, from 0, "
-        "or -1; w0, w1, w2 are the weights of its corners, empty where there is no triangle. A point on "
-        "an edge or a corner belongs to the lowest-numbered triangle that contains it. '-' is standard "
-        "input. With --polygons FILE instead of MESH the status is inside, border, outside or bad; feature "
-        "is the lowest number of a feature of FILE, from 0, that contains the point or has it on its border, "
+        "is inside, edge, vertex, outside, hole, near or bad; the triangle is its number in MESH, "
+        "from 0, "
+        "or -1; w0, w1, w2 are the weights of its corners, empty where there is no triangle. A "
+        "point on "
+        "an edge or a corner belongs to the lowest-numbered triangle that contains it. '-' is "
+        "standard "
+        "input. With --polygons FILE instead of MESH the status is inside, border, outside or bad; "
+        "feature "
+        "is the lowest number of a feature of FILE, from 0, that contains the point or has it on "
+        "its border, "
         "or -1; others are the numbers of the other ones, separated by blanks.",
     .options = tables,
     .essential = "columns details polygons only-answers output",

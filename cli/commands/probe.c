@@ -24,8 +24,10 @@ static const char *probe_start_help(int i)
 {
     static const char *const texts[MW_PROBE_START_COUNT] = {
         [MW_PROBE_START_AUTO] = "last where that triangle is near, else sample",
-        [MW_PROBE_START_LAST] = "the triangle of the query before; else, and in further walks, as sample",
-        [MW_PROBE_START_SAMPLE] = "the nearest of a sample of triangles whose fronts the motion points at",
+        [MW_PROBE_START_LAST] =
+            "the triangle of the query before; else, and in further walks, as sample",
+        [MW_PROBE_START_SAMPLE] =
+            "the nearest of a sample of triangles whose fronts the motion points at",
         [MW_PROBE_START_RANDOM] = "a random triangle whose front the motion points at",
     };
     return texts[i];
@@ -34,29 +36,38 @@ static const choices starts = {"start", probe_start_name, probe_start_help};
 
 static const option probe_options[] = {
     {"max-distance", 0, OPTION_MAX_DISTANCE, offsetof(probe_settings, max_distance), "D",
-     "touch nothing that is farther than D from the point, either way; 0: only what lies at the point (default: no "
+     "touch nothing that is farther than D from the point, either way; 0: only what lies at the "
+     "point (default: no "
      "limit)",
      NULL},
     {"certain", 0, OPTION_FLAG, offsetof(probe_settings, certain), NULL,
-     "miss nothing: the nearest of all triangles on the line, or 'none'; builds boxes over the triangles", NULL},
+     "miss nothing: the nearest of all triangles on the line, or 'none'; builds boxes over the "
+     "triangles",
+     NULL},
     {"start", 0, OPTION_CHOICE, offsetof(probe_settings, start), "NAME",
      "how to choose the first triangle (default: auto):", &starts},
     {"samples", 0, OPTION_COUNT, offsetof(probe_settings, samples), "K",
-     "look at K triangles for a first one (default: 0, twice the cube root of the number of vertices)", NULL},
+     "look at K triangles for a first one (default: 0, twice the cube root of the number of "
+     "vertices)",
+     NULL},
     {"iterations", 0, OPTION_COUNT, offsetof(probe_settings, iterations), "N",
-     "at most N walks for a query, from different first triangles (default: 0, which means 10)", NULL},
+     "at most N walks for a query, from different first triangles (default: 0, which means 10)",
+     NULL},
     {"race", 0, OPTION_COUNT, offsetof(probe_settings, race), "N",
-     "run N walks for a query at a time, in threads, until one finds a triangle; where the line touches several, it "
+     "run N walks for a query at a time, in threads, until one finds a triangle; where the line "
+     "touches several, it "
      "may be another one each time, but not with --certain (default: 0, one walk)",
      NULL},
     {"weld", 0, OPTION_FLAG, offsetof(probe_settings, weld), NULL,
      "vertices with equal coordinates are one, so that walks cross the seams between them", NULL},
     {"any", 0, OPTION_FLAG, offsetof(probe_settings, any), NULL,
-     "take also a surface with defects that 'meshwalk check --as surface' calls repeated-vertex, not-finite or "
+     "take also a surface with defects that 'meshwalk check --as surface' calls repeated-vertex, "
+     "not-finite or "
      "edge-shared",
      NULL},
     {"columns", 0, OPTION_TEXT, offsetof(probe_settings, stream.source.columns), "LIST",
-     "columns of QUERIES that hold the point and the motion, six names or numbers from 1 (default: those that a header "
+     "columns of QUERIES that hold the point and the motion, six names or numbers from 1 (default: "
+     "those that a header "
      "calls x, y, z, mx, my, mz, or the only six)",
      NULL},
     {"strict", 0, OPTION_FLAG, offsetof(probe_settings, stream.strict), NULL,
@@ -67,10 +78,12 @@ static const option probe_options[] = {
 /* These overrule the common options: probes by walks cannot keep what those promise. */
 static const option random_options[] = {
     {"threads", 0, OPTION_COUNT, offsetof(probe_settings, stream.common.threads), "N",
-     "use at most N threads, those of --race apart (default: 0, all); without --race results do not depend on it",
+     "use at most N threads, those of --race apart (default: 0, all); without --race results do "
+     "not depend on it",
      NULL},
     {"seed", 0, OPTION_SEED, offsetof(probe_settings, stream.common.seed), "S",
-     "seed of everything random (default: 0); without --certain another seed may find another triangle, or one where "
+     "seed of everything random (default: 0); without --certain another seed may find another "
+     "triangle, or one where "
      "this one finds none",
      NULL},
     {0},
@@ -102,12 +115,15 @@ static int probed_surface_prepare(probed_surface *p, const char *path, const mw_
     const probe_settings *s = p->settings;
     mw_error error;
     mw_arrays arrays = mw_mesh_file_arrays(file);
-    mw_surface_options surface = {.tolerant = s->any, .weld = s->weld, .progress = progress_of_call()};
+    mw_surface_options surface = {
+        .tolerant = s->any, .weld = s->weld, .progress = progress_of_call()};
     mw_prober_options prober = {
         .boxes = s->certain, .threads = s->stream.common.threads, .progress = progress_of_call()};
     progress_phase("preparing", path);
-    if (mw_surface_create(&arrays, &surface, &p->surface, &error) != MW_OK) return probed_surface_fail(p, path, &error);
-    if (mw_prober_create(p->surface, &prober, &p->prober, &error) != MW_OK) return fail_mesh(path, &error);
+    if (mw_surface_create(&arrays, &surface, &p->surface, &error) != MW_OK)
+        return probed_surface_fail(p, path, &error);
+    if (mw_prober_create(p->surface, &prober, &p->prober, &error) != MW_OK)
+        return fail_mesh(path, &error);
     return 0;
 }
 
@@ -148,8 +164,8 @@ static int probed_surface_answer(void *self, const query_block *block, void *ans
         .counters = s->stream.stats,
         .progress = progress_of_call(),
     };
-    if (mw_probe_batch(p->prober, block->values, block->count, block->stride, &options, answers, &counters, &error) !=
-        MW_OK)
+    if (mw_probe_batch(p->prober, block->values, block->count, block->stride, &options, answers,
+                       &counters, &error) != MW_OK)
         return fail_query(&error);
     for (size_t i = 0; i < block->count; i++) p->states[touches[i].state]++;
     mw_probe_counters_add(&p->counters, &counters);
@@ -234,23 +250,30 @@ static int probe_run(const void *settings, const char *const *operands)
     return end;
 }
 
-static const option *const tables[] = {probe_options, query_stream_options, random_options, common_options, NULL};
+static const option *const tables[] = {probe_options, query_stream_options, random_options,
+                                       common_options, NULL};
 
 const command probe_command = {
     .name = "probe",
     .operands = "SURFACE QUERIES",
     .operand_count = 2,
     .summary = "find the triangle of a surface that each probe touches",
-    .description =
-        "A row of QUERIES is x,y,z,mx,my,mz: where a probe is, and how it moves. It touches a triangle of SURFACE that "
-        "the line through the point along the motion meets, on either side of the point, if the motion points at the "
-        "triangle's front: the side from which its corners are seen counter-clockwise. Writes every row as it is, and "
-        "behind it status,triangle,distance,w0,w1,w2. The status is hit; none, where surely nothing is touched; "
-        "limit, where the walks found nothing, though there may be something; or bad, where the motion is zero or a "
-        "number is not finite. The distance is negative behind the point; w0, w1, w2 are the weights of the triangle's "
-        "corners. Of several triangles walks tell the first that they find, and with --certain the nearest is told. "
-        "'-' "
-        "is standard input.",
+    .description = "A row of QUERIES is x,y,z,mx,my,mz: where a probe is, and how it moves. It "
+                   "touches a triangle of SURFACE that "
+                   "the line through the point along the motion meets, on either side of the "
+                   "point, if the motion points at the "
+                   "triangle's front: the side from which its corners are seen counter-clockwise. "
+                   "Writes every row as it is, and "
+                   "behind it status,triangle,distance,w0,w1,w2. The status is hit; none, where "
+                   "surely nothing is touched; "
+                   "limit, where the walks found nothing, though there may be something; or bad, "
+                   "where the motion is zero or a "
+                   "number is not finite. The distance is negative behind the point; w0, w1, w2 "
+                   "are the weights of the triangle's "
+                   "corners. Of several triangles walks tell the first that they find, and with "
+                   "--certain the nearest is told. "
+                   "'-' "
+                   "is standard input.",
     .options = tables,
     .essential = "certain max-distance columns only-answers output",
     .settings_size = sizeof(probe_settings),

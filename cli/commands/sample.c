@@ -46,11 +46,15 @@ static const option sample_options[] = {
     {"outside", 0, OPTION_CHOICE, offsetof(sample_settings, outside), "NAME",
      "what a point outside the mesh gets (default: empty):", &outside_choices},
     {"missing", 0, OPTION_CHOICE, offsetof(sample_settings, missing), "NAME",
-     "what a point gets where a corner of its triangle has no value (default: empty):", &missing_choices},
+     "what a point gets where a corner of its triangle has no value (default: empty):",
+     &missing_choices},
     {"nodata", 0, OPTION_TEXT, offsetof(sample_settings, nodata), "V",
-     "vertices with the value V have none, as those with NaN; none: all others have one (default: -99999)", NULL},
+     "vertices with the value V have none, as those with NaN; none: all others have one (default: "
+     "-99999)",
+     NULL},
     {"status", 0, OPTION_FLAG, offsetof(sample_settings, status), NULL,
-     "add the column status: inside, edge, vertex, outside, hole, near or bad; or missing, where a corner has no value",
+     "add the column status: inside, edge, vertex, outside, hole, near or bad; or missing, where a "
+     "corner has no value",
      NULL},
     {0},
 };
@@ -64,7 +68,8 @@ typedef struct sampled_field {
 } sampled_field;
 
 /* The value of the nearest corner that has one; NaN if none has. */
-static double sample_nearest_corner(const point_query *q, const double *values, uint32_t triangle, const double p[2])
+static double sample_nearest_corner(const point_query *q, const double *values, uint32_t triangle,
+                                    const double p[2])
 {
     uint32_t v[3];
     double value = NAN, least = INFINITY;
@@ -81,16 +86,19 @@ static double sample_nearest_corner(const point_query *q, const double *values, 
 }
 
 /* The value at the nearest point of the border. */
-static double sample_border_value(const point_query *q, const double *values, const mw_nearest_border_point *hit)
+static double sample_border_value(const point_query *q, const double *values,
+                                  const mw_nearest_border_point *hit)
 {
-    mw_location at = {.weight = {hit->weight[0], hit->weight[1], hit->weight[2]}, .triangle = hit->triangle};
+    mw_location at = {.weight = {hit->weight[0], hit->weight[1], hit->weight[2]},
+                      .triangle = hit->triangle};
     double value;
     mw_interpolate(q->mesh, values, &at, 1, &value);
     return value;
 }
 
 /* The value at p of the plane through the three corners. Not finite if they span no plane. */
-static double sample_plane_value(const point_query *q, const double *values, uint32_t triangle, const double p[2])
+static double sample_plane_value(const point_query *q, const double *values, uint32_t triangle,
+                                 const double p[2])
 {
     uint32_t v[3];
     double a[2], b[2], c[2];
@@ -104,18 +112,19 @@ static double sample_plane_value(const point_query *q, const double *values, uin
 }
 
 /* The value that --outside gives. Sets *triangle to the triangle that it comes from. */
-static double sample_value_outside(const point_query *q, const sampled_field *s, const double point[2],
-                                   uint32_t *triangle)
+static double sample_value_outside(const point_query *q, const sampled_field *s,
+                                   const double point[2], uint32_t *triangle)
 {
     mw_nearest_border_point hit;
     if (mw_nearest_border(q->locator, point[0], point[1], &hit, NULL) != MW_OK) return NAN;
     *triangle = hit.triangle;
-    double value = s->outside == OUTSIDE_LINEAR ? sample_plane_value(q, s->values, hit.triangle, point) : NAN;
+    double value =
+        s->outside == OUTSIDE_LINEAR ? sample_plane_value(q, s->values, hit.triangle, point) : NAN;
     return isfinite(value) ? value : sample_border_value(q, s->values, &hit);
 }
 
-static bool sample_row(const point_query *q, const void *self, const double point[2], const mw_location *where,
-                       text *out)
+static bool sample_row(const point_query *q, const void *self, const double point[2],
+                       const mw_location *where, text *out)
 {
     const sampled_field *s = self;
     double value = NAN;
@@ -125,7 +134,8 @@ static bool sample_row(const point_query *q, const void *self, const double poin
     else if (s->outside != OUTSIDE_EMPTY && where->where != MW_BAD)
         value = sample_value_outside(q, s, point, &triangle);
     bool missing = isnan(value) && triangle != MW_NONE;
-    if (missing && s->missing == MISSING_NEAREST) value = sample_nearest_corner(q, s->values, triangle, point);
+    if (missing && s->missing == MISSING_NEAREST)
+        value = sample_nearest_corner(q, s->values, triangle, point);
     csv_row_double(out, !isnan(value), value);
     if (s->status) csv_row_word(out, missing ? "missing" : mw_where_name((mw_where)where->where));
     return !isnan(value);
@@ -142,7 +152,8 @@ static int sample_fail_field(const char *path, const mw_mesh_file *file, const c
     else if (names.size == 0)
         complain("%s: has neither heights nor fields: there is nothing to sample", path);
     else
-        complain("%s: has no field '%s'; --field may be one of:%.*s", path, field, (int)names.size, names.bytes);
+        complain("%s: has no field '%s'; --field may be one of:%.*s", path, field, (int)names.size,
+                 names.bytes);
     text_release(&names);
     return end;
 }
@@ -154,12 +165,13 @@ typedef struct sample_choice {
     bool quiet;
 } sample_choice;
 
-static int sample_set_field(mw_mesh *mesh, const char *path, const sample_choice *choice, const double *values,
-                            size_t stride)
+static int sample_set_field(mw_mesh *mesh, const char *path, const sample_choice *choice,
+                            const double *values, size_t stride)
 {
     mw_error error;
     size_t count = mw_mesh_vertex_count(mesh);
-    double *copy = nodata_copy(values, stride, count, &choice->nodata, path, choice->field, choice->quiet);
+    double *copy =
+        nodata_copy(values, stride, count, &choice->nodata, path, choice->field, choice->quiet);
     if (!copy) return fail_memory();
     mw_status status = mw_mesh_set_field(mesh, choice->field, copy, 1, &error);
     free(copy);
@@ -167,7 +179,8 @@ static int sample_set_field(mw_mesh *mesh, const char *path, const sample_choice
 }
 
 /* Copy the field to sample from the file to the mesh. */
-static int sample_load_field(mw_mesh *mesh, const char *path, const mw_mesh_file *file, const void *self)
+static int sample_load_field(mw_mesh *mesh, const char *path, const mw_mesh_file *file,
+                             const void *self)
 {
     const sample_choice *choice = self;
     const char *field = choice->field;
@@ -193,7 +206,8 @@ static int sample_run(const void *settings, const char *const *operands)
     sample_choice choice = {.field = field, .quiet = s->query.stream.common.quiet};
     int end = nodata_parse(s->nodata, &choice.nodata);
     if (end) return end;
-    end = point_query_open(&q, &s->query, operands, s->outside != OUTSIDE_EMPTY, sample_load_field, &choice);
+    end = point_query_open(&q, &s->query, operands, s->outside != OUTSIDE_EMPTY, sample_load_field,
+                           &choice);
     if (end == 0) {
         rows.values = mw_mesh_field(q.mesh, field);
         rows.at_points.field = rows.values;
@@ -201,13 +215,15 @@ static int sample_run(const void *settings, const char *const *operands)
         q.values = &rows.at_points;
         if (!rows.at_points.at_points) end = fail_memory();
     }
-    if (end == 0) end = point_query_run(&q, operands[1], answers, s->status ? "rt" : "r", sample_row, &rows);
+    if (end == 0)
+        end = point_query_run(&q, operands[1], answers, s->status ? "rt" : "r", sample_row, &rows);
     point_query_release(&q);
     free(rows.at_points.at_points);
     return end;
 }
 
-static const option *const tables[] = {sample_options, point_query_options, query_stream_options, common_options, NULL};
+static const option *const tables[] = {sample_options, point_query_options, query_stream_options,
+                                       common_options, NULL};
 
 const command sample_command = {
     .name = "sample",
@@ -215,7 +231,8 @@ const command sample_command = {
     .operand_count = 2,
     .summary = "interpolate heights or other values at points",
     .description =
-        "Writes every row of POINTS as it is, and behind it the value, z: it is interpolated linearly in the "
+        "Writes every row of POINTS as it is, and behind it the value, z: it is interpolated "
+        "linearly in the "
         "triangle that contains the point, and empty where there is none. '-' is standard input.",
     .options = tables,
     .essential = "columns field outside only-answers output",

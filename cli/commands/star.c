@@ -39,10 +39,13 @@ static const char *star_start_help(int i)
 }
 
 /* The walks that may finish the one whose own tests only guide it. */
-static const mw_star_walk_kind star_finishes[] = {MW_STAR_WALK_AUTO, MW_STAR_WALK_STOCHASTIC, MW_STAR_WALK_FORGETFUL};
+static const mw_star_walk_kind star_finishes[] = {MW_STAR_WALK_AUTO, MW_STAR_WALK_STOCHASTIC,
+                                                  MW_STAR_WALK_FORGETFUL};
 static const char *star_finish_name(int i)
 {
-    return i < (int)(sizeof star_finishes / sizeof *star_finishes) ? mw_star_walk_name(star_finishes[i]) : NULL;
+    return i < (int)(sizeof star_finishes / sizeof *star_finishes)
+               ? mw_star_walk_name(star_finishes[i])
+               : NULL;
 }
 
 static const choices star_walk_choices = {"walk", star_walk_name, star_walk_help};
@@ -53,7 +56,8 @@ static const option star_options[] = {
     {"centre", 0, OPTION_XYZ, offsetof(star_settings, centre), "X,Y,Z",
      "the point that rays come from, and that sees all facets from inside (default: 0,0,0)", NULL},
     {"lonlat", 0, OPTION_FLAG, offsetof(star_settings, lonlat), NULL,
-     "DIRECTIONS are longitudes and latitudes in degrees; and so are x and y of a POLYHEDRON without z, which then "
+     "DIRECTIONS are longitudes and latitudes in degrees; and so are x and y of a POLYHEDRON "
+     "without z, which then "
      "lies "
      "on the unit sphere",
      NULL},
@@ -62,17 +66,24 @@ static const option star_options[] = {
     {"start", 0, OPTION_CHOICE, offsetof(star_settings, start), "NAME",
      "how to choose the first facet (default: auto):", &star_start_choices},
     {"finish", 0, OPTION_CHOICE, offsetof(star_settings, finish), "NAME",
-     "the walk that ends the orthogonal one, whose own tests are only a guide (default: auto, which is stochastic):",
+     "the walk that ends the orthogonal one, whose own tests are only a guide (default: auto, "
+     "which is stochastic):",
      &finish_choices},
     {"sample", 0, OPTION_COUNT, offsetof(star_settings, sample), "K",
-     "--start sample: look at K random facets (default: 0, twice the fourth root of the number of vertices)", NULL},
+     "--start sample: look at K random facets (default: 0, twice the fourth root of the number of "
+     "vertices)",
+     NULL},
     {"cells", 0, OPTION_COUNT, offsetof(star_settings, cells), "N",
      "--start grid, nonuniform-grid: about N cells (default: 0, one for 16 facets)", NULL},
     {"levels", 0, OPTION_COUNT, offsetof(star_settings, levels), "N",
-     "--start octahedron: N levels, the octahedron itself counted (default: 0, by the number of facets)", NULL},
+     "--start octahedron: N levels, the octahedron itself counted (default: 0, by the number of "
+     "facets)",
+     NULL},
     {"columns", 0, OPTION_TEXT, offsetof(star_settings, stream.source.columns), "LIST",
-     "columns of DIRECTIONS that hold x, y and z, or longitude and latitude, as names or numbers from 1: u,v,w or "
-     "3,4,5 (default: those that a header calls so, by names that the manual page lists, or the only ones)",
+     "columns of DIRECTIONS that hold x, y and z, or longitude and latitude, as names or numbers "
+     "from 1: u,v,w or "
+     "3,4,5 (default: those that a header calls so, by names that the manual page lists, or the "
+     "only ones)",
      NULL},
     {0},
 };
@@ -105,14 +116,16 @@ static const char *star_check_arguments(const star_settings *s, char words[128])
     return words;
 }
 
-static int ray_queries_fail_star(const ray_queries *r, const char *path, bool flat, const mw_error *error)
+static int ray_queries_fail_star(const ray_queries *r, const char *path, bool flat,
+                                 const mw_error *error)
 {
     char words[128];
     int end = fail_mesh(path, error);
     if (end == END_INPUT && flat)
         complain("%s: has no z; --lonlat takes x and y as longitude and latitude", path);
     else if (end == END_INPUT)
-        complain("'meshwalk check %s %s' lists every defect", star_check_arguments(r->settings, words), path);
+        complain("'meshwalk check %s %s' lists every defect",
+                 star_check_arguments(r->settings, words), path);
     return end;
 }
 
@@ -138,9 +151,12 @@ static int ray_queries_make_index(ray_queries *r)
     const star_settings *s = r->settings;
     mw_error error;
     mw_star_start_kind start = (mw_star_start_kind)s->start;
-    mw_star_index_options options = {.cells = s->cells, .levels = s->levels, .progress = progress_of_call()};
+    mw_star_index_options options = {
+        .cells = s->cells, .levels = s->levels, .progress = progress_of_call()};
     if (!mw_star_start_has_index(start)) return 0;
-    return mw_star_index_create(r->star, start, &options, &r->index, &error) == MW_OK ? 0 : fail_query(&error);
+    return mw_star_index_create(r->star, start, &options, &r->index, &error) == MW_OK
+               ? 0
+               : fail_query(&error);
 }
 
 static int ray_queries_open(ray_queries *r, const char *path)
@@ -190,17 +206,20 @@ static int ray_queries_answer(void *self, const query_block *block, void *answer
     const double *points = block->values;
     size_t stride = block->stride;
     if (s->lonlat) {
-        lonlat_input_directions(block->values, stride, block->count, s->centre.at, common->threads, r->points);
+        lonlat_input_directions(block->values, stride, block->count, s->centre.at, common->threads,
+                                r->points);
         points = r->points;
         stride = 3;
     }
-    if (mw_star_locate_batch(r->star, points, block->count, stride, &options, answers, &counters, &error) != MW_OK)
+    if (mw_star_locate_batch(r->star, points, block->count, stride, &options, answers, &counters,
+                             &error) != MW_OK)
         return fail_query(&error);
     location_statistics_add(&r->statistics, answers, block->count, &counters);
     return 0;
 }
 
-static bool ray_queries_write_row(const void *self, const double *direction, const void *answer, text *out)
+static bool ray_queries_write_row(const void *self, const double *direction, const void *answer,
+                                  text *out)
 {
     (void)self;
     (void)direction;
@@ -251,7 +270,8 @@ static int ray_queries_run(ray_queries *r, const char *path)
         .report = ray_queries_report,
         .self = r,
     };
-    if (s->lonlat) asked.columns = (query_columns){.axes = QUERY_LONLAT, .names = {"lon", "lat"}, .count = 2};
+    if (s->lonlat)
+        asked.columns = (query_columns){.axes = QUERY_LONLAT, .names = {"lon", "lat"}, .count = 2};
     if (s->lonlat) asked.ground = GROUND_SPHERE;
     asked.shown = asked.columns.count;
     return query_stream_run(&asked, path);
@@ -284,14 +304,18 @@ const command star_command = {
     .operands = "POLYHEDRON DIRECTIONS",
     .operand_count = 2,
     .summary = "find the facet that each ray from a centre meets",
-    .description =
-        "Writes every row of DIRECTIONS as it is, and behind it status,triangle,w0,w1,w2. The triangle is "
-        "the facet of POLYHEDRON that the ray from the centre through the point meets, from 0; status is inside, edge "
-        "or vertex, or bad, with -1 for the triangle, where a point is the centre or is not finite; w0, w1, w2 are the "
-        "weights of the facet's corners in the place where the ray meets it. A ray through an edge or a corner belongs "
-        "to the lowest-numbered facet that it meets. The centre must see all facets of the closed POLYHEDRON from "
-        "inside, "
-        "as that of a sphere does. '-' is standard input.",
+    .description = "Writes every row of DIRECTIONS as it is, and behind it "
+                   "status,triangle,w0,w1,w2. The triangle is "
+                   "the facet of POLYHEDRON that the ray from the centre through the point meets, "
+                   "from 0; status is inside, edge "
+                   "or vertex, or bad, with -1 for the triangle, where a point is the centre or is "
+                   "not finite; w0, w1, w2 are the "
+                   "weights of the facet's corners in the place where the ray meets it. A ray "
+                   "through an edge or a corner belongs "
+                   "to the lowest-numbered facet that it meets. The centre must see all facets of "
+                   "the closed POLYHEDRON from "
+                   "inside, "
+                   "as that of a sphere does. '-' is standard input.",
     .options = tables,
     .essential = "centre lonlat columns only-answers output",
     .settings_size = sizeof(star_settings),

@@ -42,17 +42,19 @@ static const char *keep_name(int i)
 }
 static const char *keep_help(int i)
 {
-    return (const char *[]){"inside, where there are polygons or holes, or FILE is a .poly; else hull",
-                            "all triangles of the convex hull",
-                            "those inside a polygon, or without polygons those that constraints part from the outside "
-                            "and from the places of holes"}[i];
+    return (const char *[]){
+        "inside, where there are polygons or holes, or FILE is a .poly; else hull",
+        "all triangles of the convex hull",
+        "those inside a polygon, or without polygons those that constraints part from the outside "
+        "and from the places of holes"}[i];
 }
 static const choices kind_choices = {"kind of triangulation", kind_name, kind_help};
 static const choices keep_choices = {"part to keep", keep_name, keep_help};
 
 static const option triangulate_options[] = {
     {"constraints", 0, OPTION_TEXT, offsetof(triangulate_settings, constraints), "FILE",
-     "make the points, lines and polygons of FILE vertices and edges of the mesh: GeoJSON, Triangle's .poly, or what "
+     "make the points, lines and polygons of FILE vertices and edges of the mesh: GeoJSON, "
+     "Triangle's .poly, or what "
      "GDAL reads, where the program is built with it; POINTS may be missing then",
      NULL},
     {"keep", 0, OPTION_CHOICE, offsetof(triangulate_settings, keep), "NAME",
@@ -60,46 +62,57 @@ static const option triangulate_options[] = {
     {"split", 0, OPTION_FLAG, offsetof(triangulate_settings, split), NULL,
      "with --constraints, put a vertex where some cross; without it that is an error", NULL},
     {"strict", 0, OPTION_FLAG, offsetof(triangulate_settings, strict), NULL,
-     "with --constraints, refuse a FILE that has rings of fewer than three different points; without it they are "
+     "with --constraints, refuse a FILE that has rings of fewer than three different points; "
+     "without it they are "
      "skipped with a warning",
      NULL},
     {"boundary", 0, OPTION_TEXT, offsetof(triangulate_settings, boundary), "FILE",
-     "keep what lies inside the polygons of FILE, whose sides become edges, with a vertex where they cross constraints",
+     "keep what lies inside the polygons of FILE, whose sides become edges, with a vertex where "
+     "they cross constraints",
      NULL},
     {"max-edge", 0, OPTION_LENGTH, offsetof(triangulate_settings, max_edge), "L",
-     "peel triangles off the border while they have a border edge longer than L; constraints hold them (default: keep "
+     "peel triangles off the border while they have a border edge longer than L; constraints hold "
+     "them (default: keep "
      "the convex hull)",
      NULL},
     {"kind", 0, OPTION_CHOICE, offsetof(triangulate_settings, kind), "NAME",
      "kind of triangulation (default: delaunay, which --constraints needs):", &kind_choices},
     {"weight", 0, OPTION_TEXT, offsetof(triangulate_settings, weight), "COLUMN",
-     "--kind regular: the column of POINTS that has the weights, by its name (z, c4, c5 ... without a header); a "
+     "--kind regular: the column of POINTS that has the weights, by its name (z, c4, c5 ... "
+     "without a header); a "
      "weight is the "
      "square of the radius of a circle round the point",
      NULL},
     {"hidden", 0, OPTION_TEXT, offsetof(triangulate_settings, hidden), "FILE",
      "--kind regular: list the points that no triangle has in FILE, by their numbers from 0", NULL},
     {"limit", 0, OPTION_COUNT, offsetof(triangulate_settings, limit), "N",
-     "--kind min-weight: fill faces of up to N corners optimally; min-max-angle: seek the optimum of up to N points; "
+     "--kind min-weight: fill faces of up to N corners optimally; min-max-angle: seek the optimum "
+     "of up to N points; "
      "beyond, a local optimum is made (default: 0, what half a minute finds)",
      NULL},
     {"format", 0, OPTION_CHOICE, offsetof(triangulate_settings, format), "NAME",
-     "format of MESH; node is two files, .node and .ele (default: auto, by its ending):", &mesh_formats},
+     "format of MESH; node is two files, .node and .ele (default: auto, by its ending):",
+     &mesh_formats},
     {"columns", 0, OPTION_TEXT, offsetof(triangulate_settings, columns), "LIST",
-     "columns of POINTS to take, as names or numbers from 1: lon,lat,height or 3,4,5; the first two are x and y, the "
-     "third is z, further ones become fields (default: all that hold numbers; x, y and z are found by their names)",
+     "columns of POINTS to take, as names or numbers from 1: lon,lat,height or 3,4,5; the first "
+     "two are x and y, the "
+     "third is z, further ones become fields (default: all that hold numbers; x, y and z are found "
+     "by their names)",
      NULL},
     {"class", 0, OPTION_TEXT, offsetof(triangulate_settings, classes), "LIST",
-     "LAS: take points of these classes only, as names or numbers: ground or 2,9 (default: all)", NULL},
+     "LAS: take points of these classes only, as names or numbers: ground or 2,9 (default: all)",
+     NULL},
     {"crs", 0, OPTION_TEXT, offsetof(triangulate_settings, crs.mesh), "CRS",
-     "the coordinate system of MESH, as EPSG:2056 (default: that of POINTS, or else of the constraints); what is in "
+     "the coordinate system of MESH, as EPSG:2056 (default: that of POINTS, or else of the "
+     "constraints); what is in "
      "another system is transformed",
      NULL},
     {"points-crs", 0, OPTION_TEXT, offsetof(triangulate_settings, crs.points), "CRS",
      "that of POINTS (default: what they tell, or else that of MESH)", NULL},
     {"constraints-crs", 0, OPTION_TEXT, offsetof(triangulate_settings, crs.constraints), "CRS",
      "that of the constraints (default: what they tell, or else that of MESH)", NULL},
-    {"json", 0, OPTION_FLAG, offsetof(triangulate_settings, json), NULL, "print the report as JSON", NULL},
+    {"json", 0, OPTION_FLAG, offsetof(triangulate_settings, json), NULL, "print the report as JSON",
+     NULL},
     {0},
 };
 
@@ -128,10 +141,12 @@ static void triangulate_work_release(triangulate_work *w)
 }
 
 /* Take all triangles of the mesh but those that --max-edge peels off, and destroy it. */
-static int triangulate_take_mesh(const triangulate_settings *s, const char *path, triangulate_work *w, mw_mesh *mesh)
+static int triangulate_take_mesh(const triangulate_settings *s, const char *path,
+                                 triangulate_work *w, mw_mesh *mesh)
 {
     int end = vertex_table_complete(&w->vertices, mesh);
-    if (end == 0 && s->max_edge > 0) end = border_peel_off(mesh, s->max_edge, &w->edges, &w->vertices.file, &w->peel);
+    if (end == 0 && s->max_edge > 0)
+        end = border_peel_off(mesh, s->max_edge, &w->edges, &w->vertices.file, &w->peel);
     mw_mesh_destroy(mesh);
     if (end || w->vertices.file.triangle_count > 0 || w->peel.triangles == 0) return end;
     complain("%s: no triangle is left: all have longer edges than --max-edge", path);
@@ -139,13 +154,15 @@ static int triangulate_take_mesh(const triangulate_settings *s, const char *path
 }
 
 /* Warn of points that only peeled triangles had, and of polygons that leave out most points. */
-static void triangulate_warn_of_points(const triangulate_settings *s, const char *points, const triangulate_work *w)
+static void triangulate_warn_of_points(const triangulate_settings *s, const char *points,
+                                       const triangulate_work *w)
 {
     if (s->common.quiet || !points) return;
     const mw_mesh_file *file = &w->vertices.file;
     if (w->peel.points > 0)
-        complain("%s: %zu of its %zu points belong to no triangle any more: --max-edge peeled theirs off", points,
-                 w->peel.points, file->point_count);
+        complain("%s: %zu of its %zu points belong to no triangle any more: --max-edge peeled "
+                 "theirs off",
+                 points, w->peel.points, file->point_count);
     uint8_t *used = w->constrained.triangles_removed ? calloc(file->point_count + 1, 1) : NULL;
     if (!used) return;
     size_t inside = 0;
@@ -153,8 +170,9 @@ static void triangulate_warn_of_points(const triangulate_settings *s, const char
     for (size_t i = 0; i < w->vertices.points; i++) inside += used[i];
     free(used);
     if (2 * inside < w->vertices.points && w->vertices.points > 2)
-        complain("%s: %zu of its %zu points lie outside of the polygons in %s, or equal others%s", points,
-                 w->vertices.points - inside, w->vertices.points, s->boundary ? s->boundary : s->constraints,
+        complain("%s: %zu of its %zu points lie outside of the polygons in %s, or equal others%s",
+                 points, w->vertices.points - inside, w->vertices.points,
+                 s->boundary ? s->boundary : s->constraints,
                  s->boundary ? "" : "; --keep hull keeps their triangles");
 }
 
@@ -165,12 +183,13 @@ static mw_keep triangulate_keep(const triangulate_settings *s, const triangulate
     return (mw_keep)s->keep;
 }
 
-static int triangulate_fail_constrained(const triangulate_settings *s, const char *points, const triangulate_work *w,
-                                        const mw_error *error)
+static int triangulate_fail_constrained(const triangulate_settings *s, const char *points,
+                                        const triangulate_work *w, const mw_error *error)
 {
     const uint32_t *cross = w->constrained.crossing_segments;
     if (error->status == MW_ERROR_INPUT && cross[0] != MW_NONE)
-        return constraint_file_fail_crossing(s->constraints, &w->constraints, w->vertices.file.points, cross, s->split);
+        return constraint_file_fail_crossing(s->constraints, &w->constraints,
+                                             w->vertices.file.points, cross, s->split);
     if (error->status == MW_ERROR_INPUT && w->constrained.triangles_removed > 0) {
         complain("%s: %s; --keep hull keeps them", s->constraints, error->message);
         return END_INPUT;
@@ -180,7 +199,8 @@ static int triangulate_fail_constrained(const triangulate_settings *s, const cha
 }
 
 /* Triangulate the constraints, together with POINTS if they are given. */
-static int triangulate_with_constraints(const triangulate_settings *s, const char *points, triangulate_work *w)
+static int triangulate_with_constraints(const triangulate_settings *s, const char *points,
+                                        triangulate_work *w)
 {
     mw_error error;
     mw_mesh *mesh;
@@ -203,39 +223,43 @@ static int triangulate_with_constraints(const triangulate_settings *s, const cha
     w->constrained.crossing_segments[0] = w->constrained.crossing_segments[1] = MW_NONE;
     if (!w->duplicate_of) return fail_memory();
     progress_phase("triangulating", s->constraints);
-    if (mw_constrained_delaunay(&constraints, &options, w->duplicate_of, &w->constrained, &w->edges, &mesh, &error) !=
-        MW_OK)
+    if (mw_constrained_delaunay(&constraints, &options, w->duplicate_of, &w->constrained, &w->edges,
+                                &mesh, &error) != MW_OK)
         return triangulate_fail_constrained(s, points, w, &error);
     int end = triangulate_take_mesh(s, points ? points : s->constraints, w, mesh);
     bool on_a_line = false;
     if (end == 0)
-        end = missing_values_fill(&w->vertices, count, w->duplicate_of, c->segments, &w->edges, s->common.threads,
-                                  &on_a_line);
+        end = missing_values_fill(&w->vertices, count, w->duplicate_of, c->segments, &w->edges,
+                                  s->common.threads, &on_a_line);
     if (end == 0 && on_a_line && !s->common.quiet)
-        complain("%s: warning: its points lie on one line, or are fewer than three, so vertices of constraints that "
+        complain("%s: warning: its points lie on one line, or are fewer than three, so vertices of "
+                 "constraints that "
                  "have no values of their own get nan",
                  points);
     return end;
 }
 
 /* Warn if a kind that should be optimal is only a local optimum, and say why. */
-static void triangulate_warn_if_local(const triangulate_settings *s, const char *path, const mw_kind_report *kind)
+static void triangulate_warn_if_local(const triangulate_settings *s, const char *path,
+                                      const mw_kind_report *kind)
 {
     const char *name = kind_name(s->kind);
     if (kind->optimal || s->common.quiet) return;
     if (kind->local_faces > 0)
-        complain("%s: warning: this %s triangulation is a local optimum: of %zu faces, the largest of %zu corners, %zu "
+        complain("%s: warning: this %s triangulation is a local optimum: of %zu faces, the largest "
+                 "of %zu corners, %zu "
                  "are too large or hold points; --limit N takes larger ones",
                  path, name, kind->faces, kind->largest_face, kind->local_faces);
     else
-        complain(
-            "%s: warning: this %s triangulation is a local optimum: there are too many points to seek the best one; "
-            "--limit N seeks it for up to N points",
-            path, name);
+        complain("%s: warning: this %s triangulation is a local optimum: there are too many points "
+                 "to seek the best one; "
+                 "--limit N seeks it for up to N points",
+                 path, name);
 }
 
 /* The weights of --kind regular, one for each point. */
-static int triangulate_take_weights(const triangulate_settings *s, const char *path, triangulate_work *w)
+static int triangulate_take_weights(const triangulate_settings *s, const char *path,
+                                    triangulate_work *w)
 {
     vertex_field field;
     size_t n = w->vertices.points;
@@ -275,8 +299,8 @@ static int triangulate_points(const triangulate_settings *s, const char *path, t
                                .weights = w->weights,
                                .hidden = w->hidden};
     progress_phase("triangulating", path);
-    if (mw_triangulate((mw_triangulation_kind)s->kind, file->points, file->point_count, 3, &options, NULL, &w->kind,
-                       &mesh, &error) != MW_OK)
+    if (mw_triangulate((mw_triangulation_kind)s->kind, file->points, file->point_count, 3, &options,
+                       NULL, &w->kind, &mesh, &error) != MW_OK)
         return fail_mesh(path, &error);
     end = triangulate_take_mesh(s, path, w, mesh);
     if (end == 0) triangulate_warn_if_local(s, path, &w->kind);
@@ -292,7 +316,8 @@ static void triangulate_report_constrained(report *r, const triangulate_work *w)
     report_count(r, "crossed", w->constrained.triangles_crossed);
 }
 
-static void triangulate_report_kind(report *r, const triangulate_settings *s, const mw_kind_report *kind)
+static void triangulate_report_kind(report *r, const triangulate_settings *s,
+                                    const mw_kind_report *kind)
 {
     report_string(r, "kind", kind_name(s->kind));
     report_number(r, "edge_length", kind->edge_length);
@@ -327,14 +352,16 @@ static int triangulate_print_report(const triangulate_settings *s, const triangu
     report_count(&r, "triangles", w->vertices.file.triangle_count);
     if (s->max_edge > 0) report_count(&r, "peeled", w->peel.triangles);
     triangulate_report_columns(&r, &w->vertices);
-    report_rounded(&r, "visited_per_point", made->points ? (double)made->triangles_visited / (double)made->points : 0);
+    report_rounded(&r, "visited_per_point",
+                   made->points ? (double)made->triangles_visited / (double)made->points : 0);
     if (s->constraints)
         triangulate_report_constrained(&r, w);
     else
         triangulate_report_kind(&r, s, &w->kind);
     report_rounded(&r, "seconds", monotonic_seconds() - w->begin);
     report_end(&r);
-    return files_is_standard(s->common.output) ? files_write_error_text(&r.text) : files_write_text(NULL, &r.text);
+    return files_is_standard(s->common.output) ? files_write_error_text(&r.text)
+                                               : files_write_text(NULL, &r.text);
 }
 
 static int triangulate_refuse(const char *why)
@@ -346,21 +373,25 @@ static int triangulate_refuse(const char *why)
 /* Refuse options that contradict each other. */
 static int triangulate_check_combination(const triangulate_settings *s, const char *points)
 {
-    if (s->boundary && s->keep) return triangulate_refuse("--boundary tells what to keep: --keep cannot");
+    if (s->boundary && s->keep)
+        return triangulate_refuse("--boundary tells what to keep: --keep cannot");
     if (!points && !s->constraints && !s->boundary)
         return triangulate_refuse("wants POINTS, or --constraints FILE, or --boundary FILE");
     if (!points && (s->columns || s->classes || s->crs.points))
-        return triangulate_refuse("--columns, --class and --points-crs are about POINTS, which are missing");
+        return triangulate_refuse(
+            "--columns, --class and --points-crs are about POINTS, which are missing");
     if (!s->constraints && !s->boundary && (s->keep || s->split || s->strict))
         return triangulate_refuse("--keep, --split and --strict are about --constraints");
     if (!s->constraints && !s->boundary && s->crs.constraints)
         return triangulate_refuse("--constraints-crs is about --constraints");
     if ((s->constraints || s->boundary) && s->kind != MW_KIND_DELAUNAY)
         return triangulate_refuse("--constraints and --boundary are for --kind delaunay only");
-    if (!s->weight && s->kind == MW_KIND_REGULAR) return triangulate_refuse("--kind regular wants --weight COLUMN");
+    if (!s->weight && s->kind == MW_KIND_REGULAR)
+        return triangulate_refuse("--kind regular wants --weight COLUMN");
     if ((s->weight || s->hidden) && s->kind != MW_KIND_REGULAR)
         return triangulate_refuse("--weight and --hidden are about --kind regular");
-    if (s->hidden && files_is_standard(s->hidden)) return triangulate_refuse("--hidden wants a file");
+    if (s->hidden && files_is_standard(s->hidden))
+        return triangulate_refuse("--hidden wants a file");
     if (s->limit && s->kind != MW_KIND_MIN_WEIGHT && s->kind != MW_KIND_MIN_MAX_ANGLE)
         return triangulate_refuse("--limit is about --kind min-weight and min-max-angle");
     return 0;
@@ -369,14 +400,16 @@ static int triangulate_check_combination(const triangulate_settings *s, const ch
 /* Refuse wrong settings before the work begins. */
 static int triangulate_check_settings(const triangulate_settings *s, const char *points)
 {
-    const char *output = s->common.output, *files[] = {points, s->constraints, s->boundary}, *inputs[3];
+    const char *output = s->common.output, *files[] = {points, s->constraints, s->boundary},
+               *inputs[3];
     int count = 0, end = triangulate_check_combination(s, points);
     if (end == 0) end = vertex_crs_check(&s->crs);
     for (int i = 0; i < 3; i++)
         if (files[i]) inputs[count++] = files[i];
     if (end == 0) end = mesh_output_check("triangulate", output, s->format);
     for (int i = 1; i < 3 && end == 0; i++)
-        if (files[i] && mesh_output_is_node(output, s->format)) end = constraint_file_check_output(files[i], output);
+        if (files[i] && mesh_output_is_node(output, s->format))
+            end = constraint_file_check_output(files[i], output);
     if (end == 0) end = files_check_output(output, inputs, count);
     const side_output hidden = {.option = "hidden", .path = s->hidden};
     if (end == 0) end = side_outputs_check(&hidden, 1, output, inputs, count);
@@ -395,16 +428,19 @@ static triangulate_settings triangulate_settle(const triangulate_settings *given
 }
 
 /* Refuse a boundary without polygons; but alone, the segments of a .poly bound, too. */
-static int triangulate_check_boundary(const triangulate_settings *s, const mw_constraint_file *boundary)
+static int triangulate_check_boundary(const triangulate_settings *s,
+                                      const mw_constraint_file *boundary)
 {
     bool alone = s->boundary == s->constraints;
-    if (!s->boundary || boundary->polygon_count > 0 || (alone && constraint_file_is_poly(boundary))) return 0;
+    if (!s->boundary || boundary->polygon_count > 0 || (alone && constraint_file_is_poly(boundary)))
+        return 0;
     complain("%s: holds no polygon, so it is no boundary", s->boundary);
     return END_INPUT;
 }
 
 /* Read a boundary beside constraints, and put it to them. */
-static int triangulate_join_boundary(const triangulate_settings *s, const char *points, triangulate_work *w)
+static int triangulate_join_boundary(const triangulate_settings *s, const char *points,
+                                     triangulate_work *w)
 {
     mw_constraint_file boundary = {0};
     const constraint_file_options options = {.quiet = s->common.quiet, .strict = s->strict};
@@ -412,28 +448,34 @@ static int triangulate_join_boundary(const triangulate_settings *s, const char *
     int end = constraint_file_read(s->boundary, options, &boundary);
     if (end == 0) end = triangulate_check_boundary(s, &boundary);
     if (end == 0)
-        end = vertex_crs_move_constraints(&s->common, s->boundary, &boundary, points ? points : s->constraints,
-                                          w->vertices.file.crs);
+        end = vertex_crs_move_constraints(&s->common, s->boundary, &boundary,
+                                          points ? points : s->constraints, w->vertices.file.crs);
     if (end == 0) end = constraint_file_join(&w->constraints, &boundary);
     mw_constraint_file_release(&boundary);
     return end;
 }
 
-static int triangulate_read_input(const triangulate_settings *s, const char *points, triangulate_work *w)
+static int triangulate_read_input(const triangulate_settings *s, const char *points,
+                                  triangulate_work *w)
 {
     const vertex_table_options how = {s->columns, s->classes, s->common.quiet};
     int end = points ? vertex_table_read(&w->vertices, points, &how) : 0;
     const constraint_file_options options = {.quiet = s->common.quiet, .strict = s->strict};
-    if (end == 0 && s->constraints) end = constraint_file_read(s->constraints, options, &w->constraints);
-    if (end == 0 && s->boundary == s->constraints) end = triangulate_check_boundary(s, &w->constraints);
-    if (end == 0) end = vertex_crs_join(&s->crs, &s->common, points, &w->vertices, s->constraints, &w->constraints);
+    if (end == 0 && s->constraints)
+        end = constraint_file_read(s->constraints, options, &w->constraints);
+    if (end == 0 && s->boundary == s->constraints)
+        end = triangulate_check_boundary(s, &w->constraints);
+    if (end == 0)
+        end = vertex_crs_join(&s->crs, &s->common, points, &w->vertices, s->constraints,
+                              &w->constraints);
     if (end == 0 && s->boundary != s->constraints) end = triangulate_join_boundary(s, points, w);
     return end || !s->constraints ? end : vertex_table_append(&w->vertices, &w->constraints);
 }
 
 static int triangulate_run(const void *settings, const char *const *operands)
 {
-    const triangulate_settings *given = settings, settled = triangulate_settle(given), *s = &settled;
+    const triangulate_settings *given = settings, settled = triangulate_settle(given),
+                               *s = &settled;
     const char *points = operands[0];
     triangulate_work w = {.begin = monotonic_seconds()};
     bool temporary = false;
@@ -441,10 +483,14 @@ static int triangulate_run(const void *settings, const char *const *operands)
     if (end == 0) end = files_try_output(s->common.output, &temporary);
     if (end == 0) end = triangulate_read_input(s, points, &w);
     if (end == 0)
-        end = s->constraints ? triangulate_with_constraints(s, points, &w) : triangulate_points(s, points, &w);
+        end = s->constraints ? triangulate_with_constraints(s, points, &w)
+                             : triangulate_points(s, points, &w);
     if (end == 0) triangulate_warn_of_points(s, points, &w);
-    if (end == 0 && !s->common.quiet) mesh_output_warn(s->common.output, s->format, &w.vertices.file);
-    if (end == 0) end = mesh_output_write(s->common.output, s->format, &w.vertices.file, temporary, s->common.quiet);
+    if (end == 0 && !s->common.quiet)
+        mesh_output_warn(s->common.output, s->format, &w.vertices.file);
+    if (end == 0)
+        end = mesh_output_write(s->common.output, s->format, &w.vertices.file, temporary,
+                                s->common.quiet);
     if (end == 0) end = triangulate_write_hidden(s, &w);
     if (end == 0) end = triangulate_print_report(s, &w);
     triangulate_work_release(&w);
@@ -459,12 +505,15 @@ const command triangulate_command = {
     .operand_count = 1,
     .optional_operands = 1,
     .summary = "make a triangulation of points, lines and polygons",
-    .description =
-        "Writes a triangulation of POINTS to MESH, Delaunay unless --kind says otherwise. Vertex i of the mesh "
-        "is point i, from 0. A point equal to an earlier one is counted in the report, and belongs to no "
-        "triangle. A column z, or height, is the height; further columns of numbers become fields. With --constraints, "
-        "the lines and polygons of a file are edges of the mesh; its points follow POINTS, with heights and "
-        "fields interpolated where the file has none. '-' is standard input.",
+    .description = "Writes a triangulation of POINTS to MESH, Delaunay unless --kind says "
+                   "otherwise. Vertex i of the mesh "
+                   "is point i, from 0. A point equal to an earlier one is counted in the report, "
+                   "and belongs to no "
+                   "triangle. A column z, or height, is the height; further columns of numbers "
+                   "become fields. With --constraints, "
+                   "the lines and polygons of a file are edges of the mesh; its points follow "
+                   "POINTS, with heights and "
+                   "fields interpolated where the file has none. '-' is standard input.",
     .options = tables,
     .essential = "columns constraints boundary max-edge output",
     .settings_size = sizeof(triangulate_settings),

@@ -34,14 +34,16 @@ static const char *walk_choice_name(int i)
 
 static const char *walk_choice_help(int i)
 {
-    return i < MW_WALK_COUNT ? mw_walk_help((mw_walk_kind)i) : "a picture of each, beside one another";
+    return i < MW_WALK_COUNT ? mw_walk_help((mw_walk_kind)i)
+                             : "a picture of each, beside one another";
 }
 
 static const choices walk_choices = {"walk", walk_choice_name, walk_choice_help};
 
 static const option walk_options[] = {
     {"from", 0, OPTION_XY_OR_XYZ, offsetof(walk_settings, from), "X,Y",
-     "where the walk begins; --as surface: X,Y,Z, the point where the probe is; --as star: X,Y,Z, a point that the ray "
+     "where the walk begins; --as surface: X,Y,Z, the point where the probe is; --as star: X,Y,Z, "
+     "a point that the ray "
      "goes through, or with --lonlat LON,LAT",
      NULL},
     {"to", 0, OPTION_XY_OR_XYZ, offsetof(walk_settings, to), "X,Y",
@@ -51,19 +53,23 @@ static const option walk_options[] = {
      "forgetful, barycentric, orthogonal and straight; a probe has one walk:",
      &walk_choices},
     {"animate", 0, OPTION_TEXT, offsetof(walk_settings, animate), "FILE",
-     "show the walk step by step in FILE, an animated PNG (.png or .apng); the list or picture of the whole is then "
+     "show the walk step by step in FILE, an animated PNG (.png or .apng); the list or picture of "
+     "the whole is then "
      "written "
      "only with -o",
      NULL},
     {"max-distance", 0, OPTION_MAX_DISTANCE, offsetof(walk_settings, max_distance), "D",
-     "--as surface: touch nothing that is farther than D from the point, either way; 0: only what lies at the point "
+     "--as surface: touch nothing that is farther than D from the point, either way; 0: only what "
+     "lies at the point "
      "(default: no limit)",
      NULL},
     {"samples", 0, OPTION_COUNT, offsetof(walk_settings, samples), "K",
-     "--as surface: look at K triangles for a first one (default: 0, twice the cube root of the number of vertices)",
+     "--as surface: look at K triangles for a first one (default: 0, twice the cube root of the "
+     "number of vertices)",
      NULL},
     {"iterations", 0, OPTION_COUNT, offsetof(walk_settings, iterations), "N",
-     "--as surface: at most N walks, from different first triangles (default: 0, which means 10)", NULL},
+     "--as surface: at most N walks, from different first triangles (default: 0, which means 10)",
+     NULL},
     {0},
 };
 
@@ -77,7 +83,8 @@ static int walk_check_coordinates(const walk_settings *s, const char *name, cons
 {
     bool flat = s->mesh.space == SPACE_PLANE || s->mesh.lonlat;
     if (at->count == 0) {
-        complain("option '--%s' is missing: where does the walk %s?", name, at == &s->from ? "begin" : "end");
+        complain("option '--%s' is missing: where does the walk %s?", name,
+                 at == &s->from ? "begin" : "end");
         return END_USAGE;
     }
     if (at->count == (flat ? 2 : 3)) return 0;
@@ -206,11 +213,13 @@ static int walk_fail_mesh(const walk_record *w, const char *as, const mw_error *
 
 /* --- in the plane ----------------------------------------------------------------------------- */
 
-static void walk_remark_outside(const walk_record *w, const char *name, const mw_location *at, const char *then)
+static void walk_remark_outside(const walk_record *w, const char *name, const mw_location *at,
+                                const char *then)
 {
     char words[128];
     if (at->where != MW_OUTSIDE && at->where != MW_IN_HOLE) return;
-    snprintf(words, sizeof words, "%s%s", at->where == MW_OUTSIDE ? "lies outside the mesh" : "lies in a hole", then);
+    snprintf(words, sizeof words, "%s%s",
+             at->where == MW_OUTSIDE ? "lies outside the mesh" : "lies in a hole", then);
     walk_remark(w, name, words);
 }
 
@@ -220,7 +229,8 @@ static int walk_record_way(walk_record *w, const mw_walk_way *way)
     const walk_settings *s = w->settings;
     uint32_t points = way->line_points ? way->line_points : 3;
     if (!walk_record_make_line(w, points)) return fail_memory();
-    for (uint32_t i = 0; i < way->line_points; i++) memcpy(w->line + 3 * i, way->line[i], 2 * sizeof(double));
+    for (uint32_t i = 0; i < way->line_points; i++)
+        memcpy(w->line + 3 * i, way->line[i], 2 * sizeof(double));
     if (way->line_points) return 0;
     memcpy(w->line, s->from.at, 2 * sizeof(double));
     w->line[3] = w->line[4] = NAN;
@@ -236,13 +246,16 @@ static int walk_in_plane(walk_record *w, const mw_locator *locator)
     mw_location from, to;
     mw_walk_way way;
     int end = 0;
-    mw_query_options options = {.walk = w->walk, .start = MW_START_LAST, .seed = s->mesh.common.seed};
+    mw_query_options options = {
+        .walk = w->walk, .start = MW_START_LAST, .seed = s->mesh.common.seed};
     if (mw_cursor_init(locator, &options, &begin, &error) != MW_OK) return fail_query(&error);
     from = mw_locate(locator, &begin, s->from.at[0], s->from.at[1]);
     do {
         cursor = begin;
-        way = (mw_walk_way){.triangles = w->triangles, .stages = w->stages, .capacity = w->capacity};
-    } while (walk_record_lacks_room(w, mw_walk_follow(locator, &cursor, s->to.at[0], s->to.at[1], &way, &to), &end));
+        way =
+            (mw_walk_way){.triangles = w->triangles, .stages = w->stages, .capacity = w->capacity};
+    } while (walk_record_lacks_room(
+        w, mw_walk_follow(locator, &cursor, s->to.at[0], s->to.at[1], &way, &to), &end));
     walk_remark_outside(w, "--from", &from, ": the walk begins where one to it ends");
     walk_remark_outside(w, "--to", &to, "");
     return end ? end : walk_record_way(w, &way);
@@ -272,14 +285,16 @@ static int walk_plane(walk_record *w)
 /* --- on a polyhedron -------------------------------------------------------------------------- */
 
 /* The point in space that FROM or TO means. */
-static int ray_point(const walk_settings *s, const char *name, const coordinates *where, double point[3])
+static int ray_point(const walk_settings *s, const char *name, const coordinates *where,
+                     double point[3])
 {
     const double *centre = s->mesh.centre.at;
     memcpy(point, where->at, 3 * sizeof *point);
     if (s->mesh.lonlat) lonlat_input_directions(where->at, 2, 1, centre, 1, point);
     if (isnan(point[0])) return walk_option_wants(name, "a latitude from -90 to 90");
     if (memcmp(point, centre, 3 * sizeof *point) != 0) return 0;
-    return walk_option_wants(name, "another point than the centre: no ray goes from there to there");
+    return walk_option_wants(name,
+                             "another point than the centre: no ray goes from there to there");
 }
 
 /* The unit vector from the centre towards a point. Halves and the largest coordinate prevent an
@@ -297,8 +312,8 @@ static void ray_unit_direction(const double centre[3], const double point[3], do
 }
 
 /* The point where the ray along d meets the polyhedron; NaN if it meets none. */
-static void ray_hit(const mw_star *star, const mw_surface *surface, mw_star_cursor *cursor, const double centre[3],
-                    double reach, const double d[3], double point[3])
+static void ray_hit(const mw_star *star, const mw_surface *surface, mw_star_cursor *cursor,
+                    const double centre[3], double reach, const double d[3], double point[3])
 {
     double ray[3], corner[3];
     uint32_t v[3];
@@ -320,7 +335,8 @@ static double angle_between(const double u[3], const double v[3])
 }
 
 /* A direction on the way from u to v, which are `angle` apart. */
-static void direction_between(const double u[3], const double v[3], double angle, double part, double d[3])
+static void direction_between(const double u[3], const double v[3], double angle, double part,
+                              double d[3])
 {
     double a = 1 - part, b = part;
     /* The sines of smaller angles are as good as equal to the angles. */
@@ -334,8 +350,8 @@ static void direction_between(const double u[3], const double v[3], double angle
 /* Record the shorter arc from FROM to TO in the plane through both and the centre, which the
  * straight walk follows. Opposite directions, or nearly opposite ones, have no such plane: the line
  * then has only its ends. */
-static int walk_record_arc(walk_record *w, const mw_star *star, const mw_surface *surface, const double from[3],
-                           const double to[3])
+static int walk_record_arc(walk_record *w, const mw_star *star, const mw_surface *surface,
+                           const double from[3], const double to[3])
 {
     enum { PARTS = 256 };
     const double *centre = w->settings->mesh.centre.at;
@@ -372,7 +388,8 @@ static int walk_on_star(walk_record *w, const mw_star *star, const mw_surface *s
     if (mw_star_cursor_init(star, &options, &begin, &error) != MW_OK) return fail_query(&error);
     mw_star_locate(star, &begin, from);
     do cursor = begin;
-    while (walk_record_lacks_room(w, mw_star_path(star, &cursor, to, w->triangles, w->capacity, NULL), &end));
+    while (walk_record_lacks_room(
+        w, mw_star_path(star, &cursor, to, w->triangles, w->capacity, NULL), &end));
     return end ? end : walk_record_arc(w, star, surface, from, to);
 }
 
@@ -384,9 +401,10 @@ static int walk_star(walk_record *w)
     mw_star *star = NULL;
     mw_arrays arrays = mw_mesh_file_arrays(w->file);
     mw_surface_options welded = {.weld = 1, .progress = progress_of_call()};
-    mw_star_options options = {.centre = {s->mesh.centre.at[0], s->mesh.centre.at[1], s->mesh.centre.at[2]},
-                               .angles = strcmp(walk_choice_name(s->walk), "orthogonal") == 0,
-                               .progress = progress_of_call()};
+    mw_star_options options = {
+        .centre = {s->mesh.centre.at[0], s->mesh.centre.at[1], s->mesh.centre.at[2]},
+        .angles = strcmp(walk_choice_name(s->walk), "orthogonal") == 0,
+        .progress = progress_of_call()};
     bool made = mw_surface_create(&arrays, &welded, &surface, &error) == MW_OK &&
                 mw_star_create(surface, &options, &star, &error) == MW_OK;
     int end = made ? walk_on_star(w, star, surface) : walk_fail_mesh(w, " --as star", &error);
@@ -413,8 +431,10 @@ static int walk_as_probe(walk_record *w, const mw_prober *prober)
     if (mw_probe_cursor_init(prober, &options, &begin, &error) != MW_OK) return fail_query(&error);
     for (int k = 0; k < 3; k++) motion[k] = s->to.at[k] - s->from.at[k];
     do cursor = begin;
-    while (walk_record_lacks_room(
-        w, mw_probe_path(prober, &cursor, s->from.at, motion, w->triangles, w->iteration, w->capacity, &touch), &end));
+    while (walk_record_lacks_room(w,
+                                  mw_probe_path(prober, &cursor, s->from.at, motion, w->triangles,
+                                                w->iteration, w->capacity, &touch),
+                                  &end));
     if (touch.state == MW_TOUCH_BAD)
         return walk_option_wants("to", "another point than --from, and not too far away: a motion");
     if (touch.state == MW_TOUCH_LIMIT)
@@ -445,7 +465,8 @@ static int walk_write_list(const walk_record *w)
     text t = {0};
     text_string(&t, "step,triangle,iteration\n");
     for (size_t i = 0; i < w->count; i++)
-        text_printf(&t, "%zu,%lu,%lu\n", i, (unsigned long)w->triangles[i], (unsigned long)w->iteration[i]);
+        text_printf(&t, "%zu,%lu,%lu\n", i, (unsigned long)w->triangles[i],
+                    (unsigned long)w->iteration[i]);
     return files_write_text(w->settings->mesh.common.output, &t);
 }
 
@@ -454,12 +475,13 @@ static drawing walk_drawing(const walk_record *w, char *caption)
 {
     static const drawing_view views[] = {
         [SPACE_PLANE] = VIEW_PLANE, [SPACE_SURFACE] = VIEW_SURFACE, [SPACE_STAR] = VIEW_STAR};
-    static const char *const stages[] = {"initialisation", "walk", "final location", "border", NULL};
+    static const char *const stages[] = {"initialisation", "walk", "final location", "border",
+                                         NULL};
     const walk_settings *s = w->settings;
     bool plane = s->mesh.space == SPACE_PLANE;
     const char *name = strrchr(w->path, '/'), *walk = s->mesh.space == SPACE_SURFACE ? "probe"
-                                                      : plane                        ? mw_walk_name(w->walk)
-                                                                                     : walk_choice_name(s->walk);
+                                                      : plane ? mw_walk_name(w->walk)
+                                                              : walk_choice_name(s->walk);
     snprintf(caption, 160, "%.100s: %s, %zu triangle%s", name ? name + 1 : w->path, walk, w->count,
              w->count == 1 ? "" : "s");
     return (drawing){.view = views[s->mesh.space],
@@ -516,7 +538,8 @@ static void walk_record_release(walk_record *w)
     free(w->line);
 }
 
-/* Every walk in the plane, one picture beside the other. What is to be said of the points is said once. */
+/* Every walk in the plane, one picture beside the other. What is to be said of the points is said
+ * once. */
 static int walk_all_and_write(const walk_record *common)
 {
     enum { WALKS = MW_WALK_COUNT - 1, TRIANGLES = 4000 /* of the mesh, in each picture */ };
@@ -547,7 +570,8 @@ static int walk_run(const void *settings, const char *const *operands)
 {
     const walk_settings *s = settings;
     mw_mesh_file file = {0};
-    walk_record w = {.settings = s, .path = operands[0], .file = &file, .walk = (mw_walk_kind)s->walk};
+    walk_record w = {
+        .settings = s, .path = operands[0], .file = &file, .walk = (mw_walk_kind)s->walk};
     bool all = s->walk == MW_WALK_COUNT;
     int end = walk_check_options(s, operands);
     if (end == 0) end = mesh_space_read(&s->mesh, operands, &file);
@@ -564,13 +588,17 @@ const command walk_command = {
     .operands = "MESH",
     .operand_count = 1,
     .summary = "draw or list one walk, triangle by triangle",
-    .description =
-        "Walks through MESH from the triangle that contains --from to the one that contains --to, and writes the "
-        "triangles visited: as a list, step,triangle,iteration, in order and numbered from 0; or as a picture, if the "
-        "output is an .svg, .png or .pdf file; or step by step (--animate). With --as star, the walk goes over the "
-        "facets of a polyhedron from one "
-        "ray to the other. With --as surface, it is that of a probe at --from that moves towards --to, and iteration "
-        "is the number of its walk; it begins in a triangle chosen at random. '-' is standard input.",
+    .description = "Walks through MESH from the triangle that contains --from to the one that "
+                   "contains --to, and writes the "
+                   "triangles visited: as a list, step,triangle,iteration, in order and numbered "
+                   "from 0; or as a picture, if the "
+                   "output is an .svg, .png or .pdf file; or step by step (--animate). With --as "
+                   "star, the walk goes over the "
+                   "facets of a polyhedron from one "
+                   "ray to the other. With --as surface, it is that of a probe at --from that "
+                   "moves towards --to, and iteration "
+                   "is the number of its walk; it begins in a triangle chosen at random. '-' is "
+                   "standard input.",
     .options = tables,
     .essential = "from to walk as output",
     .settings_size = sizeof(walk_settings),

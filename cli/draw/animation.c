@@ -44,8 +44,8 @@ static uint32_t bytes_get(const unsigned char *at)
 }
 
 /* A chunk whose data are in two parts. */
-static void chunk_write(mw_output *out, const char *type, const unsigned char *first, uint32_t first_size,
-                        const unsigned char *second, uint32_t second_size)
+static void chunk_write(mw_output *out, const char *type, const unsigned char *first,
+                        uint32_t first_size, const unsigned char *second, uint32_t second_size)
 {
     unsigned char head[HEAD], tail[TAIL];
     bytes_put(head, first_size + second_size, 4);
@@ -103,7 +103,8 @@ static void frame_paint(const animation *a, cairo_surface_t *page, uint32_t fram
 
 static size_t page_pixels(cairo_surface_t *page)
 {
-    return (size_t)(cairo_image_surface_get_stride(page) / 4) * (size_t)cairo_image_surface_get_height(page);
+    return (size_t)(cairo_image_surface_get_stride(page) / 4) *
+           (size_t)cairo_image_surface_get_height(page);
 }
 
 /* Leave in `change` what is not as in `before`, and make `before` the page. */
@@ -126,7 +127,8 @@ static cairo_status_t frame_png_make(frame_png *png, cairo_surface_t *page)
 }
 
 /* The next chunk of that type from *at on; NULL: there is no more. *at goes behind it. */
-static const unsigned char *frame_png_chunk(const frame_png *png, size_t *at, const char *type, uint32_t *size)
+static const unsigned char *frame_png_chunk(const frame_png *png, size_t *at, const char *type,
+                                            uint32_t *size)
 {
     while (*at + HEAD + TAIL <= png->size) {
         const unsigned char *chunk = png->bytes + *at;
@@ -152,11 +154,12 @@ static void animation_write_head(const animation *a, const frame_png *png, mw_ou
     bytes_put(control, a->frames, 4);
     bytes_put(control + 4, 0, 4); /* shown again and again */
     chunk_write(out, "acTL", control, sizeof control, NULL, 0);
-    while ((data = frame_png_chunk(png, &at, "IDAT", &size))) chunk_write(out, "IDAT", data, size, NULL, 0);
+    while ((data = frame_png_chunk(png, &at, "IDAT", &size)))
+        chunk_write(out, "IDAT", data, size, NULL, 0);
 }
 
-static void animation_write_frame(const animation *a, uint32_t frame, const frame_png *png, uint32_t *number,
-                                  mw_output *out)
+static void animation_write_frame(const animation *a, uint32_t frame, const frame_png *png,
+                                  uint32_t *number, mw_output *out)
 {
     unsigned char control[FRAME_CONTROL] = {0}, sequence[4];
     uint32_t size;
@@ -174,8 +177,9 @@ static void animation_write_frame(const animation *a, uint32_t frame, const fram
     }
 }
 
-static cairo_status_t animation_write_pages(const animation *a, cairo_surface_t *page, cairo_surface_t *change,
-                                            uint32_t *before, mw_output *out)
+static cairo_status_t animation_write_pages(const animation *a, cairo_surface_t *page,
+                                            cairo_surface_t *change, uint32_t *before,
+                                            mw_output *out)
 {
     frame_png png = {0};
     uint32_t number = 0;
@@ -201,7 +205,9 @@ static cairo_status_t animation_write_all(const animation *a, mw_output *out)
     cairo_status_t status = cairo_surface_status(page);
     if (!status) status = cairo_surface_status(change);
     uint32_t *before = status ? NULL : calloc(page_pixels(page), sizeof *before);
-    if (!status) status = before ? animation_write_pages(a, page, change, before, out) : CAIRO_STATUS_NO_MEMORY;
+    if (!status)
+        status =
+            before ? animation_write_pages(a, page, change, before, out) : CAIRO_STATUS_NO_MEMORY;
     free(before);
     cairo_surface_destroy(change);
     cairo_surface_destroy(page);

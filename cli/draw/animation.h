@@ -14,7 +14,8 @@ struct _cairo; /* Cairo's cairo_t */
 typedef struct animation {
     double width, height; /* of each picture, in pixels */
     uint32_t frames;      /* at least 1 */
-    /* Draw picture `frame` on a white page. The origin is its upper left corner; the unit is a pixel. */
+    /* Draw picture `frame` on a white page. The origin is its upper left corner; the unit is a
+     * pixel. */
     void (*draw)(struct _cairo *c, uint32_t frame, void *self);
     uint16_t (*milliseconds)(uint32_t frame, void *self); /* how long it is shown */
     void *self;

@@ -1,8 +1,8 @@
 /* drawing.c - a scene, painted from back to front with Cairo.
  *
- * Triangles of the walk are filled, from light to dark in their order. In space the mesh is a thin veil: those of the
- * walk that turn their back are painted first, and so shimmer through. Green and vermilion are those of [Okabe,
- * Ito 2008], which colour-blind people can tell apart. */
+ * Triangles of the walk are filled, from light to dark in their order. In space the mesh is a thin
+ * veil: those of the walk that turn their back are painted first, and so shimmer through. Green
+ * and vermilion are those of [Okabe, Ito 2008], which colour-blind people can tell apart. */
 #include "cli/draw/drawing.h"
 #include "cli/draw/animation.h"
 #include "cli/frame/message.h"
@@ -26,7 +26,7 @@
 #define LEGEND 15.0 /* below the caption */
 #define RING 8.0    /* radius */
 
-/* --- colours ------------------------------------------------------------------------------------------------------ */
+/* --- colours ---------------------------------------------------------------------------------- */
 
 static const double green[3] = {0.00, 0.62, 0.45}, vermilion[3] = {0.84, 0.37, 0.00};
 
@@ -73,7 +73,7 @@ static void colour_of_triangle(const scene *s, const painted_triangle *p, double
     if (p->back) colour_mix(rgb, (const double[]){1, 1, 1}, 0.45, rgb);
 }
 
-/* --- painting ----------------------------------------------------------------------------------------------------- */
+/* --- painting --------------------------------------------------------------------------------- */
 
 /* Points of a unit. */
 static double scene_scale(const scene *s)
@@ -116,7 +116,8 @@ static void scene_paint_veil(cairo_t *c, const scene *s)
             if (end == x) continue;
             double left = scene_page_x(s, s->shown.low[0] + (double)x * side[0]);
             double top = scene_page_y(s, s->shown.low[1] + (double)(y + 1) * side[1]);
-            cairo_rectangle(c, left, top, (double)(end - x) * side[0] * scene_scale(s), side[1] * scene_scale(s));
+            cairo_rectangle(c, left, top, (double)(end - x) * side[0] * scene_scale(s),
+                            side[1] * scene_scale(s));
         }
     cairo_fill(c);
 }
@@ -154,11 +155,12 @@ static void triangle_paint(cairo_t *c, const scene *s, const painted_triangle *p
 static void triangle_ring(cairo_t *c, const scene *s, uint32_t triangle, const double rgb[3])
 {
     page_box b = scene_box(s, triangle);
-    if (!scene_is_finite(s, triangle) || fmin(b.high[0] - b.low[0], b.high[1] - b.low[1]) * scene_scale(s) > 1.5 * RING)
+    if (!scene_is_finite(s, triangle) ||
+        fmin(b.high[0] - b.low[0], b.high[1] - b.low[1]) * scene_scale(s) > 1.5 * RING)
         return;
     cairo_new_sub_path(c);
-    cairo_arc(c, scene_page_x(s, b.low[0] / 2 + b.high[0] / 2), scene_page_y(s, b.low[1] / 2 + b.high[1] / 2), RING, 0,
-              2 * acos(-1));
+    cairo_arc(c, scene_page_x(s, b.low[0] / 2 + b.high[0] / 2),
+              scene_page_y(s, b.low[1] / 2 + b.high[1] / 2), RING, 0, 2 * acos(-1));
     cairo_set_source_rgb(c, rgb[0], rgb[1], rgb[2]);
     cairo_set_line_width(c, 2);
     cairo_stroke(c);
@@ -169,10 +171,11 @@ static void scene_paint_line(cairo_t *c, const scene *s)
     const double *line = s->d->line;
     cairo_set_line_width(c, 1.1);
     for (size_t i = 0; i + 1 < s->d->line_count; i++) {
-        page_point a = projection_at(&s->projection, line + 3 * i), b = projection_at(&s->projection, line + 3 * i + 3);
+        page_point a = projection_at(&s->projection, line + 3 * i),
+                   b = projection_at(&s->projection, line + 3 * i + 3);
         if (!page_point_is_finite(&a) || !page_point_is_finite(&b)) continue;
-        bool seen =
-            projection_shows(&s->projection, line + 3 * i) && projection_shows(&s->projection, line + 3 * i + 3);
+        bool seen = projection_shows(&s->projection, line + 3 * i) &&
+                    projection_shows(&s->projection, line + 3 * i + 3);
         double grey = seen ? 0 : 0.6;
         cairo_set_source_rgb(c, grey, grey, grey);
         cairo_move_to(c, scene_page_x(s, a.x), scene_page_y(s, a.y));
@@ -282,7 +285,7 @@ static void drawing_draw(cairo_t *c, const void *self)
     scene_paint_caption(c, s, scene_page_height(s) - 9 - LEGEND);
 }
 
-/* --- sheets ------------------------------------------------------------------------------------------------------- */
+/* --- sheets ----------------------------------------------------------------------------------- */
 
 /* Scenes in rows, each in a field of the same size. */
 typedef struct sheet {
@@ -296,7 +299,8 @@ static void drawing_draw_sheet(cairo_t *c, const void *self)
     const sheet *all = self;
     for (size_t i = 0; i < all->count; i++) {
         cairo_save(c);
-        cairo_translate(c, (double)(i % all->columns) * all->width, (double)(i / all->columns) * all->height);
+        cairo_translate(c, (double)(i % all->columns) * all->width,
+                        (double)(i / all->columns) * all->height);
         drawing_draw(c, &all->scenes[i]);
         cairo_restore(c);
     }
@@ -304,7 +308,8 @@ static void drawing_draw_sheet(cairo_t *c, const void *self)
 
 int drawing_write_sheet(const drawing *d, size_t count, const char *path)
 {
-    sheet all = {.scenes = calloc(count, sizeof *all.scenes), .columns = (size_t)ceil(sqrt((double)count))};
+    sheet all = {.scenes = calloc(count, sizeof *all.scenes),
+                 .columns = (size_t)ceil(sqrt((double)count))};
     bool made = all.scenes;
     while (made && all.count < count) {
         made = scene_make(&all.scenes[all.count], &d[all.count]);
@@ -313,9 +318,9 @@ int drawing_write_sheet(const drawing *d, size_t count, const char *path)
         all.count++;
     }
     size_t rows = made ? (count + all.columns - 1) / all.columns : 0;
-    int end =
-        made ? picture_write(path, (double)all.columns * all.width, (double)rows * all.height, drawing_draw_sheet, &all)
-             : fail_memory();
+    int end = made ? picture_write(path, (double)all.columns * all.width, (double)rows * all.height,
+                                   drawing_draw_sheet, &all)
+                   : fail_memory();
     for (size_t i = 0; i < all.count; i++) scene_release(&all.scenes[i]);
     free(all.scenes);
     return end;
@@ -326,7 +331,7 @@ int drawing_write(const drawing *d, const char *path)
     return drawing_write_sheet(d, 1, path);
 }
 
-/* --- animations ---------------------------------------------------------------------------------------------------- */
+/* --- animations ------------------------------------------------------------------------------- */
 
 enum { MOST_FRAMES = 120, CAPTION_ROOM = 240 };
 
@@ -347,8 +352,8 @@ static void moving_scene_draw(cairo_t *c, uint32_t frame, void *self)
     drawing_draw(c, &m->scene);
 }
 
-/* All frames take about eight seconds, but none is shorter or longer than eyes can follow; the last one
- * stays a while. */
+/* All frames take about eight seconds, but none is shorter or longer than eyes can follow; the
+ * last one stays a while. */
 static uint16_t moving_scene_milliseconds(uint32_t frame, void *self)
 {
     const moving_scene *m = self;

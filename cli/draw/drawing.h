@@ -1,4 +1,5 @@
-/* drawing.h - a picture of a walk: its triangles, the first and the last of them marked, and the mesh near it. */
+/* drawing.h - a picture of a walk: its triangles, the first and the last of them marked, and the
+ * mesh near it. */
 #ifndef MW_CLI_DRAW_DRAWING_H
 #define MW_CLI_DRAW_DRAWING_H
 

@@ -8,9 +8,12 @@
 
 /* How a mesh is looked at. */
 typedef enum drawing_view {
-    VIEW_PLANE,   /* from above; z does not matter                                                            */
-    VIEW_SURFACE, /* on the fronts of the triangles visited                                                   */
-    VIEW_STAR     /* on the middle of the walk, towards the centre; the fronts are those that face away from it */
+    /* from above; z does not matter */
+    VIEW_PLANE,
+    /* on the fronts of the triangles visited */
+    VIEW_SURFACE,
+    /* on the middle of the walk, towards the centre; fronts face away from it */
+    VIEW_STAR
 } drawing_view;
 
 typedef struct drawing {
@@ -20,13 +23,16 @@ typedef struct drawing {
     const double *points;      /* x, y, z of each vertex */
     const uint32_t *triangles; /* three vertices each    */
     size_t point_count, triangle_count;
-    const uint32_t *path, *iteration; /* the triangles visited, in order, and the number of the walk that each is of */
+    /* the triangles visited, in order, and the number of the walk that each is of */
+    const uint32_t *path, *iteration;
     size_t path_count;
-    const uint8_t *stage;           /* NULL, or the stage of each visit: of these names, a colour each */
+    /* NULL, or the stage of each visit: of these names, a colour each */
+    const uint8_t *stage;
     const char *const *stage_names; /* NULL ends them; at most four */
     size_t most_triangles;          /* that are painted, without the walk's; 0: a good number */
-    const double *line; /* x, y, z of points of the line that the walk follows, the first and the last marked; a NaN
-                           between two parts them */
+    /* x, y, z of points of the line that the walk follows, the first and the last marked; a NaN
+     * between two parts them */
+    const double *line;
     size_t line_count;
 } drawing;
 

@@ -37,7 +37,8 @@ int picture_check(const char *path)
     return 0;
 }
 
-static cairo_status_t picture_write_bytes(void *output, const unsigned char *bytes, unsigned int size)
+static cairo_status_t picture_write_bytes(void *output, const unsigned char *bytes,
+                                          unsigned int size)
 {
     mw_output_write(output, bytes, size);
     return CAIRO_STATUS_SUCCESS; /* closing the output reports the error */
@@ -45,13 +46,16 @@ static cairo_status_t picture_write_bytes(void *output, const unsigned char *byt
 
 static cairo_surface_t *picture_make_surface(int form, mw_output *out, double width, double height)
 {
-    if (form == SVG) return cairo_svg_surface_create_for_stream(picture_write_bytes, out, width, height);
-    if (form == PDF) return cairo_pdf_surface_create_for_stream(picture_write_bytes, out, width, height);
-    return cairo_image_surface_create(CAIRO_FORMAT_RGB24, (int)ceil(PNG_SCALE * width), (int)ceil(PNG_SCALE * height));
+    if (form == SVG)
+        return cairo_svg_surface_create_for_stream(picture_write_bytes, out, width, height);
+    if (form == PDF)
+        return cairo_pdf_surface_create_for_stream(picture_write_bytes, out, width, height);
+    return cairo_image_surface_create(CAIRO_FORMAT_RGB24, (int)ceil(PNG_SCALE * width),
+                                      (int)ceil(PNG_SCALE * height));
 }
 
-static cairo_status_t picture_paint(cairo_surface_t *surface, int form, mw_output *out, picture_draw *draw,
-                                    const void *self)
+static cairo_status_t picture_paint(cairo_surface_t *surface, int form, mw_output *out,
+                                    picture_draw *draw, const void *self)
 {
     cairo_t *c = cairo_create(surface);
     if (form == PNG) cairo_scale(c, PNG_SCALE, PNG_SCALE);
@@ -66,7 +70,8 @@ static cairo_status_t picture_paint(cairo_surface_t *surface, int form, mw_outpu
     return status == CAIRO_STATUS_SUCCESS ? cairo_surface_status(surface) : status;
 }
 
-int picture_write(const char *path, double width, double height, picture_draw *draw, const void *self)
+int picture_write(const char *path, double width, double height, picture_draw *draw,
+                  const void *self)
 {
     mw_error error;
     mw_output *out;
@@ -91,7 +96,8 @@ int picture_check(const char *path)
     return END_USAGE;
 }
 
-int picture_write(const char *path, double width, double height, picture_draw *draw, const void *self)
+int picture_write(const char *path, double width, double height, picture_draw *draw,
+                  const void *self)
 {
     (void)width, (void)height, (void)draw, (void)self;
     return picture_check(path);

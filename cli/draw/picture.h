@@ -17,6 +17,7 @@ typedef void picture_draw(struct _cairo *c, const void *self);
 
 /* Draw a picture and write it. The file appears under its name when it is complete. Returns 0, or
  * an exit code after a complaint. */
-int picture_write(const char *path, double width, double height, picture_draw *draw, const void *self);
+int picture_write(const char *path, double width, double height, picture_draw *draw,
+                  const void *self);
 
 #endif

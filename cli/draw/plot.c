@@ -113,7 +113,8 @@ typedef struct plot_axis {
 
 static double plot_axis_position(const plot_axis *a, double value)
 {
-    double part = a->logarithmic ? log(value / a->low) / log(a->high / a->low) : (value - a->low) / (a->high - a->low);
+    double part = a->logarithmic ? log(value / a->low) / log(a->high / a->low)
+                                 : (value - a->low) / (a->high - a->low);
     return a->begin + part * a->length;
 }
 
@@ -187,10 +188,12 @@ static void plot_draw_y_tick(cairo_t *c, const plot_axis *y, double value)
 /* The axis begins at 0 for bars, and near the least value for curves. */
 static void plot_draw_linear_axis(cairo_t *c, plot_axis *y, const plot_range *r, bool bars)
 {
-    double low = bars ? 0 : r->y[0], high = r->y[1] > low ? r->y[1] : low + 1, step = plot_round_up((high - low) / 6);
+    double low = bars ? 0 : r->y[0], high = r->y[1] > low ? r->y[1] : low + 1,
+           step = plot_round_up((high - low) / 6);
     y->low = step * floor(low / step);
     y->high = step * (floor(high / step) + 1);
-    for (int k = 0; k <= (int)round((y->high - y->low) / step); k++) plot_draw_y_tick(c, y, y->low + k * step);
+    for (int k = 0; k <= (int)round((y->high - y->low) / step); k++)
+        plot_draw_y_tick(c, y, y->low + k * step);
 }
 
 /* Draw the ticks 1, 2 and 5 of each power of ten. */
@@ -207,7 +210,8 @@ static void plot_draw_log_axis(cairo_t *c, plot_axis *y, const plot_range *r)
 
 static plot_axis plot_draw_y_axis(cairo_t *c, const plot *p, const plot_range *r, bool bars)
 {
-    plot_axis y = {.begin = PANEL_HEIGHT, .length = -PANEL_HEIGHT, .logarithmic = p->log_y && !bars};
+    plot_axis y = {
+        .begin = PANEL_HEIGHT, .length = -PANEL_HEIGHT, .logarithmic = p->log_y && !bars};
     if (y.logarithmic)
         plot_draw_log_axis(c, &y, r);
     else
@@ -217,7 +221,8 @@ static plot_axis plot_draw_y_axis(cairo_t *c, const plot *p, const plot_range *r
 
 static plot_axis plot_draw_x_axis(cairo_t *c, const plot_range *r)
 {
-    plot_axis x = {.low = r->x[0] / 1.5, .high = r->x[1] * 1.5, .length = PANEL_WIDTH, .logarithmic = true};
+    plot_axis x = {
+        .low = r->x[0] / 1.5, .high = r->x[1] * 1.5, .length = PANEL_WIDTH, .logarithmic = true};
     for (int k = (int)ceil(log10(x.low)); pow(10, k) <= x.high; k++) {
         plot_draw_rule(c, plot_axis_position(&x, pow(10, k)), 0, 0, PANEL_HEIGHT);
         plot_write_power(c, plot_axis_position(&x, pow(10, k)), PANEL_HEIGHT + 15, k);
@@ -227,31 +232,35 @@ static plot_axis plot_draw_x_axis(cairo_t *c, const plot_range *r)
 
 /* Curves and bars. */
 
-static void plot_draw_curve(cairo_t *c, const plot *p, size_t k, const plot_curve *curve, const plot_axis *x,
-                            const plot_axis *y, bool published)
+static void plot_draw_curve(cairo_t *c, const plot *p, size_t k, const plot_curve *curve,
+                            const plot_axis *x, const plot_axis *y, bool published)
 {
     plot_set_colour(c, k);
     plot_set_dash(c, published);
     cairo_new_path(c);
     for (size_t i = 0; i < curve->count; i++) {
         double value = plot_value(p, &curve->point[i], published);
-        if (!isnan(value)) cairo_line_to(c, plot_axis_position(x, curve->point[i].x), plot_axis_position(y, value));
+        if (!isnan(value))
+            cairo_line_to(c, plot_axis_position(x, curve->point[i].x),
+                          plot_axis_position(y, value));
     }
     cairo_stroke(c);
     cairo_set_dash(c, NULL, 0, 0);
     for (size_t i = 0; i < curve->count; i++) {
         double value = plot_value(p, &curve->point[i], published);
         if (!isnan(value))
-            plot_mark(c, k, plot_axis_position(x, curve->point[i].x), plot_axis_position(y, value), !published);
+            plot_mark(c, k, plot_axis_position(x, curve->point[i].x), plot_axis_position(y, value),
+                      !published);
     }
 }
 
-static void plot_draw_curves(cairo_t *c, const plot *p, const plot_panel *panel, const plot_range *r,
-                             const plot_axis *y)
+static void plot_draw_curves(cairo_t *c, const plot *p, const plot_panel *panel,
+                             const plot_range *r, const plot_axis *y)
 {
     plot_axis x = plot_draw_x_axis(c, r);
     for (int published = 1; published >= 0; published--)
-        for (size_t k = 0; k < p->curves; k++) plot_draw_curve(c, p, k, &panel->curve[k], &x, y, published);
+        for (size_t k = 0; k < p->curves; k++)
+            plot_draw_curve(c, p, k, &panel->curve[k], &x, y, published);
     plot_set_font(c, 11, false);
     plot_write_text(c, PANEL_WIDTH / 2, PANEL_HEIGHT + 36, p->x_label, CENTRED);
 }
@@ -338,7 +347,11 @@ static void plot_draw_legend(cairo_t *c, const plot *p)
         cairo_set_dash(c, NULL, 0, 0);
         if (sample) plot_mark(c, k, 15, y, true);
         plot_set_font(c, 10, false);
-        plot_write_text(c, 38, y + 3.5, sample ? p->name[k] : published ? "published" : "measured", TO_LEFT);
+        plot_write_text(c, 38, y + 3.5,
+                        sample      ? p->name[k]
+                        : published ? "published"
+                                    : "measured",
+                        TO_LEFT);
     }
 }
 
@@ -349,7 +362,9 @@ typedef struct plot_page {
 
 static plot_page plot_lay_out(const plot *p)
 {
-    plot_page g = {.columns = p->count == 4 ? 2 : p->count < MAX_PANEL_COLUMNS ? p->count : MAX_PANEL_COLUMNS};
+    plot_page g = {.columns = p->count == 4                  ? 2
+                              : p->count < MAX_PANEL_COLUMNS ? p->count
+                                                             : MAX_PANEL_COLUMNS};
     g.rows = (p->count + g.columns - 1) / g.columns;
     g.width = (double)g.columns * (LEFT + PANEL_WIDTH + RIGHT) + LEGEND_WIDTH;
     g.height = HEAD + (double)g.rows * (ABOVE + PANEL_HEIGHT + BELOW);

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-/* --- vectors ------------------------------------------------------------------------------------------------------ */
+/* --- vectors ---------------------------------------------------------------------------------- */
 
 static double vector_inner(const double a[3], const double b[3])
 {
@@ -13,7 +13,8 @@ static double vector_inner(const double a[3], const double b[3])
 
 static void vector_outer(const double a[3], const double b[3], double c[3])
 {
-    for (int k = 0; k < 3; k++) c[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
+    for (int k = 0; k < 3; k++)
+        c[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
 }
 
 /* False for one without length. */
@@ -25,7 +26,7 @@ static bool direction_normalise(double a[3])
     return true;
 }
 
-/* --- the view ----------------------------------------------------------------------------------------------------- */
+/* --- the view --------------------------------------------------------------------------------- */
 
 static void projection_measure(projection *p)
 {
@@ -94,7 +95,8 @@ static void visit_look(const projection *p, size_t visit, double n[3])
         projected_normal(p, p->d->path[visit], n);
 }
 
-/* Where a walk goes all round a surface, the directions of its triangles cancel out: then that of the last one counts. */
+/* Where a walk goes all round a surface, the directions of its triangles cancel out: then that of
+ * the last one counts. */
 static void projection_mean_look(const projection *p, double eye[3])
 {
     double n[3], sum[3] = {0, 0, 0};
@@ -104,7 +106,8 @@ static void projection_mean_look(const projection *p, double eye[3])
         for (int k = 0; k < 3; k++) sum[k] += n[k];
     }
     memcpy(eye, sum, sizeof sum);
-    if (count && vector_inner(sum, sum) < 0.09 * (double)count * (double)count) visit_look(p, count - 1, eye);
+    if (count && vector_inner(sum, sum) < 0.09 * (double)count * (double)count)
+        visit_look(p, count - 1, eye);
     if (!direction_normalise(eye)) memcpy(eye, (const double[]){0, 0, 1}, sizeof sum);
 }
 
@@ -154,14 +157,15 @@ projection projection_make(const drawing *d)
     return p;
 }
 
-/* --- what the eye sees -------------------------------------------------------------------------------------------- */
+/* --- what the eye sees ------------------------------------------------------------------------ */
 
 page_point projection_at(const projection *p, const double *point)
 {
     double cube[3];
     projection_place(p, point, cube);
     if (p->d->view == VIEW_PLANE) return (page_point){cube[0], cube[1], 0};
-    return (page_point){vector_inner(p->axis[0], cube), vector_inner(p->axis[1], cube), vector_inner(p->axis[2], cube)};
+    return (page_point){vector_inner(p->axis[0], cube), vector_inner(p->axis[1], cube),
+                        vector_inner(p->axis[2], cube)};
 }
 
 bool projection_turns_back(const projection *p, uint32_t triangle)

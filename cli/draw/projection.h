@@ -1,4 +1,5 @@
-/* projection.h - an orthographic projection of a mesh onto the page, seen from where the walk shows best. */
+/* projection.h - an orthographic projection of a mesh onto the page, seen from where the walk
+ * shows best. */
 #ifndef MW_CLI_DRAW_PROJECTION_H
 #define MW_CLI_DRAW_PROJECTION_H
 

@@ -1,5 +1,6 @@
-/* scene.c - the page is cut to the walk and the ends of its line. Of a large mesh only what lies near the walk is
- * painted. In space triangles that turn their back are left out, but for those of the walk. */
+/* scene.c - the page is cut to the walk and the ends of its line. Of a large mesh only what lies
+ * near the walk is painted. In space triangles that turn their back are left out, but for those of
+ * the walk. */
 #include "cli/draw/scene.h"
 
 #include <math.h>
@@ -9,7 +10,7 @@
 #define MOST_TRIANGLES 40000 /* that are painted, without the walk's */
 #define CELLS SCENE_CELLS
 
-/* --- what is shown ------------------------------------------------------------------------------------------------ */
+/* --- what is shown ---------------------------------------------------------------------------- */
 
 static const page_box nothing = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
 
@@ -71,11 +72,13 @@ static page_box box_meet(page_box a, page_box b)
     return a;
 }
 
-/* An end of the line should be seen, unless it lies far away: from a mesh in the plane, or from the walk of a probe. */
+/* An end of the line should be seen, unless it lies far away: from a mesh in the plane, or from
+ * the walk of a probe. */
 static void scene_grow_to_end(scene *s, const double *point)
 {
     page_point at = projection_at(&s->projection, point);
-    page_box near = s->d->view == VIEW_PLANE ? box_widen(s->all, 2) : box_widen(s->shown, page_box_side(&s->shown));
+    page_box near = s->d->view == VIEW_PLANE ? box_widen(s->all, 2)
+                                             : box_widen(s->shown, page_box_side(&s->shown));
     if (at.x >= near.low[0] && at.x <= near.high[0] && at.y >= near.low[1] && at.y <= near.high[1])
         box_grow(&s->shown, &at);
 }
@@ -92,35 +95,42 @@ static void scene_choose_box(scene *s)
         sides += page_box_side(&b);
         for (size_t k = 0; k < 3; k++) box_grow(&s->shown, scene_corner(s, d->path[i], k));
     }
-    for (size_t i = 0; i < d->line_count; i += d->line_count - 1) scene_grow_to_end(s, d->line + 3 * i);
-    double side = page_box_side(&s->shown), mean = d->path_count ? sides / (double)d->path_count : 0;
-    page_box near = box_widen(s->shown, fmax(0.12 * side, 1.5 * mean)), most = box_join(s->shown, s->all);
+    for (size_t i = 0; i < d->line_count; i += d->line_count - 1)
+        scene_grow_to_end(s, d->line + 3 * i);
+    double side = page_box_side(&s->shown),
+           mean = d->path_count ? sides / (double)d->path_count : 0;
+    page_box near = box_widen(s->shown, fmax(0.12 * side, 1.5 * mean)),
+             most = box_join(s->shown, s->all);
     bool whole = !d->path_count || page_box_side(&near) > 0.6 * page_box_side(&s->all);
     s->shown = whole ? most : box_meet(near, most);
     s->shown = box_widen(s->shown, 0.02 * page_box_side(&s->shown));
     if (!(page_box_side(&s->shown) > 0)) s->shown = (page_box){{-1, -1}, {1, 1}};
 }
 
-/* --- what is painted ---------------------------------------------------------------------------------------------- */
+/* --- what is painted -------------------------------------------------------------------------- */
 
 static bool scene_shows_box(const scene *s, const page_box *b)
 {
-    return b->low[0] <= s->shown.high[0] && b->high[0] >= s->shown.low[0] && b->low[1] <= s->shown.high[1] &&
-           b->high[1] >= s->shown.low[1];
+    return b->low[0] <= s->shown.high[0] && b->high[0] >= s->shown.low[0] &&
+           b->low[1] <= s->shown.high[1] && b->high[1] >= s->shown.low[1];
 }
 
 bool scene_is_finite(const scene *s, uint32_t triangle)
 {
-    return page_point_is_finite(scene_corner(s, triangle, 0)) && page_point_is_finite(scene_corner(s, triangle, 1)) &&
+    return page_point_is_finite(scene_corner(s, triangle, 0)) &&
+           page_point_is_finite(scene_corner(s, triangle, 1)) &&
            page_point_is_finite(scene_corner(s, triangle, 2));
 }
 
 static double scene_depth_of(const scene *s, uint32_t triangle)
 {
-    return (scene_corner(s, triangle, 0)->z + scene_corner(s, triangle, 1)->z + scene_corner(s, triangle, 2)->z) / 3;
+    return (scene_corner(s, triangle, 0)->z + scene_corner(s, triangle, 1)->z +
+            scene_corner(s, triangle, 2)->z) /
+           3;
 }
 
-/* In the plane the walk lies on the mesh; in space what is nearer hides what is farther away. Depths are within 2. */
+/* In the plane the walk lies on the mesh; in space what is nearer hides what is farther away.
+ * Depths are within 2. */
 static void scene_add_triangle(scene *s, uint32_t triangle)
 {
     page_box b = scene_box(s, triangle);
@@ -128,8 +138,8 @@ static void scene_add_triangle(scene *s, uint32_t triangle)
     if (!scene_is_finite(s, triangle) || !scene_shows_box(s, &b)) return;
     bool back = projection_turns_back(&s->projection, triangle);
     if (back && !walk) return;
-    double key =
-        s->d->view == VIEW_PLANE ? (walk ? s->visit[triangle] : -1.0) : scene_depth_of(s, triangle) - (back ? 10 : 0);
+    double key = s->d->view == VIEW_PLANE ? (walk ? s->visit[triangle] : -1.0)
+                                          : scene_depth_of(s, triangle) - (back ? 10 : 0);
     s->painted[s->count++] = (painted_triangle){key, triangle, back};
 }
 
@@ -162,7 +172,8 @@ static void nearness_mark_walk(const scene *s, nearness *near)
         int right = nearness_cell(b.high[0], v->low[0], v->high[0]),
             top = nearness_cell(b.high[1], v->low[1], v->high[1]);
         for (int y = nearness_cell(b.low[1], v->low[1], v->high[1]); y <= top; y++)
-            for (int x = nearness_cell(b.low[0], v->low[0], v->high[0]); x <= right; x++) near->cells[y][x] = 0;
+            for (int x = nearness_cell(b.low[0], v->low[0], v->high[0]); x <= right; x++)
+                near->cells[y][x] = 0;
     }
 }
 
@@ -201,7 +212,8 @@ static void scene_veil_triangle(scene *s, uint32_t triangle)
 {
     const page_box *v = &s->shown;
     page_box b = scene_box(s, triangle);
-    int right = nearness_cell(b.high[0], v->low[0], v->high[0]), top = nearness_cell(b.high[1], v->low[1], v->high[1]);
+    int right = nearness_cell(b.high[0], v->low[0], v->high[0]),
+        top = nearness_cell(b.high[1], v->low[1], v->high[1]);
     for (int y = nearness_cell(b.low[1], v->low[1], v->high[1]); y <= top; y++)
         for (int x = nearness_cell(b.low[0], v->low[0], v->high[0]); x <= right; x++)
             s->veil[(y - 1) * CELLS + x - 1] = true;
@@ -249,7 +261,7 @@ static bool scene_choose_triangles(scene *s)
     return true;
 }
 
-/* --- the whole ---------------------------------------------------------------------------------------------------- */
+/* --- the whole -------------------------------------------------------------------------------- */
 
 static bool scene_make_room(scene *s)
 {
@@ -269,15 +281,18 @@ static void scene_number_visits(scene *s)
         if (s->visit[d->path[i]] == UINT32_MAX) s->visit[d->path[i]] = (uint32_t)i;
     for (size_t begin = 0, end; begin < d->path_count; begin = end) {
         for (end = begin; end < d->path_count && d->iteration[end] == d->iteration[begin];) end++;
-        for (size_t i = begin; i < end; i++) s->part[i] = (double)(i - begin + 1) / (double)(end - begin);
+        for (size_t i = begin; i < end; i++)
+            s->part[i] = (double)(i - begin + 1) / (double)(end - begin);
     }
 }
 
 bool scene_make(scene *s, const drawing *d)
 {
-    *s = (scene){.d = d, .projection = projection_make(d), .seen = d->path_count, .caption = d->caption};
+    *s = (scene){
+        .d = d, .projection = projection_make(d), .seen = d->path_count, .caption = d->caption};
     if (!scene_make_room(s)) return false;
-    for (size_t v = 0; v < s->d->point_count; v++) s->at[v] = projection_at(&s->projection, s->d->points + 3 * v);
+    for (size_t v = 0; v < s->d->point_count; v++)
+        s->at[v] = projection_at(&s->projection, s->d->points + 3 * v);
     scene_number_visits(s);
     scene_choose_box(s);
     return scene_choose_triangles(s);

@@ -1,4 +1,5 @@
-/* scene.h - what a picture of a walk shows: the part of the page, and the triangles to be painted from back to front. */
+/* scene.h - what a picture of a walk shows: the part of the page, and the triangles to be painted
+ * from back to front. */
 #ifndef MW_CLI_DRAW_SCENE_H
 #define MW_CLI_DRAW_SCENE_H
 
@@ -28,7 +29,9 @@ typedef struct scene {
     size_t count;
     size_t seen; /* visits that are shown: the first ones; all, unless set to another number */
     const char *caption;
-    bool *veil; /* per cell of what is shown, row by row from below: triangles there are left out; NULL: none are */
+    /* per cell of what is shown, row by row from below: triangles there are left out; NULL:
+     * none are */
+    bool *veil;
     page_box all, shown;
 } scene;
 

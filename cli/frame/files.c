@@ -38,8 +38,10 @@ static bool file_form_name(const char *path, int form, char *name, size_t size)
 static bool file_form_stat(const char *path, bool output, int form, struct stat *s)
 {
     char name[4096];
-    if (files_is_standard(path)) return form == 0 && fstat(output ? STDOUT_FILENO : STDIN_FILENO, s) == 0;
-    return strlen(path) < sizeof name - 16 && file_form_name(path, form, name, sizeof name) && stat(name, s) == 0;
+    if (files_is_standard(path))
+        return form == 0 && fstat(output ? STDOUT_FILENO : STDIN_FILENO, s) == 0;
+    return strlen(path) < sizeof name - 16 && file_form_name(path, form, name, sizeof name) &&
+           stat(name, s) == 0;
 }
 
 /* A device or a pipe may be read and written at the same time, so only regular files count. */
@@ -53,7 +55,8 @@ static bool file_is_same(const char *output, const char *input)
     for (int i = 0; i < OUTPUT_FORM_COUNT; i++)
         for (int j = 0; j < FORM_COUNT; j++) {
             struct stat a, b;
-            if (!file_form_stat(output, true, i, &a) || !file_form_stat(input, false, j, &b)) continue;
+            if (!file_form_stat(output, true, i, &a) || !file_form_stat(input, false, j, &b))
+                continue;
             if (is_one_file(&a, &b)) return true;
         }
     return false;
@@ -75,14 +78,16 @@ int files_check_output(const char *output, const char *const *inputs, int count)
 
 int files_check_text_output(const char *output)
 {
-    static const char *const endings[] = {".gpx", ".kml", ".kmz", ".xlsx", ".ods", ".dbf",     ".gz",    ".zip", ".las",
-                                          ".laz", ".nc",  ".tif", ".ply",  ".vtk", ".feather", ".arrow", ".gdb"};
+    static const char *const endings[] = {".gpx", ".kml", ".kmz",     ".xlsx",  ".ods", ".dbf",
+                                          ".gz",  ".zip", ".las",     ".laz",   ".nc",  ".tif",
+                                          ".ply", ".vtk", ".feather", ".arrow", ".gdb"};
     if (files_is_standard(output)) return 0;
     size_t length = strlen(output);
     for (size_t i = 0; i < sizeof endings / sizeof *endings; i++) {
         size_t end = strlen(endings[i]);
         if (length <= end || strcasecmp(output + length - end, endings[i]) != 0) continue;
-        complain("%s: answers are written as text (CSV), or as .gpkg, .shp, .fgb or .geojson by GDAL, but not as %s",
+        complain("%s: answers are written as text (CSV), or as .gpkg, .shp, .fgb or .geojson by "
+                 "GDAL, but not as %s",
                  output, endings[i]);
         return END_USAGE;
     }
@@ -108,8 +113,9 @@ static bool stat_directory(const char *path, struct stat *s)
 static bool is_one_name(const char *one, const char *other)
 {
     struct stat a, b;
-    return strcmp(name_in_directory(one), name_in_directory(other)) == 0 && stat_directory(one, &a) &&
-           stat_directory(other, &b) && a.st_dev == b.st_dev && a.st_ino == b.st_ino;
+    return strcmp(name_in_directory(one), name_in_directory(other)) == 0 &&
+           stat_directory(one, &a) && stat_directory(other, &b) && a.st_dev == b.st_dev &&
+           a.st_ino == b.st_ino;
 }
 
 bool files_same_output(const char *one, const char *other)
@@ -121,7 +127,8 @@ bool files_same_output(const char *one, const char *other)
     if (files_is_standard(one) || files_is_standard(other)) return false;
     char *names[2] = {NULL, NULL};
     bool same = mw_output_resolve(one, &names[0], NULL) == MW_OK &&
-                mw_output_resolve(other, &names[1], NULL) == MW_OK && is_one_name(names[0], names[1]);
+                mw_output_resolve(other, &names[1], NULL) == MW_OK &&
+                is_one_name(names[0], names[1]);
     free(names[0]);
     free(names[1]);
     return same;
@@ -134,7 +141,8 @@ static bool file_holds_points(const char *path)
     if (mw_point_reader_open(path, NULL, &reader, NULL) != MW_OK) return false;
     size_t width = mw_point_reader_width(reader), count = 0;
     double *values = malloc(3 * width * sizeof *values);
-    bool points = values && mw_point_reader_read(reader, values, 3, &count, NULL) == MW_OK && count > 0;
+    bool points =
+        values && mw_point_reader_read(reader, values, 3, &count, NULL) == MW_OK && count > 0;
     free(values);
     mw_point_reader_close(reader);
     return points;
@@ -144,11 +152,14 @@ int files_read_mesh(const char *path, mw_mesh_file *file)
 {
     mw_error error;
     progress_phase("reading", path);
-    mw_status status = mw_read_mesh(path, &(mw_file_options){.progress = progress_of_call()}, file, &error);
+    mw_status status =
+        mw_read_mesh(path, &(mw_file_options){.progress = progress_of_call()}, file, &error);
     if (status == MW_OK) return 0;
     int end = fail_reading(&error);
     if (status == MW_ERROR_INPUT && !files_is_standard(path) && file_holds_points(path))
-        complain("%s: holds points, no triangles; 'meshwalk triangulate %s -o MESH' makes a mesh of them", path, path);
+        complain("%s: holds points, no triangles; 'meshwalk triangulate %s -o MESH' makes a mesh "
+                 "of them",
+                 path, path);
     return end;
 }
 

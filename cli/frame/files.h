@@ -14,8 +14,8 @@ bool files_is_standard(const char *path);
  * after a complaint. */
 int files_check_output(const char *output, const char *const *inputs, int count);
 
-/* Refuse an output of text whose name says that it is something else, as .gpkg and .gz do. Returns 0, or
- * END_USAGE after a complaint. */
+/* Refuse an output of text whose name says that it is something else, as .gpkg and .gz do. Returns
+ * 0, or END_USAGE after a complaint. */
 int files_check_text_output(const char *output);
 
 /* Are two outputs the same file, by links or by other names of its directory too? Neither needs to

@@ -152,7 +152,8 @@ static void help_other_options(text *t, const command *c)
     text_printf(&names, "'meshwalk %s --help all' tells about the others:", c->name);
     for (const option *const *table = c->options; *table; table++)
         for (const option *o = *table; o->name; o++)
-            if (!option_is_overruled(c, o) && !list_has(c->essential, o->name)) text_printf(&names, " --%s", o->name);
+            if (!option_is_overruled(c, o) && !list_has(c->essential, o->name))
+                text_printf(&names, " --%s", o->name);
     text_bytes(&names, "", 1);
     if (names.failed)
         t->failed = true;
@@ -170,8 +171,8 @@ static void help_all_options(text *t, const command *c)
 
 void help_of_command(text *t, const command *c, bool all)
 {
-    text_printf(t, "meshwalk %s - %s\n\nusage: meshwalk %s [options] %s\n\n", c->name, c->summary, c->name,
-                c->operands);
+    text_printf(t, "meshwalk %s - %s\n\nusage: meshwalk %s [options] %s\n\n", c->name, c->summary,
+                c->name, c->operands);
     help_wrap(t, c->description, 0);
     text_string(t, "\noptions:\n");
     if (all) {

@@ -7,7 +7,8 @@
 /* Exit codes. Scripts rely on them (meshwalk.1). */
 enum {
     END_DONE = 0,
-    END_UNANSWERED = 1, /* done, but points have no answer and --strict was given, or defects remain */
+    /* done, but points have no answer and --strict was given, or defects remain */
+    END_UNANSWERED = 1,
     END_USAGE = 2,
     END_INPUT = 3,    /* the input cannot be read, or is not valid */
     END_RESOURCE = 4, /* out of memory, beyond a limit, or the output cannot be written */

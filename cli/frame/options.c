@@ -15,12 +15,15 @@
 
 const option common_options[] = {
     {"output", 'o', OPTION_TEXT, offsetof(common_settings, output), "FILE",
-     "write to FILE, which appears under its name only when it is complete (default: -, standard output)", NULL},
+     "write to FILE, which appears under its name only when it is complete (default: -, standard "
+     "output)",
+     NULL},
     {"threads", 0, OPTION_COUNT, offsetof(common_settings, threads), "N",
      "use at most N threads (default: 0, all); results do not depend on it", NULL},
     {"seed", 0, OPTION_SEED, offsetof(common_settings, seed), "S",
      "seed of everything random (default: 0); where a point lies does not depend on it", NULL},
-    {"quiet", 'q', OPTION_FLAG, offsetof(common_settings, quiet), NULL, "no progress, no warnings, no remarks", NULL},
+    {"quiet", 'q', OPTION_FLAG, offsetof(common_settings, quiet), NULL,
+     "no progress, no warnings, no remarks", NULL},
     {"help", 'h', OPTION_FLAG, offsetof(common_settings, help), NULL,
      "print the options that most people need; --help all prints all of them", NULL},
     {0},
@@ -87,7 +90,8 @@ static bool is_written_nonzero(const char *value)
  * that is too large. */
 static bool parse_length(const char *value, double *number)
 {
-    return parse_number(value, 0, number) && *number >= 0 && (*number > 0 || !is_written_nonzero(value));
+    return parse_number(value, 0, number) && *number >= 0 &&
+           (*number > 0 || !is_written_nonzero(value));
 }
 
 /* Parse `count` numbers with commas between them. */
@@ -167,24 +171,29 @@ static int option_take(const option *o, const char *value, void *settings)
         return 0;
     case OPTION_XYZ:
         where.count = 3;
-        if (!parse_numbers(value, where.at, where.count)) return option_bad_value(o, value, "a point X,Y,Z");
+        if (!parse_numbers(value, where.at, where.count))
+            return option_bad_value(o, value, "a point X,Y,Z");
         memcpy(target, &where, sizeof where);
         return 0;
     case OPTION_XY_OR_XYZ:
-        if (!parse_coordinates(value, &where)) return option_bad_value(o, value, "coordinates X,Y or X,Y,Z");
+        if (!parse_coordinates(value, &where))
+            return option_bad_value(o, value, "coordinates X,Y or X,Y,Z");
         memcpy(target, &where, sizeof where);
         return 0;
     case OPTION_COUNT:
-        if (!parse_natural(value, UINT32_MAX, &natural)) return option_bad_value(o, value, "a whole number below 2^32");
+        if (!parse_natural(value, UINT32_MAX, &natural))
+            return option_bad_value(o, value, "a whole number below 2^32");
         memcpy(target, &(uint32_t){(uint32_t)natural}, sizeof(uint32_t));
         return 0;
     case OPTION_SAMPLE:
         if (!parse_sample(value, &sample))
-            return option_bad_value(o, value, "a whole number from 1 to 2^32 - 2, cube-root or fourth-root");
+            return option_bad_value(o, value,
+                                    "a whole number from 1 to 2^32 - 2, cube-root or fourth-root");
         memcpy(target, &sample, sizeof sample);
         return 0;
     case OPTION_SEED:
-        if (!parse_natural(value, UINT64_MAX, &natural)) return option_bad_value(o, value, "a whole number below 2^64");
+        if (!parse_natural(value, UINT64_MAX, &natural))
+            return option_bad_value(o, value, "a whole number below 2^64");
         memcpy(target, &natural, sizeof natural);
         return 0;
     case OPTION_CHOICE:
@@ -200,7 +209,8 @@ int options_limit(const char *name, uint32_t value, uint32_t most, const char *w
     char digits[16];
     if (value <= most) return 0;
     snprintf(digits, sizeof digits, "%" PRIu32, most);
-    complain("option '--%s' wants at most %s, not '%" PRIu32 "'", name, written ? written : digits, value);
+    complain("option '--%s' wants at most %s, not '%" PRIu32 "'", name, written ? written : digits,
+             value);
     return END_USAGE;
 }
 
@@ -260,12 +270,13 @@ static int parse_letters(const command *c, char ***word, void *settings)
 
 int options_fail_operands(const command *c, int found)
 {
-    complain("%s: wants %s, not %d argument%s; usage: meshwalk %s [options] %s", c->name, c->operands, found,
-             found == 1 ? "" : "s", c->name, c->operands);
+    complain("%s: wants %s, not %d argument%s; usage: meshwalk %s [options] %s", c->name,
+             c->operands, found, found == 1 ? "" : "s", c->name, c->operands);
     return END_USAGE;
 }
 
-int options_parse(const command *c, int count, char **arguments, void *settings, const char *operands[MAX_OPERANDS])
+int options_parse(const command *c, int count, char **arguments, void *settings,
+                  const char *operands[MAX_OPERANDS])
 {
     int found = 0, end = 0;
     bool options = true;

@@ -20,9 +20,10 @@ typedef enum option_kind {
     OPTION_XYZ,          /* coordinates: X,Y,Z, finite                                       */
     OPTION_XY_OR_XYZ,    /* coordinates: X,Y or X,Y,Z, finite                                */
     OPTION_COUNT,        /* uint32_t                                                         */
-    OPTION_SAMPLE,       /* uint32_t: at least 1, or a rule by name: MW_SAMPLE_CUBE_ROOT_OF_VERTICES, ... */
-    OPTION_SEED,         /* uint64_t                                                         */
-    OPTION_CHOICE,       /* int: the number of a name among the option's choices             */
+    /* uint32_t: at least 1, or a rule by name: MW_SAMPLE_CUBE_ROOT_OF_VERTICES, ... */
+    OPTION_SAMPLE,
+    OPTION_SEED,   /* uint64_t                                                         */
+    OPTION_CHOICE, /* int: the number of a name among the option's choices             */
 } option_kind;
 
 typedef struct coordinates {
@@ -59,7 +60,7 @@ typedef struct command {
     const char *summary;          /* one line */
     const char *description;      /* a paragraph or more */
     const option *const *options; /* tables; NULL ends them. The first option of a name counts */
-    const char *essential;        /* names of the options that --help shows, in this order, separated by
+    const char *essential; /* names of the options that --help shows, in this order, separated by
                                    * blanks; --help all shows all of them */
     size_t settings_size;
     int (*run)(const void *settings, const char *const *operands); /* returns the exit code */
@@ -77,7 +78,8 @@ extern const option common_options[];
 
 /* Parse the arguments after the command's name. Returns 0, or an exit code after a complaint. If
  * the settings then have `help` set, the operands have not been checked. */
-int options_parse(const command *c, int count, char **arguments, void *settings, const char *operands[MAX_OPERANDS]);
+int options_parse(const command *c, int count, char **arguments, void *settings,
+                  const char *operands[MAX_OPERANDS]);
 
 /* Complain that a command got `found` operands, which is not what it wants. Returns END_USAGE. */
 int options_fail_operands(const command *c, int found);

@@ -20,10 +20,12 @@ static struct {
     cnd_t wake;
     const char *doing, *what, *unit;
     uint64_t done;
-    double rate;                                    /* done a second, when they were counted */
-    char stage[64];                                 /* of a call of the library; "": none */
-    double part[2];                                 /* of the phase, that the calls of the library are */
-    double fraction;                                /* of the phase or the call that is done; -1: not known */
+    double rate;    /* done a second, when they were counted */
+    char stage[64]; /* of a call of the library; "": none */
+    /* of the phase, that the calls of the library are */
+    double part[2];
+    /* of the phase or the call that is done; -1: not known */
+    double fraction;
     struct timespec begin, phase_begin, part_begin; /* part: of what the fraction is of */
 } watch;
 
@@ -54,14 +56,16 @@ static void progress_paint(void)
 {
     if (!watch.doing) return;
     fprintf(stderr, "\r\033[K%s", watch.doing);
-    if (watch.what) fprintf(stderr, " %s", strcmp(watch.what, "-") == 0 ? "standard input" : watch.what);
+    if (watch.what)
+        fprintf(stderr, " %s", strcmp(watch.what, "-") == 0 ? "standard input" : watch.what);
     double part = seconds_since(&watch.part_begin);
     if (*watch.stage) fprintf(stderr, ": %s", watch.stage);
     if (watch.done) fprintf(stderr, ": %" PRIu64 " %s", watch.done, watch.unit);
     if (watch.done) fprintf(stderr, ", %.0f a second", watch.rate);
     if (watch.fraction >= 0) fprintf(stderr, ", %.0f %%", 100 * watch.fraction);
     fprintf(stderr, ", %.0f s", seconds_since(&watch.begin));
-    if (watch.fraction > 0.02) fprintf(stderr, ", about %.0f s left", part / watch.fraction * (1 - watch.fraction));
+    if (watch.fraction > 0.02)
+        fprintf(stderr, ", about %.0f s left", part / watch.fraction * (1 - watch.fraction));
     fflush(stderr);
     watch.shown = true;
 }
@@ -70,7 +74,8 @@ static int progress_run(void *unused)
 {
     (void)unused;
     mtx_lock(&watch.lock);
-    for (bool more = progress_wait(1, 0); more; more = progress_wait(0, REPAINT_NANOSECONDS)) progress_paint();
+    for (bool more = progress_wait(1, 0); more; more = progress_wait(0, REPAINT_NANOSECONDS))
+        progress_paint();
     mtx_unlock(&watch.lock);
     return 0;
 }
@@ -143,7 +148,8 @@ static int progress_report(void *unused, const char *stage, double fraction)
     (void)unused;
     if (watch.running) {
         mtx_lock(&watch.lock);
-        double now = watch.part[0] < 0 ? -1 : watch.part[0] + (watch.part[1] - watch.part[0]) * fraction;
+        double now =
+            watch.part[0] < 0 ? -1 : watch.part[0] + (watch.part[1] - watch.part[0]) * fraction;
         if (now < watch.fraction) timespec_get(&watch.part_begin, TIME_UTC);
         watch.fraction = now;
         snprintf(watch.stage, sizeof watch.stage, "%s", watch.done ? "" : stage);

@@ -33,7 +33,8 @@ static void directory_remove(const char *path)
     char name[4096];
     if (!directory) return;
     for (struct dirent *entry; (entry = readdir(directory));)
-        if (snprintf(name, sizeof name, "%s/%s", path, entry->d_name) < (int)sizeof name) unlink(name);
+        if (snprintf(name, sizeof name, "%s/%s", path, entry->d_name) < (int)sizeof name)
+            unlink(name);
     closedir(directory);
     rmdir(path);
 }
@@ -80,7 +81,8 @@ static void temporaries_add(const char *temporary)
     size_t i = 0;
     while (i < MAX_TEMPORARIES && *temporaries[i]) i++;
     if (!temporary || i == MAX_TEMPORARIES) return;
-    if (snprintf(temporaries[i], sizeof temporaries[i], "%s", temporary) >= (int)sizeof temporaries[i])
+    if (snprintf(temporaries[i], sizeof temporaries[i], "%s", temporary) >=
+        (int)sizeof temporaries[i])
         *temporaries[i] = 0;
 }
 

@@ -33,8 +33,8 @@ static bool crs_text_is_safe(const char *crs)
     static const char *const names[] = {"WGS84", "WGS72", "NAD83", "NAD27"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (strcasecmp(crs, names[i]) == 0) return true;
-    return crs_text_is_wkt(crs) || crs_text_is_code(crs) || strncasecmp(crs, "urn:ogc:def:crs:", 16) == 0 ||
-           *crs == '+' || *crs == '{';
+    return crs_text_is_wkt(crs) || crs_text_is_code(crs) ||
+           strncasecmp(crs, "urn:ogc:def:crs:", 16) == 0 || *crs == '+' || *crs == '{';
 }
 
 /* The name in WKT: what stands in its first quotes. */
@@ -52,7 +52,8 @@ static const char *crs_text_name(const char *crs, char name[CRS_NAME])
 int crs_check_option(const char *option, const char *crs)
 {
     if (!crs || crs_known(crs)) return 0;
-    complain("option '--%s' wants a coordinate system, as EPSG:2056 or WKT, not '%.60s'", option, crs);
+    complain("option '--%s' wants a coordinate system, as EPSG:2056 or WKT, not '%.60s'", option,
+             crs);
     return END_USAGE;
 }
 
@@ -93,7 +94,8 @@ const char *crs_name(const char *crs, char name[CRS_NAME])
     const gdal_functions *gdal = gdal_library_load();
     OGRSpatialReferenceH system = gdal ? crs_parse(gdal, crs, false) : NULL;
     if (!system) return crs_text_name(crs, name);
-    const char *authority = gdal->OSRGetAuthorityName(system, NULL), *code = gdal->OSRGetAuthorityCode(system, NULL);
+    const char *authority = gdal->OSRGetAuthorityName(system, NULL),
+               *code = gdal->OSRGetAuthorityCode(system, NULL);
     const char *words = gdal->OSRGetName(system);
     if (authority && code)
         snprintf(name, CRS_NAME, "%.20s:%.20s (%.80s)", authority, code, words ? words : "");
@@ -109,7 +111,8 @@ bool crs_same(const char *a, const char *b)
                                    "CRITERION=EQUIVALENT_EXCEPT_AXIS_ORDER_GEOGCRS", NULL};
     if (strcasecmp(a, b) == 0) return true;
     const gdal_functions *gdal = gdal_library_load();
-    OGRSpatialReferenceH one = gdal ? crs_parse(gdal, a, false) : NULL, other = gdal ? crs_parse(gdal, b, false) : NULL;
+    OGRSpatialReferenceH one = gdal ? crs_parse(gdal, a, false) : NULL,
+                         other = gdal ? crs_parse(gdal, b, false) : NULL;
     bool same = one && other && gdal->OSRIsSameEx(one, other, options);
     crs_release(gdal, one);
     crs_release(gdal, other);
@@ -145,16 +148,19 @@ char *crs_wkt(const char *crs)
 
 /* --- layers ----------------------------------------------------------------------------------- */
 
-/* GDAL takes GeoJSON that names no system for longitudes and latitudes, also where it has numbers that
- * cannot be such. */
+/* GDAL takes GeoJSON that names no system for longitudes and latitudes, also where it has numbers
+ * that cannot be such. */
 static bool layer_belies_lonlat(const gdal_functions *gdal, GDALDatasetH set, OGRLayerH layer)
 {
     OGREnvelope box;
     GDALDriverH driver = gdal->GDALGetDatasetDriver(set);
     const char *format = driver ? gdal->GDALGetDriverShortName(driver) : "";
-    if (strncmp(format, "GeoJSON", 7) != 0 || !gdal->OSRIsGeographic(gdal->OGR_L_GetSpatialRef(layer))) return false;
+    if (strncmp(format, "GeoJSON", 7) != 0 ||
+        !gdal->OSRIsGeographic(gdal->OGR_L_GetSpatialRef(layer)))
+        return false;
     /* GeoJSONSeq would have to be read as a whole. */
-    if (gdal->OGR_L_GetExtent(layer, &box, strcmp(format, "GeoJSON") == 0) != OGRERR_NONE) return false;
+    if (gdal->OGR_L_GetExtent(layer, &box, strcmp(format, "GeoJSON") == 0) != OGRERR_NONE)
+        return false;
     return box.MinX < -360 || box.MaxX > 360 || box.MinY < -90 || box.MaxY > 90;
 }
 

@@ -13,12 +13,12 @@
 /* Longitudes and latitudes where nothing else is said. */
 #define CRS_LONLAT "EPSG:4326"
 
-/* Does the text name a system? Texts of files are not trusted: names of files and addresses are none.
- * Without GDAL only the form of the text counts. */
+/* Does the text name a system? Texts of files are not trusted: names of files and addresses are
+ * none. Without GDAL only the form of the text counts. */
 bool crs_known(const char *crs);
 
-/* Refuse a text that an option gives, if it names no system. NULL is allowed. Returns 0, or END_USAGE
- * after a complaint. */
+/* Refuse a text that an option gives, if it names no system. NULL is allowed. Returns 0, or
+ * END_USAGE after a complaint. */
 int crs_check_option(const char *option, const char *crs);
 
 /* A short name, for messages: "EPSG:2056 (CH1903+ / LV95)". */

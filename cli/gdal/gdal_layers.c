@@ -13,7 +13,8 @@ static void layer_report_fields(const gdal_functions *gdal, OGRLayerH layer, rep
     size_t count = (size_t)gdal->OGR_FD_GetFieldCount(definition);
     char **names = calloc(count + 1, sizeof *names);
     for (size_t i = 0; names && i < count; i++)
-        names[i] = (char *)(uintptr_t)gdal->OGR_Fld_GetNameRef(gdal->OGR_FD_GetFieldDefn(definition, (int)i));
+        names[i] = (char *)(uintptr_t)gdal->OGR_Fld_GetNameRef(
+            gdal->OGR_FD_GetFieldDefn(definition, (int)i));
     if (names)
         report_strings(r, "fields", names, count);
     else
@@ -36,8 +37,8 @@ static void layer_report(const gdal_functions *gdal, GDALDatasetH set, OGRLayerH
     free(crs);
 }
 
-static int layers_report_set(const gdal_functions *gdal, GDALDatasetH set, const char *path, const char *wanted,
-                             report *r)
+static int layers_report_set(const gdal_functions *gdal, GDALDatasetH set, const char *path,
+                             const char *wanted, report *r)
 {
     int count = gdal->GDALDatasetGetLayerCount(set), found = -1;
     char **names = calloc((size_t)count + 1, sizeof *names);
@@ -63,8 +64,8 @@ int gdal_layers_report(const char *path, const char *wanted, report *r)
         return END_INPUT;
     }
     gdal->CPLErrorReset();
-    GDALDatasetH set =
-        gdal->GDALOpenEx(path, GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, NULL, NULL, NULL);
+    GDALDatasetH set = gdal->GDALOpenEx(
+        path, GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, NULL, NULL, NULL);
     if (!set) {
         const char *message = gdal->CPLGetLastErrorMsg();
         complain("%s: GDAL says: %.1000s", path, *message ? message : "this is no vector file");

@@ -8,8 +8,8 @@ static bool gdal_library_find(gdal_functions *gdal)
 {
     void *library = dlopen(MW_GDAL, RTLD_NOW | RTLD_LOCAL);
     if (!library) return false;
-#define GDAL_FIND(name)                                                                                                \
-    *(void **)&gdal->name = dlsym(library, #name);                                                                     \
+#define GDAL_FIND(name)                                                                            \
+    *(void **)&gdal->name = dlsym(library, #name);                                                 \
     if (!gdal->name) return false;
     GDAL_FUNCTIONS(GDAL_FIND)
 #undef GDAL_FIND

@@ -15,9 +15,10 @@
 
 static bool path_has_vector_ending(const char *path)
 {
-    static const char *const endings[] = {".gpkg", ".shp", ".shz",     ".geojson", ".geojsonl", ".geojsons", ".json",
-                                          ".fgb",  ".gpx", ".kml",     ".kmz",     ".gml",      ".gdb",      ".sqlite",
-                                          ".mif",  ".dxf", ".parquet", ".feather", ".arrow"};
+    static const char *const endings[] = {
+        ".gpkg", ".shp", ".shz",     ".geojson", ".geojsonl", ".geojsons", ".json",
+        ".fgb",  ".gpx", ".kml",     ".kmz",     ".gml",      ".gdb",      ".sqlite",
+        ".mif",  ".dxf", ".parquet", ".feather", ".arrow"};
     size_t length = strlen(path);
     for (size_t i = 0; i < sizeof endings / sizeof *endings; i++) {
         size_t end = strlen(endings[i]);
@@ -30,12 +31,13 @@ static bool head_is_vector(const unsigned char *head, size_t size)
 {
     static const char shape[] = {0, 0, 0x27, 0x0a};
     if (size >= 15 && memcmp(head, "SQLite format 3", 15) == 0) return true;
-    if (size >= 4 && (memcmp(head, "fgb\3", 4) == 0 || memcmp(head, shape, 4) == 0 || memcmp(head, "PAR1", 4) == 0))
+    if (size >= 4 && (memcmp(head, "fgb\3", 4) == 0 || memcmp(head, shape, 4) == 0 ||
+                      memcmp(head, "PAR1", 4) == 0))
         return true;
     if (size >= 3 && memcmp(head, "\xef\xbb\xbf", 3) == 0) head += 3, size -= 3;
     while (size > 0 && strchr(" \t\r\n", *head)) head++, size--;
-    return size > 0 &&
-           (*head == '{' || *head == '<' || (size >= 6 && strncasecmp((const char *)head, "!table", 6) == 0));
+    return size > 0 && (*head == '{' || *head == '<' ||
+                        (size >= 6 && strncasecmp((const char *)head, "!table", 6) == 0));
 }
 
 bool gdal_points_known(const char *path)
@@ -79,14 +81,15 @@ static int points_fail(const gdal_points *p, const char *what)
 /* GDAL knows no format for the file. Some need drivers that are often missing. */
 static int points_fail_format(const gdal_points *p)
 {
-    static const char *const wanted[][2] = {{".parquet", "Parquet"}, {".feather", "Arrow"}, {".arrow", "Arrow"}};
+    static const char *const wanted[][2] = {
+        {".parquet", "Parquet"}, {".feather", "Arrow"}, {".arrow", "Arrow"}};
     size_t length = strlen(p->path);
     for (size_t i = 0; i < sizeof wanted / sizeof *wanted; i++) {
         size_t end = strlen(wanted[i][0]);
         if (length <= end || strcasecmp(p->path + length - end, wanted[i][0]) != 0) continue;
         if (p->gdal->GDALGetDriverByName(wanted[i][1])) break;
-        complain("%s: this GDAL has no driver for %s; 'meshwalk --version' tells what was found", p->path,
-                 wanted[i][1]);
+        complain("%s: this GDAL has no driver for %s; 'meshwalk --version' tells what was found",
+                 p->path, wanted[i][1]);
         return END_INPUT;
     }
     return points_fail(p, "this is no vector file");
@@ -95,7 +98,8 @@ static int points_fail_format(const gdal_points *p)
 static bool layer_may_have_points(const gdal_points *p, OGRLayerH layer)
 {
     OGRwkbGeometryType type = p->gdal->OGR_GT_Flatten(p->gdal->OGR_L_GetGeomType(layer));
-    return type == wkbPoint || type == wkbMultiPoint || type == wkbUnknown || type == wkbGeometryCollection;
+    return type == wkbPoint || type == wkbMultiPoint || type == wkbUnknown ||
+           type == wkbGeometryCollection;
 }
 
 /* Does the layer have features? A file of GPX has a layer for everything that it could hold. */
@@ -113,11 +117,13 @@ static int points_fail_layer(const gdal_points *p, const char *wanted)
     text names = {0};
     int count = p->gdal->GDALDatasetGetLayerCount(p->set);
     for (int i = 0; i < count; i++)
-        text_printf(&names, "%s%s", i ? ", " : "", p->gdal->OGR_L_GetName(p->gdal->GDALDatasetGetLayer(p->set, i)));
+        text_printf(&names, "%s%s", i ? ", " : "",
+                    p->gdal->OGR_L_GetName(p->gdal->GDALDatasetGetLayer(p->set, i)));
     int end = names.failed ? fail_memory() : wanted ? END_INPUT : END_USAGE;
     int size = names.size < 1000 ? (int)names.size : 1000;
     if (!names.failed && wanted)
-        complain("%s: has no layer '%s', but: %.*s", p->path, wanted, size, names.bytes ? names.bytes : "");
+        complain("%s: has no layer '%s', but: %.*s", p->path, wanted, size,
+                 names.bytes ? names.bytes : "");
     else if (!names.failed)
         complain("%s: which layer has the points? --layer may be one of: %.*s", p->path, size,
                  names.bytes ? names.bytes : "");
@@ -131,8 +137,9 @@ static int points_find_layer(gdal_points *p, const char *wanted)
     int count = p->gdal->GDALDatasetGetLayerCount(p->set);
     for (int i = 0; i < count; i++) {
         OGRLayerH layer = p->gdal->GDALDatasetGetLayer(p->set, i);
-        bool fits = wanted ? strcmp(p->gdal->OGR_L_GetName(layer), wanted) == 0
-                           : layer_may_have_points(p, layer) && (count == 1 || !layer_is_empty(p, layer));
+        bool fits =
+            wanted ? strcmp(p->gdal->OGR_L_GetName(layer), wanted) == 0
+                   : layer_may_have_points(p, layer) && (count == 1 || !layer_is_empty(p, layer));
         if (!fits) continue;
         p->layer = layer;
         candidates++;
@@ -209,14 +216,16 @@ int gdal_points_open(gdal_points **points, const char *path, const char *layer, 
         return END_INPUT;
     }
     p->gdal->CPLErrorReset();
-    p->set = p->gdal->GDALOpenEx(path, GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, NULL, NULL, NULL);
+    p->set = p->gdal->GDALOpenEx(path, GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
+                                 NULL, NULL, NULL);
     if (!p->set) return points_fail_format(p);
     int end = points_find_layer(p, layer);
     if (end == 0) p->crs = crs_of_layer(p->set, p->layer);
     if (end == 0) end = points_name_columns(p);
     if (end || !where) return end;
     if (p->gdal->OGR_L_SetAttributeFilter(p->layer, where) == OGRERR_NONE) return 0;
-    complain("option '--where' is no condition on the layer: GDAL says: %.1000s", p->gdal->CPLGetLastErrorMsg());
+    complain("option '--where' is no condition on the layer: GDAL says: %.1000s",
+             p->gdal->CPLGetLastErrorMsg());
     return END_USAGE;
 }
 
@@ -260,14 +269,15 @@ static int feature_point(const gdal_points *p, OGRFeatureH feature, double at[3]
     const gdal_functions *gdal = p->gdal;
     OGRGeometryH geometry = gdal->OGR_F_GetGeometryRef(feature);
     at[0] = at[1] = at[2] = NAN;
-    if (!geometry) return gdal->CPLGetLastErrorType() >= CE_Failure ? points_fail(p, "a damaged geometry") : 0;
+    if (!geometry)
+        return gdal->CPLGetLastErrorType() >= CE_Failure ? points_fail(p, "a damaged geometry") : 0;
     OGRGeometryH point = geometry;
     if (gdal->OGR_GT_Flatten(gdal->OGR_G_GetGeometryType(geometry)) == wkbMultiPoint &&
         gdal->OGR_G_GetGeometryCount(geometry) == 1)
         point = gdal->OGR_G_GetGeometryRef(geometry, 0);
     if (gdal->OGR_GT_Flatten(gdal->OGR_G_GetGeometryType(point)) != wkbPoint) {
-        complain("%s: feature %" PRId64 " is a %s, not a point", p->path, (int64_t)gdal->OGR_F_GetFID(feature),
-                 gdal->OGR_G_GetGeometryName(geometry));
+        complain("%s: feature %" PRId64 " is a %s, not a point", p->path,
+                 (int64_t)gdal->OGR_F_GetFID(feature), gdal->OGR_G_GetGeometryName(geometry));
         return END_INPUT;
     }
     if (gdal->OGR_G_GetPointCount(point) == 0) return 0;
@@ -316,7 +326,9 @@ int gdal_points_read(gdal_points *p, double *values, size_t width, size_t capaci
         double at[3];
         p->gdal->CPLErrorReset();
         OGRFeatureH feature = p->gdal->OGR_L_GetNextFeature(p->layer);
-        if (!feature) return p->gdal->CPLGetLastErrorType() >= CE_Failure ? points_fail(p, "a damaged file") : 0;
+        if (!feature)
+            return p->gdal->CPLGetLastErrorType() >= CE_Failure ? points_fail(p, "a damaged file")
+                                                                : 0;
         end = feature_point(p, feature, at);
         if (end == 0 && !points_keep_row(p, feature, at)) end = fail_memory();
         p->gdal->OGR_F_Destroy(feature);
@@ -366,7 +378,8 @@ const char *gdal_points_crs(const gdal_points *points)
     return NULL;
 }
 
-int gdal_points_read(gdal_points *points, double *values, size_t width, size_t capacity, size_t *count)
+int gdal_points_read(gdal_points *points, double *values, size_t width, size_t capacity,
+                     size_t *count)
 {
     (void)points;
     (void)values;

@@ -30,7 +30,8 @@ static const vector_format *format_by_path(const char *path)
     size_t length = path ? strlen(path) : 0;
     for (size_t i = 0; i < sizeof formats / sizeof *formats; i++) {
         size_t end = strlen(formats[i].ending);
-        if (length > end && strcasecmp(path + length - end, formats[i].ending) == 0) return &formats[i];
+        if (length > end && strcasecmp(path + length - end, formats[i].ending) == 0)
+            return &formats[i];
     }
     return NULL;
 }
@@ -79,7 +80,8 @@ struct gdal_rows {
 /* --- rows ------------------------------------------------------------------------------------- */
 
 /* Take a cell off the row; *more tells whether the row goes on. Returns what follows. */
-static const char *cell_take(const char *p, const char *end, char separator, row_cell *cell, bool *more)
+static const char *cell_take(const char *p, const char *end, char separator, row_cell *cell,
+                             bool *more)
 {
     while (p < end && *p == ' ') p++;
     const char *begin = p;
@@ -132,7 +134,9 @@ static bool cell_is_missing(const row_cell *cell)
 {
     static const char *const words[] = {"", "-", "na", "n/a", "nan", "null"};
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
-        if (strlen(words[i]) == cell->length && strncasecmp(words[i], cell->text, cell->length) == 0) return true;
+        if (strlen(words[i]) == cell->length &&
+            strncasecmp(words[i], cell->text, cell->length) == 0)
+            return true;
     return false;
 }
 
@@ -200,7 +204,8 @@ static int rows_read_header(gdal_rows *r)
     const char *p = r->form.header, *end = p + r->form.header_size, *answers = r->form.answers;
     bool more = true;
     row_cell cell;
-    for (const char *q = p; more; r->count++) q = cell_take(q, end, r->form.separator, &cell, &more);
+    for (const char *q = p; more; r->count++)
+        q = cell_take(q, end, r->form.separator, &cell, &more);
     r->columns = calloc(r->count, sizeof *r->columns);
     r->cells = calloc(r->count, sizeof *r->cells);
     if (!r->columns || !r->cells) return fail_memory();
@@ -211,12 +216,14 @@ static int rows_read_header(gdal_rows *r)
         if (!r->columns[i].name) return fail_memory();
     }
     for (size_t k = 0, first = r->count - strlen(answers); answers[k]; k++)
-        r->columns[first + k].kind = answers[k] == 'i' ? KIND_INTEGER : answers[k] == 'r' ? KIND_REAL : KIND_TEXT;
+        r->columns[first + k].kind = answers[k] == 'i'   ? KIND_INTEGER
+                                     : answers[k] == 'r' ? KIND_REAL
+                                                         : KIND_TEXT;
     return 0;
 }
 
-/* GDAL writes into a directory beside the file, so that a file of that name stays until the new one is
- * complete: some formats have several files. */
+/* GDAL writes into a directory beside the file, so that a file of that name stays until the new
+ * one is complete: some formats have several files. */
 static int rows_make_directory(gdal_rows *r)
 {
     const char *slash = strrchr(r->path, '/');
@@ -258,11 +265,14 @@ static bool rows_have_column(const gdal_rows *r, const char *name)
 
 static int rows_create_field(gdal_rows *r, row_column *column)
 {
-    static const OGRFieldType types[] = {
-        [KIND_EMPTY] = OFTString, [KIND_INTEGER] = OFTInteger64, [KIND_REAL] = OFTReal, [KIND_TEXT] = OFTString};
+    static const OGRFieldType types[] = {[KIND_EMPTY] = OFTString,
+                                         [KIND_INTEGER] = OFTInteger64,
+                                         [KIND_REAL] = OFTReal,
+                                         [KIND_TEXT] = OFTString};
     const gdal_functions *gdal = r->gdal;
     OGRFieldDefnH definition = gdal->OGR_Fld_Create(column->name, types[column->kind]);
-    if (strcmp(format_by_path(r->path)->driver, "ESRI Shapefile") == 0 && types[column->kind] == OFTString)
+    if (strcmp(format_by_path(r->path)->driver, "ESRI Shapefile") == 0 &&
+        types[column->kind] == OFTString)
         gdal->OGR_Fld_SetWidth(definition, 254);
     gdal->CPLErrorReset();
     OGRErr failure = gdal->OGR_L_CreateField(r->layer, definition, TRUE);
@@ -272,7 +282,8 @@ static int rows_create_field(gdal_rows *r, row_column *column)
     column->field = gdal->OGR_FD_GetFieldCount(layer) - 1;
     const char *name = gdal->OGR_Fld_GetNameRef(gdal->OGR_FD_GetFieldDefn(layer, column->field));
     if (strcmp(name, column->name) != 0 && !r->form.quiet)
-        complain("%s: remark: the column '%.60s' is called '%s' in this format", r->path, column->name, name);
+        complain("%s: remark: the column '%.60s' is called '%s' in this format", r->path,
+                 column->name, name);
     return 0;
 }
 
@@ -293,10 +304,11 @@ static int rows_create_layer(gdal_rows *r)
     gdal->CPLSetConfigOption("OGR_SQLITE_SYNCHRONOUS", "OFF"); /* it has no name yet */
     OGRSpatialReferenceH crs = r->form.crs ? crs_parse(gdal, r->form.crs, true) : NULL;
     gdal->CPLErrorReset();
-    r->set = gdal->GDALCreate(gdal->GDALGetDriverByName(driver), r->temporary, 0, 0, 0, GDT_Unknown, NULL);
+    r->set = gdal->GDALCreate(gdal->GDALGetDriverByName(driver), r->temporary, 0, 0, 0, GDT_Unknown,
+                              NULL);
     if (r->set)
-        r->layer =
-            gdal->GDALDatasetCreateLayer(r->set, name, crs, r->form.dimensions == 3 ? wkbPoint25D : wkbPoint, options);
+        r->layer = gdal->GDALDatasetCreateLayer(
+            r->set, name, crs, r->form.dimensions == 3 ? wkbPoint25D : wkbPoint, options);
     if (crs) gdal->OSRRelease(crs);
     if (!r->layer) return rows_fail(r, "it cannot be written");
     int end = 0;
@@ -312,13 +324,16 @@ static int rows_create_layer(gdal_rows *r)
 static int rows_fail_cell(gdal_rows *r, const row_column *column, const row_cell *cell)
 {
     const char *value = cell_text(r, cell);
-    complain("%s: row %" PRIu64 ": the column '%.60s' had numbers only, but here '%.60s': a field of a vector file has "
-             "one kind of value; a table (CSV) can hold it",
-             r->path, r->written + 1, column->name, value ? value : "");
+    complain(
+        "%s: row %" PRIu64
+        ": the column '%.60s' had numbers only, but here '%.60s': a field of a vector file has "
+        "one kind of value; a table (CSV) can hold it",
+        r->path, r->written + 1, column->name, value ? value : "");
     return END_INPUT;
 }
 
-static int feature_set_field(gdal_rows *r, OGRFeatureH feature, const row_column *column, const row_cell *cell)
+static int feature_set_field(gdal_rows *r, OGRFeatureH feature, const row_column *column,
+                             const row_cell *cell)
 {
     const gdal_functions *gdal = r->gdal;
     column_kind kind = cell_kind(r, cell);
@@ -345,10 +360,11 @@ static int feature_set_field(gdal_rows *r, OGRFeatureH feature, const row_column
 /* GeoJSON means longitudes and latitudes, unless it names another system. */
 static void rows_warn_of_lonlat(gdal_rows *r, const double *p)
 {
-    if (r->form.crs || r->warned || r->form.quiet || (fabs(p[0]) <= 360 && fabs(p[1]) <= 90)) return;
+    if (r->form.crs || r->warned || r->form.quiet || (fabs(p[0]) <= 360 && fabs(p[1]) <= 90))
+        return;
     if (strncmp(format_by_path(r->path)->driver, "GeoJSON", 7) != 0) return;
-    complain("%s: warning: GeoJSON means longitudes and latitudes, and row %" PRIu64 " has others", r->path,
-             r->written + 1);
+    complain("%s: warning: GeoJSON means longitudes and latitudes, and row %" PRIu64 " has others",
+             r->path, r->written + 1);
     r->warned = true;
 }
 
@@ -359,12 +375,14 @@ static int feature_set_point(gdal_rows *r, OGRFeatureH feature, const double *p)
     bool finite = true;
     for (size_t k = 0; k < r->form.dimensions; k++) finite = finite && isfinite(p[k]);
     if (!finite && r->points_needed) {
-        complain("%s: row %" PRIu64 " has no point, which FlatGeobuf cannot hold; .gpkg can", r->path, r->written + 1);
+        complain("%s: row %" PRIu64 " has no point, which FlatGeobuf cannot hold; .gpkg can",
+                 r->path, r->written + 1);
         return END_INPUT;
     }
     if (!finite) return 0;
     rows_warn_of_lonlat(r, p);
-    OGRGeometryH point = gdal->OGR_G_CreateGeometry(r->form.dimensions == 3 ? wkbPoint25D : wkbPoint);
+    OGRGeometryH point =
+        gdal->OGR_G_CreateGeometry(r->form.dimensions == 3 ? wkbPoint25D : wkbPoint);
     if (r->form.dimensions == 3)
         gdal->OGR_G_SetPoint(point, 0, p[0], p[1], p[2]);
     else
@@ -383,7 +401,8 @@ static int rows_write_feature(gdal_rows *r, const double *point)
     if (end == 0) end = feature_set_point(r, feature, point);
     if (end == 0) {
         gdal->CPLErrorReset();
-        if (gdal->OGR_L_CreateFeature(r->layer, feature) != OGRERR_NONE) end = rows_fail(r, "a row cannot be written");
+        if (gdal->OGR_L_CreateFeature(r->layer, feature) != OGRERR_NONE)
+            end = rows_fail(r, "a row cannot be written");
     }
     if (end == 0 && !r->warned && !r->form.quiet && gdal->CPLGetLastErrorType() >= CE_Warning) {
         complain("%s: warning: row %" PRIu64 ": GDAL says: %.1000s", r->path, r->written + 1,
@@ -403,7 +422,8 @@ static void rows_commit_transaction(gdal_rows *r)
     r->committed = r->written;
 }
 
-int gdal_rows_write(gdal_rows *r, const char *bytes, size_t size, const double *points, size_t stride)
+int gdal_rows_write(gdal_rows *r, const char *bytes, size_t size, const double *points,
+                    size_t stride)
 {
     const char *end = bytes + size;
     int code = r->layer ? 0 : rows_create_layer(r);
@@ -425,7 +445,8 @@ static void rows_remove_sidecars(const gdal_rows *r)
     for (size_t i = 0; i < sizeof endings / sizeof *endings; i++) {
         char name[4096];
         int stem = (int)strlen(r->path) - 3;
-        if (snprintf(name, sizeof name, "%.*s%s", stem, r->path, endings[i]) < (int)sizeof name) unlink(name);
+        if (snprintf(name, sizeof name, "%.*s%s", stem, r->path, endings[i]) < (int)sizeof name)
+            unlink(name);
     }
 }
 
@@ -439,8 +460,9 @@ static int rows_commit(const gdal_rows *r)
     for (struct dirent *entry; end == 0 && (entry = readdir(directory));) {
         char from[4096], to[4096];
         if (entry->d_name[0] == '.') continue;
-        bool fits = snprintf(from, sizeof from, "%s/%s", r->directory, entry->d_name) < (int)sizeof from &&
-                    snprintf(to, sizeof to, "%.*s%s", stem, r->path, entry->d_name) < (int)sizeof to;
+        bool fits =
+            snprintf(from, sizeof from, "%s/%s", r->directory, entry->d_name) < (int)sizeof from &&
+            snprintf(to, sizeof to, "%.*s%s", stem, r->path, entry->d_name) < (int)sizeof to;
         if (!fits || rename(from, to) != 0) end = END_RESOURCE;
     }
     if (end) complain("%s: %s", r->path, strerror(errno));
@@ -457,7 +479,8 @@ int gdal_rows_close(gdal_rows *r, bool commit)
         r->gdal->CPLErrorReset();
         if (commit && r->written > 0) r->gdal->GDALDatasetCommitTransaction(r->set);
         r->gdal->GDALClose(r->set);
-        if (commit && end == 0 && r->gdal->CPLGetLastErrorType() >= CE_Failure) end = rows_fail(r, "it is incomplete");
+        if (commit && end == 0 && r->gdal->CPLGetLastErrorType() >= CE_Failure)
+            end = rows_fail(r, "it is incomplete");
     }
     if (commit && end == 0) end = rows_commit(r);
     if (r->directory && *r->directory) signals_remove_temporaries();
@@ -495,7 +518,8 @@ int gdal_rows_learn(gdal_rows *rows, const char *bytes, size_t size)
     return END_USAGE;
 }
 
-int gdal_rows_write(gdal_rows *rows, const char *bytes, size_t size, const double *points, size_t stride)
+int gdal_rows_write(gdal_rows *rows, const char *bytes, size_t size, const double *points,
+                    size_t stride)
 {
     (void)rows;
     (void)bytes;

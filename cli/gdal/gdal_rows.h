@@ -1,5 +1,5 @@
-/* gdal_rows.h - rows of CSV, with a point each, written as the features of any vector format that GDAL
- * writes; the ending of the name chooses it. */
+/* gdal_rows.h - rows of CSV, with a point each, written as the features of any vector format that
+ * GDAL writes; the ending of the name chooses it. */
 #ifndef MW_CLI_GDAL_GDAL_ROWS_H
 #define MW_CLI_GDAL_GDAL_ROWS_H
 
@@ -27,18 +27,19 @@ typedef struct gdal_rows_form {
 
 typedef struct gdal_rows gdal_rows;
 
-/* Begin a file, which gets its name when it is closed. The other columns are integers or reals if all
- * cells that gdal_rows_learn has seen are numbers, missing ones apart, and text otherwise. Returns 0, or
- * an exit code after a complaint; close it in both cases. */
+/* Begin a file, which gets its name when it is closed. The other columns are integers or reals if
+ * all cells that gdal_rows_learn has seen are numbers, missing ones apart, and text otherwise.
+ * Returns 0, or an exit code after a complaint; close it in both cases. */
 int gdal_rows_open(gdal_rows **rows, const char *path, const gdal_rows_form *form);
 int gdal_rows_learn(gdal_rows *rows, const char *bytes, size_t size);
 
-/* Write rows; point i is at points[i * stride]. A point with a coordinate that is not finite becomes a
- * feature without a geometry. Returns 0, or an exit code after a complaint. */
-int gdal_rows_write(gdal_rows *rows, const char *bytes, size_t size, const double *points, size_t stride);
+/* Write rows; point i is at points[i * stride]. A point with a coordinate that is not finite
+ * becomes a feature without a geometry. Returns 0, or an exit code after a complaint. */
+int gdal_rows_write(gdal_rows *rows, const char *bytes, size_t size, const double *points,
+                    size_t stride);
 
-/* Finish the file, or remove it if not `commit`. Returns 0, or an exit code after a complaint. NULL is
- * allowed. */
+/* Finish the file, or remove it if not `commit`. Returns 0, or an exit code after a complaint.
+ * NULL is allowed. */
 int gdal_rows_close(gdal_rows *rows, bool commit);
 
 #endif

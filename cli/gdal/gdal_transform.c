@@ -30,7 +30,8 @@ struct gdal_transform {
 };
 
 /* The transformation; a rough one only where no other is known. */
-static OGRCoordinateTransformationH transform_find_way(const gdal_functions *gdal, OGRSpatialReferenceH from,
+static OGRCoordinateTransformationH transform_find_way(const gdal_functions *gdal,
+                                                       OGRSpatialReferenceH from,
                                                        OGRSpatialReferenceH to, bool *rough)
 {
     OGRCoordinateTransformationH found = NULL;
@@ -67,13 +68,17 @@ int gdal_transform_open(gdal_transform **transform, const gdal_transform_ends *e
     if (!first) return fail_memory();
     t->members[0] = first;
     t->gdal = gdal_library_load();
-    if (!t->gdal) return transform_fail(ends, "GDAL, which would transform it, cannot be loaded (" MW_GDAL ")", "");
-    OGRSpatialReferenceH from = crs_parse(t->gdal, ends->from, false), to = crs_parse(t->gdal, ends->to, false);
+    if (!t->gdal)
+        return transform_fail(ends,
+                              "GDAL, which would transform it, cannot be loaded (" MW_GDAL ")", "");
+    OGRSpatialReferenceH from = crs_parse(t->gdal, ends->from, false),
+                         to = crs_parse(t->gdal, ends->to, false);
     if (from && to) first->way = transform_find_way(t->gdal, from, to, rough);
     if (from) t->gdal->OSRRelease(from);
     if (to) t->gdal->OSRRelease(to);
     return first->way ? 0
-                      : transform_fail(ends, "PROJ has no way from one to the other: ", t->gdal->CPLGetLastErrorMsg());
+                      : transform_fail(ends, "PROJ has no way from one to the other: ",
+                                       t->gdal->CPLGetLastErrorMsg());
 }
 
 void gdal_transform_close(gdal_transform *t)
@@ -86,8 +91,8 @@ void gdal_transform_close(gdal_transform *t)
     free(t);
 }
 
-/* GDAL chooses one way for all points of a call, by their mean: each point has a call of its own, so that
- * its place depends on nothing else. */
+/* GDAL chooses one way for all points of a call, by their mean: each point has a call of its own,
+ * so that its place depends on nothing else. */
 static bool transform_point(const gdal_transform *t, transform_member *m, double p[2])
 {
     int done = 0;
@@ -109,7 +114,8 @@ static void transform_chunk(gdal_transform *t, transform_member *m, size_t first
 static void transform_chunks(void *work, uint32_t member)
 {
     gdal_transform *t = work;
-    for (size_t i; (i = atomic_fetch_add(&t->next, CHUNK)) < t->count;) transform_chunk(t, t->members[member], i);
+    for (size_t i; (i = atomic_fetch_add(&t->next, CHUNK)) < t->count;)
+        transform_chunk(t, t->members[member], i);
 }
 
 /* Make members until there are so many. Returns how many there are, at least one. */
@@ -129,7 +135,8 @@ static uint32_t transform_gather(gdal_transform *t, uint32_t team)
     return count;
 }
 
-uint64_t gdal_transform_points(gdal_transform *t, double *points, size_t count, size_t stride, uint32_t threads)
+uint64_t gdal_transform_points(gdal_transform *t, double *points, size_t count, size_t stride,
+                               uint32_t threads)
 {
     t->points = points;
     t->count = count;
@@ -164,7 +171,8 @@ void gdal_transform_close(gdal_transform *transform)
     (void)transform;
 }
 
-uint64_t gdal_transform_points(gdal_transform *transform, double *points, size_t count, size_t stride, uint32_t threads)
+uint64_t gdal_transform_points(gdal_transform *transform, double *points, size_t count,
+                               size_t stride, uint32_t threads)
 {
     (void)transform;
     (void)points;

@@ -8,26 +8,26 @@
 
 typedef struct gdal_transform gdal_transform;
 
-/* Find out before long work whether points can be transformed at all, which `what` asks for. Returns 0,
- * or an exit code after a complaint. */
+/* Find out before long work whether points can be transformed at all, which `what` asks for.
+ * Returns 0, or an exit code after a complaint. */
 int gdal_transform_check(const char *what);
 
-/* What points are transformed from and to: two systems that are not the same, and the files that have
- * them, for messages. */
+/* What points are transformed from and to: two systems that are not the same, and the files that
+ * have them, for messages. */
 typedef struct gdal_transform_ends {
     const char *of, *from; /* "points.csv", its system */
     const char *in, *to;   /* "mesh.ply", its system */
 } gdal_transform_ends;
 
-/* Prepare a transformation, of x and y: heights do not count. `*rough` is set if no other than a rough
- * one is known, without a shift between the datums. Returns 0, or an exit code after a complaint; close
- * it in both cases. */
+/* Prepare a transformation, of x and y: heights do not count. `*rough` is set if no other than a
+ * rough one is known, without a shift between the datums. Returns 0, or an exit code after a
+ * complaint; close it in both cases. */
 int gdal_transform_open(gdal_transform **transform, const gdal_transform_ends *ends, bool *rough);
 void gdal_transform_close(gdal_transform *transform); /* NULL is allowed */
 
-/* Transform points that are `stride` doubles apart, on up to so many threads (0: all). A point without
- * a place in the other system becomes NaN. Returns how many of the finite ones did. */
-uint64_t gdal_transform_points(gdal_transform *transform, double *points, size_t count, size_t stride,
-                               uint32_t threads);
+/* Transform points that are `stride` doubles apart, on up to so many threads (0: all). A point
+ * without a place in the other system becomes NaN. Returns how many of the finite ones did. */
+uint64_t gdal_transform_points(gdal_transform *transform, double *points, size_t count,
+                               size_t stride, uint32_t threads);
 
 #endif

@@ -5,17 +5,19 @@
 
 #include <string.h>
 
-int mesh_crs_settle(const char *path, const char *option, const char *of_file, bool quiet, char **crs)
+int mesh_crs_settle(const char *path, const char *option, const char *of_file, bool quiet,
+                    char **crs)
 {
     char names[2][CRS_NAME];
     const char *name = files_is_standard(path) ? "standard input" : path;
     const char *chosen = option ? option : of_file;
     *crs = NULL;
     if (option && of_file && !quiet && !crs_same(option, of_file))
-        complain("%s: warning: it says that it is in %s, --crs that it is in %s, which counts", name,
-                 crs_name(of_file, names[0]), crs_name(option, names[1]));
+        complain("%s: warning: it says that it is in %s, --crs that it is in %s, which counts",
+                 name, crs_name(of_file, names[0]), crs_name(option, names[1]));
     if (!option && of_file && !crs_known(of_file)) {
-        if (!quiet) complain("%s: warning: its coordinate system is not understood: %.200s", name, of_file);
+        if (!quiet)
+            complain("%s: warning: its coordinate system is not understood: %.200s", name, of_file);
         chosen = NULL;
     }
     if (!chosen) return 0;

@@ -5,13 +5,15 @@
 #include <string.h>
 #include <strings.h>
 
-static int values_fail_name(const char *path, const char *name, size_t length, const char *const *names, size_t count)
+static int values_fail_name(const char *path, const char *name, size_t length,
+                            const char *const *names, size_t count)
 {
     text list = {0};
     for (size_t i = 0; i < count; i++) text_printf(&list, "%s%s", i ? ", " : "", names[i]);
     int size = list.size < 1000 ? (int)list.size : 1000;
     if (count > 0 && !list.failed)
-        complain("%s: has no attribute '%.*s', but: %.*s", path, (int)length, name, size, list.bytes);
+        complain("%s: has no attribute '%.*s', but: %.*s", path, (int)length, name, size,
+                 list.bytes);
     else
         complain("%s: has no attribute '%.*s', and no others", path, (int)length, name);
     text_release(&list);
@@ -43,8 +45,8 @@ static bool values_take(feature_values *v, size_t field, const char *name, char 
     return true;
 }
 
-int feature_values_choose(feature_values *v, const char *path, const char *const *names, const char *kinds,
-                          size_t count)
+int feature_values_choose(feature_values *v, const char *path, const char *const *names,
+                          const char *kinds, size_t count)
 {
     size_t whole = values_find(v->list, strlen(v->list), names, count);
     if (whole < count) return values_take(v, whole, names[whole], kinds[whole]) ? 0 : fail_memory();

@@ -18,8 +18,8 @@ typedef struct feature_values {
 
 /* Decide which of the `count` attributes of a file are meant. Returns 0, or an exit code after a
  * complaint that lists them. */
-int feature_values_choose(feature_values *values, const char *path, const char *const *names, const char *kinds,
-                          size_t count);
+int feature_values_choose(feature_values *values, const char *path, const char *const *names,
+                          const char *kinds, size_t count);
 
 /* Add the next cell of the next feature. False if memory runs out. */
 bool feature_values_add(feature_values *values, const char *cell);

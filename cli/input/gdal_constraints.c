@@ -48,7 +48,9 @@ static bool collector_add_point(constraint_collector *c, OGRGeometryH geometry, 
 {
     mw_constraint_file *file = c->file;
     double p[3] = {0};
-    if (!array_make_room(&file->points, 3 * sizeof *file->points, file->point_count, &c->point_room)) return false;
+    if (!array_make_room(&file->points, 3 * sizeof *file->points, file->point_count,
+                         &c->point_room))
+        return false;
     gdal.OGR_G_GetPoint(geometry, i, &p[0], &p[1], &p[2]);
     if (gdal.OGR_G_Is3D(geometry))
         file->has_z = 1;
@@ -88,7 +90,8 @@ static bool collector_add_chain(constraint_collector *c, OGRGeometryH line, uint
         --*end;
     for (size_t i = first + 1; i < *end; i++)
         if (!collector_add_segment(c, i - 1, i, polygon)) return false;
-    return polygon == MW_NONE || *end < first + 2 || collector_add_segment(c, *end - 1, first, polygon);
+    return polygon == MW_NONE || *end < first + 2 ||
+           collector_add_segment(c, *end - 1, first, polygon);
 }
 
 /* Does a ring have three points that differ in x or y? */
@@ -99,7 +102,8 @@ static bool ring_is_sound(OGRGeometryH ring)
     for (int i = 0; i < count; i++) {
         gdal.OGR_G_GetPoint(ring, i, &p[0], &p[1], &p[2]);
         bool known = false;
-        for (int k = 0; k < different; k++) known = known || (p[0] == seen[k][0] && p[1] == seen[k][1]);
+        for (int k = 0; k < different; k++)
+            known = known || (p[0] == seen[k][0] && p[1] == seen[k][1]);
         if (!known && different == 2) return true;
         if (!known) memcpy(seen[different++], p, sizeof seen[0]);
     }
@@ -109,7 +113,9 @@ static bool ring_is_sound(OGRGeometryH ring)
 static bool collector_skip_ring(constraint_collector *c, uint32_t ring)
 {
     mw_constraint_file *file = c->file;
-    if (!array_make_room(&file->skipped, sizeof *file->skipped, file->skipped_count, &c->skipped_room)) return false;
+    if (!array_make_room(&file->skipped, sizeof *file->skipped, file->skipped_count,
+                         &c->skipped_room))
+        return false;
     file->skipped[file->skipped_count++] = (mw_skipped_ring){c->feature, c->polygons, ring};
     return true;
 }
@@ -136,7 +142,8 @@ static bool collector_add_polygon(constraint_collector *c, OGRGeometryH polygon)
 static bool collector_add_geometry(constraint_collector *c, OGRGeometryH geometry)
 {
     switch (gdal.OGR_GT_Flatten(gdal.OGR_G_GetGeometryType(geometry))) {
-    case wkbPoint: return gdal.OGR_G_GetPointCount(geometry) == 0 || collector_add_point(c, geometry, 0);
+    case wkbPoint:
+        return gdal.OGR_G_GetPointCount(geometry) == 0 || collector_add_point(c, geometry, 0);
     case wkbLineString: return collector_add_chain(c, geometry, MW_NONE);
     case wkbPolygon:
     case wkbTriangle: return collector_add_polygon(c, geometry);
@@ -158,7 +165,8 @@ static int gdal_fail(const char *path)
 /* A feature without a geometry is skipped; but if GDAL failed to read the geometry, complain. */
 static int gdal_fail_feature(const constraint_collector *c, const char *path)
 {
-    complain("%s: feature %" PRIu32 ": GDAL says: %.1000s", path, c->feature, gdal.CPLGetLastErrorMsg());
+    complain("%s: feature %" PRIu32 ": GDAL says: %.1000s", path, c->feature,
+             gdal.CPLGetLastErrorMsg());
     return END_INPUT;
 }
 
@@ -173,8 +181,8 @@ static int collector_add_feature(constraint_collector *c, OGRFeatureH feature, c
     gdal.OGR_G_DestroyGeometry(linear);
     if (!added) return fail_memory();
     if (c->file->point_count <= MW_MAX_VERTICES && c->file->segment_count < MW_NONE) return 0;
-    complain("%s: more than %" PRIu32 " points, or than %" PRIu32 " segments", path, (uint32_t)MW_MAX_VERTICES,
-             MW_NONE - 1);
+    complain("%s: more than %" PRIu32 " points, or than %" PRIu32 " segments", path,
+             (uint32_t)MW_MAX_VERTICES, MW_NONE - 1);
     return END_RESOURCE;
 }
 
@@ -197,7 +205,8 @@ static int collector_choose_values(constraint_collector *c, OGRLayerH layer, con
         names[i] = gdal.OGR_Fld_GetNameRef(field);
         kinds[i] = field_kind(field);
     }
-    int end = names && kinds ? feature_values_choose(c->values, path, names, kinds, count) : fail_memory();
+    int end = names && kinds ? feature_values_choose(c->values, path, names, kinds, count)
+                             : fail_memory();
     free(names);
     free(kinds);
     return end;
@@ -239,7 +248,8 @@ static int collector_read_layer(constraint_collector *c, OGRLayerH layer, const 
 }
 
 /* All layers have one coordinate system. */
-static int collector_note_crs(constraint_collector *c, GDALDatasetH set, OGRLayerH layer, const char *path)
+static int collector_note_crs(constraint_collector *c, GDALDatasetH set, OGRLayerH layer,
+                              const char *path)
 {
     char *crs = crs_of_layer(set, layer), names[2][CRS_NAME];
     if (c->layers++ == 0) {
@@ -281,14 +291,16 @@ static int layers_fail(const gdal_constraints_options *o, GDALDatasetH set, cons
 {
     text names = {0};
     for (int i = 0; i < gdal.GDALDatasetGetLayerCount(set); i++)
-        text_printf(&names, "%s%s", i ? ", " : "", gdal.OGR_L_GetName(gdal.GDALDatasetGetLayer(set, i)));
+        text_printf(&names, "%s%s", i ? ", " : "",
+                    gdal.OGR_L_GetName(gdal.GDALDatasetGetLayer(set, i)));
     int size = names.size < 1000 ? (int)names.size : 1000;
     if (names.failed || names.size == 0)
         complain("%s: GDAL finds no layer in it", path);
     else if (o->layer)
         complain("%s: has no layer '%s', but: %.*s", path, o->layer, size, names.bytes);
     else
-        complain("%s: which layer has the polygons? --polygon-layer may be one of: %.*s", path, size, names.bytes);
+        complain("%s: which layer has the polygons? --polygon-layer may be one of: %.*s", path,
+                 size, names.bytes);
     text_release(&names);
     return o->layer ? END_INPUT : END_USAGE;
 }
@@ -297,8 +309,10 @@ static int collector_read_layers(constraint_collector *c, GDALDatasetH set, cons
 {
     int end = 0, wanted = 0, count = gdal.GDALDatasetGetLayerCount(set);
     bool one = c->options->layer || c->options->polygons;
-    for (int i = 0; i < count; i++) wanted += layer_is_wanted(c->options, gdal.GDALDatasetGetLayer(set, i));
-    if (one && (c->options->layer ? wanted == 0 : wanted > 1)) return layers_fail(c->options, set, path);
+    for (int i = 0; i < count; i++)
+        wanted += layer_is_wanted(c->options, gdal.GDALDatasetGetLayer(set, i));
+    if (one && (c->options->layer ? wanted == 0 : wanted > 1))
+        return layers_fail(c->options, set, path);
     for (int i = 0; end == 0 && i < count; i++) {
         OGRLayerH layer = gdal.GDALDatasetGetLayer(set, i);
         if (!layer_is_wanted(c->options, layer)) continue;
@@ -308,21 +322,26 @@ static int collector_read_layers(constraint_collector *c, GDALDatasetH set, cons
     return end;
 }
 
-int gdal_constraints_read(const char *path, const gdal_constraints_options *options, mw_constraint_file *file)
+int gdal_constraints_read(const char *path, const gdal_constraints_options *options,
+                          mw_constraint_file *file)
 {
     constraint_collector c = {.file = file, .options = options, .values = options->values};
     *file = (mw_constraint_file){.record_name = "feature"};
     if (!gdal_load()) {
-        complain("%s: is no GeoJSON or .poly, and GDAL, which might read it, cannot be loaded (" MW_GDAL ")", path);
+        complain(
+            "%s: is no GeoJSON or .poly, and GDAL, which might read it, cannot be loaded (" MW_GDAL
+            ")",
+            path);
         return END_INPUT;
     }
-    GDALDatasetH set =
-        gdal.GDALOpenEx(path, GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, NULL, NULL, NULL);
+    GDALDatasetH set = gdal.GDALOpenEx(
+        path, GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, NULL, NULL, NULL);
     if (!set) return gdal_fail(path);
     int end = collector_read_layers(&c, set, path);
     gdal.GDALClose(set);
     if (end == 0 && file->point_count == 0) {
-        complain("%s: GDAL finds no %spolygons in it", path, options->polygons ? "" : "points, lines or ");
+        complain("%s: GDAL finds no %spolygons in it", path,
+                 options->polygons ? "" : "points, lines or ");
         end = END_INPUT;
     }
     if (end) mw_constraint_file_release(file);
@@ -331,7 +350,8 @@ int gdal_constraints_read(const char *path, const gdal_constraints_options *opti
 
 #else
 
-int gdal_constraints_read(const char *path, const gdal_constraints_options *options, mw_constraint_file *file)
+int gdal_constraints_read(const char *path, const gdal_constraints_options *options,
+                          mw_constraint_file *file)
 {
     (void)options;
     *file = (mw_constraint_file){0};

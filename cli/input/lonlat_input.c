@@ -9,7 +9,8 @@ static int lonlat_fail_vertex(const char *path, size_t vertex, const double *p)
     char longitude[32], latitude[32];
     mw_format_double(p[0], longitude);
     mw_format_double(p[1], latitude);
-    complain("%s: vertex %zu: %s, %s is no longitude and latitude in degrees", path, vertex, longitude, latitude);
+    complain("%s: vertex %zu: %s, %s is no longitude and latitude in degrees", path, vertex,
+             longitude, latitude);
     return END_INPUT;
 }
 
@@ -54,11 +55,16 @@ static void directions_make(void *work, uint32_t member)
     }
 }
 
-void lonlat_input_directions(const double *lonlat, size_t stride, size_t count, const double centre[3],
-                             uint32_t threads, double *points)
+void lonlat_input_directions(const double *lonlat, size_t stride, size_t count,
+                             const double centre[3], uint32_t threads, double *points)
 {
     enum { WORTHWHILE = 1 << 12 }; /* points that make a thread worthwhile */
-    direction_making making = {
-        lonlat, centre, stride, count, lonlat_ray_length(centre), points, mw__team(threads, count / WORTHWHILE + 1)};
+    direction_making making = {lonlat,
+                               centre,
+                               stride,
+                               count,
+                               lonlat_ray_length(centre),
+                               points,
+                               mw__team(threads, count / WORTHWHILE + 1)};
     mw__team_run(making.team, directions_make, &making);
 }

@@ -10,7 +10,7 @@ int lonlat_input_mesh(const char *path, mw_mesh_file *file);
 
 /* Make a point of each longitude and latitude: it lies in their direction from the centre, far
  * enough away that rounding keeps the direction. */
-void lonlat_input_directions(const double *lonlat, size_t stride, size_t count, const double centre[3],
-                             uint32_t threads, double *points);
+void lonlat_input_directions(const double *lonlat, size_t stride, size_t count,
+                             const double centre[3], uint32_t threads, double *points);
 
 #endif

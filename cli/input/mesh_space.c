@@ -10,9 +10,10 @@ static const char *space_name(int i)
 }
 static const char *space_help(int i)
 {
-    static const char *const texts[] = {"a mesh in the plane of x and y, as for locate and sample",
-                                        "a surface in space, as for probe",
-                                        "a closed polyhedron, star-shaped about a centre, as for star"};
+    static const char *const texts[] = {
+        "a mesh in the plane of x and y, as for locate and sample",
+        "a surface in space, as for probe",
+        "a closed polyhedron, star-shaped about a centre, as for star"};
     return texts[i];
 }
 static const choices space_choices = {"way to take a mesh", space_name, space_help};
@@ -23,7 +24,9 @@ const option mesh_space_options[] = {
     {"centre", 0, OPTION_XYZ, offsetof(mesh_space_settings, centre), "X,Y,Z",
      "--as star: the centre, which is to see all facets from inside (default: 0,0,0)", NULL},
     {"lonlat", 0, OPTION_FLAG, offsetof(mesh_space_settings, lonlat), NULL,
-     "--as star: x and y of a MESH without z are longitude and latitude on the unit sphere, in degrees", NULL},
+     "--as star: x and y of a MESH without z are longitude and latitude on the unit sphere, in "
+     "degrees",
+     NULL},
     {"weld", 0, OPTION_FLAG, offsetof(mesh_space_settings, weld), NULL,
      "--as surface: vertices with equal coordinates are one; with --as star they always are", NULL},
     {0},
@@ -37,7 +40,8 @@ static int mesh_space_option_wants(const char *name, const char *as)
 
 static int mesh_space_check_options(const mesh_space_settings *s)
 {
-    if (s->centre.count > 0 && s->space != SPACE_STAR) return mesh_space_option_wants("centre", "star");
+    if (s->centre.count > 0 && s->space != SPACE_STAR)
+        return mesh_space_option_wants("centre", "star");
     if (s->lonlat && s->space != SPACE_STAR) return mesh_space_option_wants("lonlat", "star");
     if (s->weld && s->space == SPACE_PLANE) return mesh_space_option_wants("weld", "surface");
     return 0;

@@ -7,12 +7,13 @@
 
 /* A duplicate of an earlier vertex, which stands for both in the mesh, and that vertex: each takes
  * the value of the other if it has none. */
-static void coincident_share_values(const vertex_table *v, size_t added, const uint32_t *duplicate_of,
-                                    vertex_field field)
+static void coincident_share_values(const vertex_table *v, size_t added,
+                                    const uint32_t *duplicate_of, vertex_field field)
 {
     for (size_t i = v->points; i < added; i++) {
         if (duplicate_of[i] == MW_NONE) continue;
-        double *own = &field.values[i * field.stride], *other = &field.values[duplicate_of[i] * field.stride];
+        double *own = &field.values[i * field.stride],
+               *other = &field.values[duplicate_of[i] * field.stride];
         if (isnan(*other)) *other = *own;
     }
     for (size_t i = v->points; i < added; i++)
@@ -28,7 +29,8 @@ static uint32_t *segments_of_added(size_t added, size_t count, const mw_constrai
     for (size_t i = 0; i < count; i++) segment[i] = MW_NONE;
     for (size_t p = 0; p < 2 * edges->count; p++) {
         size_t i = edges->edge[p];
-        if (i >= added && edges->segment[p / 2] < segment[i - added]) segment[i - added] = edges->segment[p / 2];
+        if (i >= added && edges->segment[p / 2] < segment[i - added])
+            segment[i - added] = edges->segment[p / 2];
     }
     return segment;
 }
@@ -51,7 +53,8 @@ static void segments_interpolate(const vertex_table *v, size_t added, const uint
         if (segment_of[i - added] == MW_NONE) continue;
         const uint32_t *end = segments + 2 * (size_t)segment_of[i - added];
         double a = field.values[end[0] * field.stride], b = field.values[end[1] * field.stride];
-        double t = fraction_along(points + 3 * (size_t)end[0], points + 3 * (size_t)end[1], points + 3 * i);
+        double t = fraction_along(points + 3 * (size_t)end[0], points + 3 * (size_t)end[1],
+                                  points + 3 * i);
         field.values[i * field.stride] = (1 - t) * a + t * b;
     }
 }
@@ -61,7 +64,8 @@ typedef struct triangulated_points {
     uint32_t threads;
     mw_mesh *mesh;
     mw_locator *locator;
-    mw_location *location; /* of each vertex not from POINTS; outside, of the nearest border point */
+    /* of each vertex not from POINTS; outside, of the nearest border point */
+    mw_location *location;
 } triangulated_points;
 
 static void triangulated_points_release(triangulated_points *s)
@@ -71,19 +75,21 @@ static void triangulated_points_release(triangulated_points *s)
     mw_mesh_destroy(s->mesh);
 }
 
-static mw_status triangulated_points_locate(triangulated_points *s, const vertex_table *v, mw_error *error)
+static mw_status triangulated_points_locate(triangulated_points *s, const vertex_table *v,
+                                            mw_error *error)
 {
     size_t count = v->file.point_count - v->points;
     const double *points = v->file.points + 3 * v->points;
     mw_query_options options = {.threads = s->threads, .progress = progress_of_call()};
-    mw_status status = mw_locate_batch(s->locator, points, count, 3, &options, s->location, NULL, error);
+    mw_status status =
+        mw_locate_batch(s->locator, points, count, 3, &options, s->location, NULL, error);
     for (size_t i = 0; status == MW_OK && i < count; i++) {
         mw_nearest_border_point hit;
         if (s->location[i].triangle != MW_NONE) continue;
         status = mw_nearest_border(s->locator, points[3 * i], points[3 * i + 1], &hit, error);
         if (status == MW_OK)
-            s->location[i] =
-                (mw_location){.triangle = hit.triangle, .weight = {hit.weight[0], hit.weight[1], hit.weight[2]}};
+            s->location[i] = (mw_location){.triangle = hit.triangle,
+                                           .weight = {hit.weight[0], hit.weight[1], hit.weight[2]}};
     }
     return status;
 }
@@ -93,19 +99,23 @@ static int triangulated_points_make(triangulated_points *s, const vertex_table *
 {
     mw_error error;
     mw_delaunay_options delaunay = {.threads = s->threads, .progress = progress_of_call()};
-    mw_locator_options options = {.border = 1, .threads = s->threads, .progress = progress_of_call()};
+    mw_locator_options options = {
+        .border = 1, .threads = s->threads, .progress = progress_of_call()};
     size_t count = v->file.point_count - v->points;
     progress_phase("interpolating", NULL);
-    mw_status status = mw_delaunay(v->file.points, v->points, 3, &delaunay, NULL, NULL, &s->mesh, &error);
+    mw_status status =
+        mw_delaunay(v->file.points, v->points, 3, &delaunay, NULL, NULL, &s->mesh, &error);
     *on_a_line = status == MW_ERROR_INPUT;
     if (*on_a_line) return 0;
     if (status == MW_OK) status = mw_locator_create(s->mesh, &options, &s->locator, &error);
-    if (status == MW_OK && !(s->location = malloc((count + 1) * sizeof *s->location))) return fail_memory();
+    if (status == MW_OK && !(s->location = malloc((count + 1) * sizeof *s->location)))
+        return fail_memory();
     if (status == MW_OK) status = triangulated_points_locate(s, v, &error);
     return status == MW_OK ? 0 : fail_reading(&error);
 }
 
-static void triangulated_points_interpolate(const triangulated_points *s, const vertex_table *v, vertex_field field)
+static void triangulated_points_interpolate(const triangulated_points *s, const vertex_table *v,
+                                            vertex_field field)
 {
     for (size_t i = v->points; i < v->file.point_count; i++) {
         const mw_location *location = &s->location[i - v->points];
@@ -114,7 +124,8 @@ static void triangulated_points_interpolate(const triangulated_points *s, const 
         if (!isnan(field.values[i * field.stride])) continue;
         mw_mesh_triangle(s->mesh, location->triangle, corner);
         for (int k = 0; k < 3; k++)
-            if (location->weight[k] != 0) sum += location->weight[k] * field.values[corner[k] * field.stride];
+            if (location->weight[k] != 0)
+                sum += location->weight[k] * field.values[corner[k] * field.stride];
         field.values[i * field.stride] = sum;
     }
 }
@@ -143,8 +154,9 @@ static int missing_values_interpolate(const vertex_table *v, uint32_t threads, b
     return end;
 }
 
-int missing_values_fill(vertex_table *v, size_t added, const uint32_t *duplicate_of, const uint32_t *segments,
-                        const mw_constrained_edges *edges, uint32_t threads, bool *on_a_line)
+int missing_values_fill(vertex_table *v, size_t added, const uint32_t *duplicate_of,
+                        const uint32_t *segments, const mw_constrained_edges *edges,
+                        uint32_t threads, bool *on_a_line)
 {
     *on_a_line = false;
     mw_mesh_file *file = &v->file;

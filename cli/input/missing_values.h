@@ -10,12 +10,14 @@
  *   2. a vertex that was added on a constraint is interpolated along it, if both ends have a value;
  *   3. the others are interpolated linearly in the Delaunay triangulation of POINTS, outside it at
  *      the nearest point of its border.
- * A value stays NaN if POINTS have no such field, or no triangle. If no vertex has a height, all are 0.
+ * A value stays NaN if POINTS have no such field, or no triangle. If no vertex has a height, all
+ * are 0.
  *   added      the vertices from this number on were added
  *   segments   the constraints, two vertices each; `edges` are what they became
  *   on_a_line  set to true if values stay missing because POINTS lie on one line
  * Returns 0, or an exit code after a complaint. */
-int missing_values_fill(vertex_table *v, size_t added, const uint32_t *duplicate_of, const uint32_t *segments,
-                        const mw_constrained_edges *edges, uint32_t threads, bool *on_a_line);
+int missing_values_fill(vertex_table *v, size_t added, const uint32_t *duplicate_of,
+                        const uint32_t *segments, const mw_constrained_edges *edges,
+                        uint32_t threads, bool *on_a_line);
 
 #endif

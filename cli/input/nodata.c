@@ -9,8 +9,8 @@
 
 #define ADCIRC_NODATA (-99999.0)
 
-/* Numbers that programs write where there is no value: rasters, the lowest float, and what netCDF fills
- * with. */
+/* Numbers that programs write where there is no value: rasters, the lowest float, and what netCDF
+ * fills with. */
 static const double suspects[] = {-9999, -32768, -3.4028234663852886e38, 9.969209968386869e36};
 
 int nodata_parse(const char *argument, nodata_rule *rule)
@@ -39,7 +39,8 @@ static size_t values_count(const double *values, size_t count, double number)
     return found;
 }
 
-static void nodata_remark(const char *path, const char *field, size_t found, double number, const char *what)
+static void nodata_remark(const char *path, const char *field, size_t found, double number,
+                          const char *what)
 {
     char digits[32];
     mw_format_double(number, digits);
@@ -47,7 +48,8 @@ static void nodata_remark(const char *path, const char *field, size_t found, dou
              found == 1 ? "vertex" : "vertices", what);
 }
 
-static void nodata_remark_suspects(const double *values, size_t count, const char *path, const char *field)
+static void nodata_remark_suspects(const double *values, size_t count, const char *path,
+                                   const char *field)
 {
     for (size_t i = 0; i < sizeof suspects / sizeof *suspects; i++) {
         size_t found = values_count(values, count, suspects[i]);
@@ -58,8 +60,8 @@ static void nodata_remark_suspects(const double *values, size_t count, const cha
     }
 }
 
-double *nodata_copy(const double *values, size_t stride, size_t count, const nodata_rule *rule, const char *path,
-                    const char *field, bool quiet)
+double *nodata_copy(const double *values, size_t stride, size_t count, const nodata_rule *rule,
+                    const char *path, const char *field, bool quiet)
 {
     double *copy = malloc((count + 1) * sizeof *copy);
     if (!copy) return NULL;
@@ -69,7 +71,8 @@ double *nodata_copy(const double *values, size_t stride, size_t count, const nod
         if (value_is(copy[i], rule->value)) copy[i] = NAN;
     if (quiet || rule->given) return copy;
     if (found > 0)
-        nodata_remark(path, field, found, rule->value, "none would take it for a value, not for a missing one");
+        nodata_remark(path, field, found, rule->value,
+                      "none would take it for a value, not for a missing one");
     nodata_remark_suspects(copy, count, path, field);
     return copy;
 }

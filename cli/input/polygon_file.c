@@ -9,8 +9,8 @@
 
 /* --- a .poly: the border of its domain -------------------------------------------------------- */
 
-static mw_status domain_make(const mw_constraint_file *c, const common_settings *common, mw_mesh **mesh,
-                             mw_error *error)
+static mw_status domain_make(const mw_constraint_file *c, const common_settings *common,
+                             mw_mesh **mesh, mw_error *error)
 {
     mw_constraints given = {.points = c->points,
                             .point_count = c->point_count,
@@ -19,11 +19,13 @@ static mw_status domain_make(const mw_constraint_file *c, const common_settings 
                             .segment_count = c->segment_count,
                             .hole_seeds = c->hole_seeds,
                             .hole_seed_count = c->hole_seed_count};
-    mw_constrain_options options = {.keep = MW_KEEP_INSIDE, .threads = common->threads, .progress = progress_of_call()};
+    mw_constrain_options options = {
+        .keep = MW_KEEP_INSIDE, .threads = common->threads, .progress = progress_of_call()};
     return mw_constrained_delaunay(&given, &options, NULL, NULL, NULL, mesh, error);
 }
 
-/* Write the border edges of a mesh as segments of polygon 0. Without `segments` they are counted. */
+/* Write the border edges of a mesh as segments of polygon 0. Without `segments` they are counted.
+ * */
 static size_t domain_border(const mw_mesh *mesh, uint32_t *segments)
 {
     size_t count = 0;
@@ -106,7 +108,8 @@ static int rings_take(mw_constraint_file *c, const char *path, const common_sett
     if (end) return end;
     size_t lines = rings_drop_lines(c);
     if (lines > 0 && !common->quiet)
-        complain("%s: warning: %zu segments of lines are passed over, since they bound nothing", path, lines);
+        complain("%s: warning: %zu segments of lines are passed over, since they bound nothing",
+                 path, lines);
     if (c->segment_count > 0) return rings_drop_points(c);
     complain("%s: there are no polygons in it", path);
     return END_INPUT;
@@ -124,7 +127,8 @@ static void polygon_file_warn(const polygon_file *f, const mw_constraint_file *c
         uint32_t feature = f->feature[crossing[i]];
         if (feature != last && named++ < NAMED)
             complain("%s: warning: the border of %s %" PRIu32
-                     " crosses itself or runs along itself; inside is what it goes round an odd number of times",
+                     " crosses itself or runs along itself; inside is what it goes round an odd "
+                     "number of times",
                      path, c->record_name, feature);
         else if (feature != last)
             more++;
@@ -149,18 +153,21 @@ static int polygon_file_prepare(polygon_file *f, const mw_constraint_file *c, co
     if (!f->feature) return fail_memory();
     for (size_t i = 0; i < c->segment_count; i++) f->feature[c->polygon[i]] = c->record[i];
     progress_phase("preparing", path);
-    if (mw_polygons_create(&rings, &options, &f->polygons, &error) != MW_OK) return fail_mesh(path, &error);
+    if (mw_polygons_create(&rings, &options, &f->polygons, &error) != MW_OK)
+        return fail_mesh(path, &error);
     if (!common->quiet) polygon_file_warn(f, c, path);
     return 0;
 }
 
-int polygon_file_read(polygon_file *f, const polygon_file_settings *settings, const common_settings *common)
+int polygon_file_read(polygon_file *f, const polygon_file_settings *settings,
+                      const common_settings *common)
 {
     mw_constraint_file c;
     *f = (polygon_file){.values = {.list = settings->attribute}};
-    constraint_file_options options = {
-        .quiet = common->quiet,
-        .gdal = {.layer = settings->layer, .polygons = true, .values = settings->attribute ? &f->values : NULL}};
+    constraint_file_options options = {.quiet = common->quiet,
+                                       .gdal = {.layer = settings->layer,
+                                                .polygons = true,
+                                                .values = settings->attribute ? &f->values : NULL}};
     int end = constraint_file_read(settings->path, options, &c);
     if (end) return end;
     end = rings_take(&c, settings->path, common);
@@ -182,7 +189,8 @@ void polygon_file_release(polygon_file *f)
 
 /* --- queries ---------------------------------------------------------------------------------- */
 
-static size_t hits_join(const polygon_file *f, const mw_polygon_hit *found, size_t count, feature_hit *hits)
+static size_t hits_join(const polygon_file *f, const mw_polygon_hit *found, size_t count,
+                        feature_hit *hits)
 {
     size_t made = 0;
     for (size_t i = 0; i < count; i++) {

@@ -23,8 +23,8 @@ static bool set_is_wanted(const query_columns *wanted, const mw_axis_names *set)
     return wanted->axes == QUERY_LONLAT ? set->lonlat : wanted->axes == QUERY_PLANE || !set->lonlat;
 }
 
-/* Decide whether the first columns of a table without any others can be taken in their order: they are
- * the coordinates of a set, or no name of theirs is known at all. */
+/* Decide whether the first columns of a table without any others can be taken in their order: they
+ * are the coordinates of a set, or no name of theirs is known at all. */
 static bool columns_are_in_order(const query_columns *wanted, const mw_point_table *table)
 {
     const mw_axis_names *set;
@@ -34,7 +34,8 @@ static bool columns_are_in_order(const query_columns *wanted, const mw_point_tab
         size_t matches = 0;
         for (size_t k = 0; k < count; k++) {
             matches += (size_t)mw_axis_name_matches(table->names[k], set->axis[k]);
-            for (int axis = 0; axis < 3; axis++) known |= mw_axis_name_matches(table->names[k], set->axis[axis]) != 0;
+            for (int axis = 0; axis < 3; axis++)
+                known |= mw_axis_name_matches(table->names[k], set->axis[axis]) != 0;
         }
         if (matches == count && set_is_wanted(wanted, set)) return true;
     }
@@ -42,7 +43,8 @@ static bool columns_are_in_order(const query_columns *wanted, const mw_point_tab
 }
 
 /* Find the column of that name; of several the first, and *doubled is set. */
-static bool column_find(const mw_point_table *table, const char *name, size_t k, found_columns *found)
+static bool column_find(const mw_point_table *table, const char *name, size_t k,
+                        found_columns *found)
 {
     size_t matches = 0;
     for (size_t i = 0; i < table->column_count; i++) {
@@ -56,20 +58,22 @@ static bool column_find(const mw_point_table *table, const char *name, size_t k,
     return matches > 0;
 }
 
-static bool columns_find_set(const query_columns *wanted, const mw_point_table *table, const mw_axis_names *set,
-                             found_columns *found)
+static bool columns_find_set(const query_columns *wanted, const mw_point_table *table,
+                             const mw_axis_names *set, found_columns *found)
 {
     *found = (found_columns){0};
     if (!set_is_wanted(wanted, set)) return false;
     for (size_t k = 0; k < wanted->count; k++)
-        if (!column_find(table, k < coordinate_count(wanted) ? set->axis[k] : wanted->names[k], k, found)) return false;
+        if (!column_find(table, k < coordinate_count(wanted) ? set->axis[k] : wanted->names[k], k,
+                         found))
+            return false;
     return true;
 }
 
-/* How many sets of names fit, of the preferred ones: 0, 1 or 2, which stands for more. The first two
- * are kept. */
-static size_t columns_find_sets(const query_columns *wanted, const mw_point_table *table, query_preference prefer,
-                                found_columns found[2])
+/* How many sets of names fit, of the preferred ones: 0, 1 or 2, which stands for more. The first
+ * two are kept. */
+static size_t columns_find_sets(const query_columns *wanted, const mw_point_table *table,
+                                query_preference prefer, found_columns found[2])
 {
     const mw_axis_names *set;
     size_t count = 0;
@@ -82,7 +86,8 @@ static size_t columns_find_sets(const query_columns *wanted, const mw_point_tabl
 }
 
 /* What is preferred counts only where several sets fit. */
-static size_t columns_find_clear(const query_columns *wanted, const mw_point_table *table, found_columns found[2])
+static size_t columns_find_clear(const query_columns *wanted, const mw_point_table *table,
+                                 found_columns found[2])
 {
     found_columns preferred[2];
     size_t count = columns_find_sets(wanted, table, PREFER_NOTHING, found);
@@ -96,7 +101,9 @@ bool query_names_are_lonlat(const char *x, const char *y)
 {
     const mw_axis_names *set;
     for (size_t s = 0; x && y && (set = mw_axis_names_at(s)); s++)
-        if (set->lonlat && mw_axis_name_matches(x, set->axis[0]) && mw_axis_name_matches(y, set->axis[1])) return true;
+        if (set->lonlat && mw_axis_name_matches(x, set->axis[0]) &&
+            mw_axis_name_matches(y, set->axis[1]))
+            return true;
     return false;
 }
 
@@ -167,7 +174,8 @@ static int columns_fail_few(const query_columns *wanted, const char *file, size_
 }
 
 /* Why the columns are not clear: which of the table fit, if any. */
-static void text_column_doubts(text *t, const query_columns *wanted, const found_columns found[2], size_t count)
+static void text_column_doubts(text *t, const query_columns *wanted, const found_columns found[2],
+                               size_t count)
 {
     if (count > 1) {
         text_string(t, "Both ");
@@ -182,8 +190,9 @@ static void text_column_doubts(text *t, const query_columns *wanted, const found
     }
 }
 
-static int columns_fail_unclear(const query_columns *wanted, const char *file, const mw_point_table *table,
-                                const found_columns found[2], size_t count)
+static int columns_fail_unclear(const query_columns *wanted, const char *file,
+                                const mw_point_table *table, const found_columns found[2],
+                                size_t count)
 {
     text t = {0};
     text_printf(&t, "%s: which of its %zu columns are ", file, table->column_count);
@@ -203,7 +212,8 @@ static int columns_fail_unclear(const query_columns *wanted, const char *file, c
 
 /* --- the search ------------------------------------------------------------------------------- */
 
-static int columns_check_chosen(const query_columns *wanted, const mw_point_reader *reader, size_t *index)
+static int columns_check_chosen(const query_columns *wanted, const mw_point_reader *reader,
+                                size_t *index)
 {
     size_t width = mw_point_reader_width(reader);
     if (width != wanted->count) return columns_fail_count(wanted, width);
@@ -221,11 +231,12 @@ int query_columns_check_points(const char *path, const mw_point_reader *reader)
     size_t count = columns_find_sets(&wanted, &table, PREFER_NOTHING, found);
     bool few = table.column_count <= 3 && columns_are_in_order(&wanted, &table);
     if (!table.names || (count == 1 && !found[0].doubled) || (count == 0 && few)) return 0;
-    return columns_fail_unclear(&wanted, files_is_standard(path) ? "standard input" : path, &table, found, count);
+    return columns_fail_unclear(&wanted, files_is_standard(path) ? "standard input" : path, &table,
+                                found, count);
 }
 
-int query_columns_find(const query_columns *wanted, const char *path, mw_point_reader *reader, bool chosen,
-                       size_t index[MAX_QUERY_COLUMNS], bool *lonlat)
+int query_columns_find(const query_columns *wanted, const char *path, mw_point_reader *reader,
+                       bool chosen, size_t index[MAX_QUERY_COLUMNS], bool *lonlat)
 {
     mw_error error;
     mw_point_table table;
@@ -240,13 +251,17 @@ int query_columns_find(const query_columns *wanted, const char *path, mw_point_r
         return end;
     }
     const char *file = files_is_standard(path) ? "standard input" : path;
-    if (table.column_count < wanted->count) return columns_fail_few(wanted, file, table.column_count);
+    if (table.column_count < wanted->count)
+        return columns_fail_few(wanted, file, table.column_count);
     bool first = !table.names && wanted->count <= 3 && path_says_xyz(path);
     size_t count = columns_find_clear(wanted, &table, found);
     if (count == 1 && !found[0].doubled)
         memcpy(index, found[0].index, wanted->count * sizeof *index);
-    else if (!first && (count > 0 || table.column_count > wanted->count || !columns_are_in_order(wanted, &table)))
+    else if (!first && (count > 0 || table.column_count > wanted->count ||
+                        !columns_are_in_order(wanted, &table)))
         return columns_fail_unclear(wanted, file, &table, found, count);
     *lonlat = columns_are_lonlat(&table, index);
-    return mw_point_reader_select(reader, index, wanted->count, &error) == MW_OK ? 0 : fail_reading(&error);
+    return mw_point_reader_select(reader, index, wanted->count, &error) == MW_OK
+               ? 0
+               : fail_reading(&error);
 }

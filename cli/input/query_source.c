@@ -12,8 +12,9 @@ struct query_source {
     bool lonlat;
 };
 
-static int source_open_table(query_source *s, const char *path, const query_source_settings *settings,
-                             const query_columns *wanted, size_t *index)
+static int source_open_table(query_source *s, const char *path,
+                             const query_source_settings *settings, const query_columns *wanted,
+                             size_t *index)
 {
     mw_error error;
     mw_point_reader_options options = {.columns = settings->columns, .table = 1};
@@ -22,12 +23,14 @@ static int source_open_table(query_source *s, const char *path, const query_sour
         complain("option '--%s' is for files that GDAL reads, not for tables", option);
         return END_USAGE;
     }
-    if (mw_point_reader_open(path, &options, &s->reader, &error) != MW_OK) return fail_reading(&error);
+    if (mw_point_reader_open(path, &options, &s->reader, &error) != MW_OK)
+        return fail_reading(&error);
     return query_columns_find(wanted, path, s->reader, settings->columns, index, &s->lonlat);
 }
 
-static int source_open_points(query_source *s, const char *path, const query_source_settings *settings,
-                              const query_columns *wanted, size_t *index)
+static int source_open_points(query_source *s, const char *path,
+                              const query_source_settings *settings, const query_columns *wanted,
+                              size_t *index)
 {
     mw_point_table table;
     if (settings->columns) {
@@ -45,8 +48,9 @@ static int source_open_points(query_source *s, const char *path, const query_sou
     return END_INPUT;
 }
 
-int query_source_open(query_source **source, const char *path, const query_source_settings *settings,
-                      const query_columns *wanted, size_t index[MAX_QUERY_COLUMNS])
+int query_source_open(query_source **source, const char *path,
+                      const query_source_settings *settings, const query_columns *wanted,
+                      size_t index[MAX_QUERY_COLUMNS])
 {
     query_source *s = *source = calloc(1, sizeof *s);
     if (!s) return fail_memory();
@@ -90,7 +94,9 @@ int query_source_read(query_source *s, double *values, size_t capacity, size_t *
 {
     mw_error error;
     if (s->points) return gdal_points_read(s->points, values, s->width, capacity, count);
-    return mw_point_reader_read(s->reader, values, capacity, count, &error) == MW_OK ? 0 : fail_reading(&error);
+    return mw_point_reader_read(s->reader, values, capacity, count, &error) == MW_OK
+               ? 0
+               : fail_reading(&error);
 }
 
 double query_source_fraction(const query_source *s)
@@ -100,5 +106,6 @@ double query_source_fraction(const query_source *s)
 
 const char *query_source_row(const query_source *s, size_t row, size_t *length)
 {
-    return s->points ? gdal_points_row(s->points, row, length) : mw_point_reader_row(s->reader, row, length);
+    return s->points ? gdal_points_row(s->points, row, length)
+                     : mw_point_reader_row(s->reader, row, length);
 }

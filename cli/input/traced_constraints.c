@@ -50,7 +50,8 @@ static bool is_ahead(const double a[2], const double b[2], const double c[2])
 }
 
 /* The other end of the edge that runs from a vertex towards q. MW_NONE if there is no such edge. */
-static uint32_t tracer_edge_towards(const mw_mesh *mesh, const vertex_triangles *s, uint32_t vertex, const double q[2])
+static uint32_t tracer_edge_towards(const mw_mesh *mesh, const vertex_triangles *s, uint32_t vertex,
+                                    const double q[2])
 {
     double a[2], b[2];
     uint32_t v[3];
@@ -91,14 +92,16 @@ typedef struct constraint_tracer {
     vertex_triangles triangles;
 } constraint_tracer;
 
-static int tracer_fail_missing(const constraint_tracer *s, size_t segment, const char *what, const double at[2])
+static int tracer_fail_missing(const constraint_tracer *s, size_t segment, const char *what,
+                               const double at[2])
 {
     text place = {0};
     text_double(&place, at[0]);
     text_string(&place, " ");
     text_double(&place, at[1]);
-    complain("%s: %s %" PRIu32 ": %s %.*s is not in %s", s->path, s->file->record_name, s->file->record[segment], what,
-             (int)place.size, place.failed ? "" : place.bytes, s->mesh_path);
+    complain("%s: %s %" PRIu32 ": %s %.*s is not in %s", s->path, s->file->record_name,
+             s->file->record[segment], what, (int)place.size, place.failed ? "" : place.bytes,
+             s->mesh_path);
     text_release(&place);
     return END_INPUT;
 }
@@ -116,7 +119,8 @@ static uint32_t tracer_vertex_at(constraint_tracer *s, const double p[2])
 static int tracer_follow_segment(constraint_tracer *s, size_t segment, traced_constraints *traced)
 {
     const uint32_t *ends = s->file->segments + 2 * segment;
-    const double *p = s->file->points + 3 * (size_t)ends[0], *q = s->file->points + 3 * (size_t)ends[1];
+    const double *p = s->file->points + 3 * (size_t)ends[0],
+                 *q = s->file->points + 3 * (size_t)ends[1];
     uint32_t at = tracer_vertex_at(s, p), last = tracer_vertex_at(s, q), next;
     if (at == MW_NONE) return tracer_fail_missing(s, segment, "the vertex at", p);
     if (last == MW_NONE) return tracer_fail_missing(s, segment, "the vertex at", q);
@@ -135,22 +139,29 @@ static int tracer_follow_all(constraint_tracer *s, traced_constraints *traced)
     mw_error error;
     if (!vertex_triangles_make(&s->triangles, s->mesh)) return fail_memory();
     mw_locator_options options = {.threads = s->threads, .progress = progress_of_call()};
-    if (mw_locator_create(s->mesh, &options, &s->locator, &error) != MW_OK) return fail_mesh(s->mesh_path, &error);
-    int end = mw_cursor_init(s->locator, NULL, &s->cursor, &error) == MW_OK ? 0 : fail_query(&error);
-    for (size_t i = 0; end == 0 && i < s->file->segment_count; i++) end = tracer_follow_segment(s, i, traced);
+    if (mw_locator_create(s->mesh, &options, &s->locator, &error) != MW_OK)
+        return fail_mesh(s->mesh_path, &error);
+    int end =
+        mw_cursor_init(s->locator, NULL, &s->cursor, &error) == MW_OK ? 0 : fail_query(&error);
+    for (size_t i = 0; end == 0 && i < s->file->segment_count; i++)
+        end = tracer_follow_segment(s, i, traced);
     return end;
 }
 
-int traced_constraints_read(traced_constraints *traced, const char *path, const common_settings *common,
-                            const mw_mesh *mesh, const char *mesh_path, const char *mesh_crs)
+int traced_constraints_read(traced_constraints *traced, const char *path,
+                            const common_settings *common, const mw_mesh *mesh,
+                            const char *mesh_path, const char *mesh_crs)
 {
     mw_constraint_file file;
     *traced = (traced_constraints){0};
     int end = constraint_file_read(path, (constraint_file_options){.quiet = common->quiet}, &file);
     if (end) return end;
     progress_phase("preparing", mesh_path);
-    constraint_tracer s = {
-        .path = path, .mesh_path = mesh_path, .file = &file, .mesh = mesh, .threads = common->threads};
+    constraint_tracer s = {.path = path,
+                           .mesh_path = mesh_path,
+                           .file = &file,
+                           .mesh = mesh,
+                           .threads = common->threads};
     end = vertex_crs_move_constraints(common, path, &file, mesh_path, mesh_crs);
     if (end == 0) end = tracer_follow_all(&s, traced);
     mw_locator_destroy(s.locator);

@@ -87,7 +87,8 @@ typedef struct point_columns {
 
 static bool name_means_height(const char *name)
 {
-    static const char *const names[] = {"height", "elevation", "elev", "ele", "altitude", "alt", "h"};
+    static const char *const names[] = {"height",   "elevation", "elev", "ele",
+                                        "altitude", "alt",       "h"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (mw_axis_name_matches(name, names[i])) return true;
     return false;
@@ -101,7 +102,8 @@ static bool name_means_z(const char *name)
     return false;
 }
 
-/* The only one of the values from number 2 on whose name fits; SIZE_MAX if there is none, or several. */
+/* The only one of the values from number 2 on whose name fits; SIZE_MAX if there is none, or
+ * several. */
 static size_t columns_only(const mw_point_reader *reader, bool (*fits)(const char *name))
 {
     size_t found = SIZE_MAX, count = 0;
@@ -110,8 +112,9 @@ static size_t columns_only(const mw_point_reader *reader, bool (*fits)(const cha
     return count == 1 ? found : SIZE_MAX;
 }
 
-/* Which value is the height? The third of those that the user has chosen, or that have no names; else
- * one that is called z, or height; else the only one there is, if it follows x and y in the file. */
+/* Which value is the height? The third of those that the user has chosen, or that have no names;
+ * else one that is called z, or height; else the only one there is, if it follows x and y in the
+ * file. */
 static size_t columns_find_height(const mw_point_reader *reader, bool chosen)
 {
     mw_error error;
@@ -127,7 +130,8 @@ static size_t columns_find_height(const mw_point_reader *reader, bool chosen)
     return width == 3 && third > x && third > y ? 2 : SIZE_MAX;
 }
 
-/* Tell which columns become no fields since they hold texts, and where the first of these stands. */
+/* Tell which columns become no fields since they hold texts, and where the first of these stands.
+ * */
 static void columns_tell_texts(const point_columns *c)
 {
     enum { MOST = 6 };
@@ -138,13 +142,16 @@ static void columns_tell_texts(const point_columns *c)
         if (mw_point_reader_texts(c->reader, k, &line) == 0) continue;
         if (line < first) first = line;
         if (count++ < MOST)
-            text_printf(&names, "%s'%s'", count > 1 ? ", " : "", mw_point_reader_column(c->reader, k));
+            text_printf(&names, "%s'%s'", count > 1 ? ", " : "",
+                        mw_point_reader_column(c->reader, k));
         else if (count == MOST + 1)
             text_string(&names, ", ...");
     }
     if (count > 0 && !names.failed)
-        complain("%s: column%s %.*s become%s no field%s: texts stand there, the first in line %" PRId64, c->path,
-                 count > 1 ? "s" : "", (int)names.size, names.bytes, count > 1 ? "" : "s", count > 1 ? "s" : "", first);
+        complain(
+            "%s: column%s %.*s become%s no field%s: texts stand there, the first in line %" PRId64,
+            c->path, count > 1 ? "s" : "", (int)names.size, names.bytes, count > 1 ? "" : "s",
+            count > 1 ? "s" : "", first);
     text_release(&names);
 }
 
@@ -152,8 +159,9 @@ static int columns_fail_height(const point_columns *c)
 {
     int64_t line = 0;
     mw_point_reader_texts(c->reader, c->height, &line);
-    complain("%s:%" PRId64 ": column '%s', the height, holds no number there; --columns chooses another", c->path, line,
-             mw_point_reader_column(c->reader, c->height));
+    complain("%s:%" PRId64
+             ": column '%s', the height, holds no number there; --columns chooses another",
+             c->path, line, mw_point_reader_column(c->reader, c->height));
     return END_INPUT;
 }
 
@@ -164,7 +172,8 @@ static int point_rows_split(vertex_table *v, point_rows *r, const point_columns 
     size_t n = r->count, width = r->width;
     file->point_count = n;
     file->has_z = c->height != SIZE_MAX;
-    if (file->has_z && mw_point_reader_texts(c->reader, c->height, NULL) > 0) return columns_fail_height(c);
+    if (file->has_z && mw_point_reader_texts(c->reader, c->height, NULL) > 0)
+        return columns_fail_height(c);
     if (!c->quiet) columns_tell_texts(c);
     for (size_t k = 2; k < width; k++) {
         if (k == c->height || mw_point_reader_texts(c->reader, k, NULL) > 0) continue;
@@ -195,7 +204,8 @@ static int point_rows_take(vertex_table *v, point_columns *c, bool chosen)
     c->height = columns_find_height(c->reader, chosen);
     if (end == 0) end = point_rows_read(&r, c->reader);
     if (end == 0) end = point_rows_split(v, &r, c);
-    if (end == 0 && c->height != SIZE_MAX && !(v->height_name = strdup(mw_point_reader_column(c->reader, c->height))))
+    if (end == 0 && c->height != SIZE_MAX &&
+        !(v->height_name = strdup(mw_point_reader_column(c->reader, c->height))))
         end = fail_memory();
     free(r.values);
     return end;
@@ -205,13 +215,16 @@ int vertex_table_read(vertex_table *v, const char *path, const vertex_table_opti
 {
     mw_error error;
     mw_point_reader_options options = {.columns = how->columns, .texts = 1};
-    point_columns c = {.path = files_is_standard(path) ? "standard input" : path, .quiet = how->quiet};
+    point_columns c = {.path = files_is_standard(path) ? "standard input" : path,
+                       .quiet = how->quiet};
     int end = how->classes ? las_classes_parse(how->classes, options.classes) : 0;
     if (end) return end;
     progress_phase("reading", path);
-    if (mw_point_reader_open(path, &options, &c.reader, &error) != MW_OK) return fail_reading(&error);
+    if (mw_point_reader_open(path, &options, &c.reader, &error) != MW_OK)
+        return fail_reading(&error);
     end = point_rows_take(v, &c, how->columns != NULL);
-    v->lonlat = query_names_are_lonlat(mw_point_reader_column(c.reader, 0), mw_point_reader_column(c.reader, 1));
+    v->lonlat = query_names_are_lonlat(mw_point_reader_column(c.reader, 0),
+                                       mw_point_reader_column(c.reader, 1));
     const char *crs = mw_point_reader_crs(c.reader);
     if (end == 0 && crs && !(v->file.crs = strdup(crs))) end = fail_memory();
     mw_point_reader_close(c.reader);
@@ -259,15 +272,18 @@ int vertex_table_append(vertex_table *v, mw_constraint_file *constraints)
         return END_RESOURCE;
     }
     if (!vertex_table_extend(file, count)) return fail_memory();
-    if (count > 0) memcpy(file->points + 3 * first, constraints->points, count * 3 * sizeof(double));
+    if (count > 0)
+        memcpy(file->points + 3 * first, constraints->points, count * 3 * sizeof(double));
     for (size_t f = 0; f < constraints->field_count; f++) {
         double *field = mesh_file_field_named(file, constraints->field_names[f]);
         if (!field) return fail_memory();
         memcpy(field + first, constraints->fields[f], count * sizeof(double));
     }
-    for (size_t i = 0; constraints->has_z && !v->point_heights && i < first; i++) file->points[3 * i + 2] = NAN;
+    for (size_t i = 0; constraints->has_z && !v->point_heights && i < first; i++)
+        file->points[3 * i + 2] = NAN;
     file->has_z = file->has_z || constraints->has_z;
-    for (size_t i = 0; i < 2 * constraints->segment_count; i++) constraints->segments[i] += (uint32_t)first;
+    for (size_t i = 0; i < 2 * constraints->segment_count; i++)
+        constraints->segments[i] += (uint32_t)first;
     return 0;
 }
 

@@ -41,7 +41,8 @@ static bool peeler_create(peeler *p, const mw_constrained_edges *edges)
     p->queue = malloc((triangles + 1) * sizeof *p->queue);
     p->gone = calloc(triangles + 1, 1);
     if (!p->fixed || !p->queue || !p->gone) return false;
-    for (size_t i = 0; i < edges->count; i++) p->fixed[i] = peel_edge_of(edges->edge[2 * i], edges->edge[2 * i + 1]);
+    for (size_t i = 0; i < edges->count; i++)
+        p->fixed[i] = peel_edge_of(edges->edge[2 * i], edges->edge[2 * i + 1]);
     qsort(p->fixed, p->fixed_count, sizeof *p->fixed, compare_peel_edges);
     return true;
 }
@@ -100,8 +101,8 @@ static bool peeler_apply(const peeler *p, mw_mesh_file *file, border_peel *peel)
     return true;
 }
 
-int border_peel_off(const mw_mesh *mesh, double longest, const mw_constrained_edges *edges, mw_mesh_file *file,
-                    border_peel *peel)
+int border_peel_off(const mw_mesh *mesh, double longest, const mw_constrained_edges *edges,
+                    mw_mesh_file *file, border_peel *peel)
 {
     peeler p = {.mesh = mesh, .longest = longest};
     *peel = (border_peel){0};

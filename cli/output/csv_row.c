@@ -74,7 +74,8 @@ void csv_row_status(text *out, const char *status, uint32_t triangle)
 
 void csv_row_weights(text *out, uint32_t triangle, const double weight[3])
 {
-    for (int k = 0; k < 3; k++) csv_row_double(out, triangle != MW_NONE && !isnan(weight[k]), weight[k]);
+    for (int k = 0; k < 3; k++)
+        csv_row_double(out, triangle != MW_NONE && !isnan(weight[k]), weight[k]);
 }
 
 void csv_row_adapt(text *out, size_t begin, char separator, char decimal)

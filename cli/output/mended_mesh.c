@@ -17,15 +17,16 @@ static const char *repair_name(int i)
 }
 static const char *repair_help(int i)
 {
-    return (const char *[]){"make one of coincident vertices, or of those within --tolerance",
-                            "turn triangles, so that all go the same way",
-                            "drop unusable and duplicate triangles, and with split those without an area",
-                            "split triangles where a vertex of others lies inside a border edge", "all of these"}[i];
+    return (const char *[]){
+        "make one of coincident vertices, or of those within --tolerance",
+        "turn triangles, so that all go the same way",
+        "drop unusable and duplicate triangles, and with split those without an area",
+        "split triangles where a vertex of others lies inside a border edge", "all of these"}[i];
 }
 const choices mend_repairs = {"repair", repair_name, repair_help};
 
-static const uint32_t repair_bits[] = {MW_REPAIR_WELD, MW_REPAIR_ORIENT, MW_REPAIR_DROP, MW_REPAIR_SPLIT,
-                                       MW_REPAIR_ALL};
+static const uint32_t repair_bits[] = {MW_REPAIR_WELD, MW_REPAIR_ORIENT, MW_REPAIR_DROP,
+                                       MW_REPAIR_SPLIT, MW_REPAIR_ALL};
 
 static int repair_parse(const char *word, uint32_t *repairs)
 {
@@ -59,8 +60,8 @@ int mended_mesh_parse(const char *list, uint32_t *repairs)
 
 /* --- values --- */
 
-static bool lost_value_note(mended_mesh *m, size_t field, uint32_t vertex, uint32_t kept, double value,
-                            double kept_value)
+static bool lost_value_note(mended_mesh *m, size_t field, uint32_t vertex, uint32_t kept,
+                            double value, double kept_value)
 {
     if (value == kept_value || (isnan(value) && isnan(kept_value))) return true;
     if ((m->lost_count & (m->lost_count - 1)) == 0) { /* room for a power of two */
@@ -81,10 +82,13 @@ static bool mended_mesh_find_lost(mended_mesh *m, const mw_mesh_file *file, bool
         if (c->kind != MW_MEND_WELDED) continue;
         size_t v = c->vertex, kept = c->other;
         const double *p = file->points;
-        if (file->has_z && !space && !lost_value_note(m, SIZE_MAX, c->vertex, c->other, p[3 * v + 2], p[3 * kept + 2]))
+        if (file->has_z && !space &&
+            !lost_value_note(m, SIZE_MAX, c->vertex, c->other, p[3 * v + 2], p[3 * kept + 2]))
             return false;
         for (size_t f = 0; f < file->field_count; f++)
-            if (!lost_value_note(m, f, c->vertex, c->other, file->fields[f][v], file->fields[f][kept])) return false;
+            if (!lost_value_note(m, f, c->vertex, c->other, file->fields[f][v],
+                                 file->fields[f][kept]))
+                return false;
     }
     return true;
 }
@@ -95,17 +99,20 @@ static void mended_mesh_move_values(const mended_mesh *m, mw_mesh_file *file)
     const uint32_t *from = m->mended.vertex_from;
     for (size_t i = 0; i < m->mended.vertex_count; i++) {
         memmove(file->points + 3 * i, file->points + 3 * (size_t)from[i], 3 * sizeof(double));
-        for (size_t f = 0; f < file->field_count; f++) file->fields[f][i] = file->fields[f][from[i]];
+        for (size_t f = 0; f < file->field_count; f++)
+            file->fields[f][i] = file->fields[f][from[i]];
     }
 }
 
-int mended_mesh_create(mended_mesh *m, const char *path, mw_mesh_file *file, const mw_mend_options *options)
+int mended_mesh_create(mended_mesh *m, const char *path, mw_mesh_file *file,
+                       const mw_mend_options *options)
 {
     mw_error error;
     mw_arrays arrays = mw_mesh_file_arrays(file);
     *m = (mended_mesh){.old_vertices = file->point_count, .old_triangles = file->triangle_count};
     progress_phase("mending", path);
-    if (mw_mend_arrays(&arrays, options, &m->mended, &error) != MW_OK) return fail_mesh(path, &error);
+    if (mw_mend_arrays(&arrays, options, &m->mended, &error) != MW_OK)
+        return fail_mesh(path, &error);
     if (!mended_mesh_find_lost(m, file, options->space)) return fail_memory();
     mended_mesh_move_values(m, file);
     free(file->triangles);
@@ -214,8 +221,8 @@ void mended_mesh_sum_up(const mended_mesh *m, const char *path, text *t)
                 "%s: vertices: %zu welded, %zu of %zu left; triangles: %zu dropped, %zu split, %zu "
                 "turned, %zu "
                 "made of %zu",
-                path, count[MW_MEND_WELDED], m->mended.vertex_count, m->old_vertices, dropped, split,
-                count[MW_MEND_TURNED], m->mended.triangle_count, m->old_triangles);
+                path, count[MW_MEND_WELDED], m->mended.vertex_count, m->old_vertices, dropped,
+                split, count[MW_MEND_TURNED], m->mended.triangle_count, m->old_triangles);
     if (m->lost_count > 0) text_printf(t, "; values lost: %zu", m->lost_count);
     text_string(t, "\n");
 }

@@ -31,7 +31,8 @@ int mended_mesh_parse(const char *list, uint32_t *repairs);
 
 /* Mend the mesh of `file`, read from `path`, in place. Returns 0, or an exit code after a
  * complaint. Release in either case. */
-int mended_mesh_create(mended_mesh *m, const char *path, mw_mesh_file *file, const mw_mend_options *options);
+int mended_mesh_create(mended_mesh *m, const char *path, mw_mesh_file *file,
+                       const mw_mend_options *options);
 void mended_mesh_release(mended_mesh *m);
 
 /* Write what was done, a line for each change, or the members "changes" and "lost" of a JSON

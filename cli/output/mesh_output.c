@@ -66,14 +66,17 @@ static bool format_holds_fields(const char *format)
 
 void mesh_output_warn(const char *output, int format, const mw_mesh_file *file)
 {
-    const char *name = format == FORMAT_BY_ENDING ? strrchr(output, '.') + 1 : mesh_format_name(format);
+    const char *name =
+        format == FORMAT_BY_ENDING ? strrchr(output, '.') + 1 : mesh_format_name(format);
     if (file->field_count == 0 || format_holds_fields(name)) return;
-    complain("%s: warning: the format %s has no place for fields: %s%s%s not written; ply and node have one", output,
-             name, file->field_names[0], file->field_count > 1 ? " and others" : "",
+    complain("%s: warning: the format %s has no place for fields: %s%s%s not written; ply and node "
+             "have one",
+             output, name, file->field_names[0], file->field_count > 1 ? " and others" : "",
              file->field_count > 1 ? " are" : " is");
 }
 
-int mesh_output_write(const char *output, int format, const mw_mesh_file *file, bool temporary, bool quiet)
+int mesh_output_write(const char *output, int format, const mw_mesh_file *file, bool temporary,
+                      bool quiet)
 {
     mw_error error;
     bool ply = mesh_output_is_ply(output, format);
@@ -83,7 +86,8 @@ int mesh_output_write(const char *output, int format, const mw_mesh_file *file, 
     if (temporary) signals_hold(true);
     const mw_file_options watched = {.progress = progress_of_call()};
     mw_status status =
-        mw_write_mesh(output, file, format == FORMAT_BY_ENDING ? NULL : mesh_format_name(format), &watched, &error);
+        mw_write_mesh(output, file, format == FORMAT_BY_ENDING ? NULL : mesh_format_name(format),
+                      &watched, &error);
     if (temporary) signals_hold(false);
     if (status != MW_OK) return fail_writing(&error);
     return ply ? 0 : prj_output_write(output, file->crs, quiet);

@@ -19,9 +19,10 @@ bool mesh_output_is_node(const char *output, int format);
 /* Warn if the format has no place for the fields of the mesh, or for its heights. */
 void mesh_output_warn(const char *output, int format, const mw_mesh_file *file);
 
-/* Write the mesh, and beside a format that cannot hold its coordinate system a .prj file. `temporary`
- * is what files_try_output told; `quiet`: no remarks. Returns 0, or an exit code after a
- * complaint. */
-int mesh_output_write(const char *output, int format, const mw_mesh_file *file, bool temporary, bool quiet);
+/* Write the mesh, and beside a format that cannot hold its coordinate system a .prj file.
+ * `temporary` is what files_try_output told; `quiet`: no remarks. Returns 0, or an exit code after
+ * a complaint. */
+int mesh_output_write(const char *output, int format, const mw_mesh_file *file, bool temporary,
+                      bool quiet);
 
 #endif

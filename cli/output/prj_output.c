@@ -29,22 +29,24 @@ static bool output_owns_prj(const char *output)
 {
     char shape[4096];
     struct stat s;
-    return stat(output, &s) == 0 && output_name_beside(output, ".shp", shape, sizeof shape) && stat(shape, &s) != 0;
+    return stat(output, &s) == 0 && output_name_beside(output, ".shp", shape, sizeof shape) &&
+           stat(shape, &s) != 0;
 }
 
 int prj_output_check(const char *output, const char *crs, bool quiet)
 {
     mw_error error;
     char name[4096], names[2][CRS_NAME], *beside = NULL;
-    if (!output_has_neighbours(output) || !output_name_beside(output, ".prj", name, sizeof name)) return 0;
+    if (!output_has_neighbours(output) || !output_name_beside(output, ".prj", name, sizeof name))
+        return 0;
     if (mw_read_prj(output, &beside, &error) != MW_OK) return fail_reading(&error);
     int end = 0;
     if (beside && !crs && !quiet) {
         complain("%s: warning: %s beside it says %s, and its own system is not known", output, name,
                  crs_name(beside, names[0]));
     } else if (beside && crs && !crs_same(beside, crs) && !output_owns_prj(output)) {
-        complain("%s: is in %s, but %s, which is there already, says %s: choose another output", output,
-                 crs_name(crs, names[0]), name, crs_name(beside, names[1]));
+        complain("%s: is in %s, but %s, which is there already, says %s: choose another output",
+                 output, crs_name(crs, names[0]), name, crs_name(beside, names[1]));
         end = END_RESOURCE;
     }
     free(beside);
@@ -55,14 +57,18 @@ int prj_output_write(const char *output, const char *crs, bool quiet)
 {
     mw_error error;
     char name[4096], *beside = NULL;
-    if (!crs || !output_has_neighbours(output) || !output_name_beside(output, ".prj", name, sizeof name)) return 0;
+    if (!crs || !output_has_neighbours(output) ||
+        !output_name_beside(output, ".prj", name, sizeof name))
+        return 0;
     if (mw_read_prj(output, &beside, &error) != MW_OK) return fail_reading(&error);
     bool same = beside && crs_same(beside, crs);
     free(beside);
     char *wkt = same ? NULL : crs_wkt(crs);
     if (!wkt) {
         if (!same && !quiet)
-            complain("%s: remark: its system, %.60s, is not written beside it: it cannot be told as WKT", output, crs);
+            complain(
+                "%s: remark: its system, %.60s, is not written beside it: it cannot be told as WKT",
+                output, crs);
         return 0;
     }
     text t = {0};

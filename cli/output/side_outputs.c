@@ -11,8 +11,8 @@ static bool side_output_is_same(const char *one, const char *other)
     return files_same_output(one, other);
 }
 
-int side_outputs_check(const side_output *files, size_t count, const char *main_output, const char *const *inputs,
-                       int input_count)
+int side_outputs_check(const side_output *files, size_t count, const char *main_output,
+                       const char *const *inputs, int input_count)
 {
     for (size_t i = 0; i < count; i++) {
         if (!files[i].path) continue;
@@ -20,7 +20,8 @@ int side_outputs_check(const side_output *files, size_t count, const char *main_
         if (end) return end;
         const char *other = side_output_is_same(files[i].path, main_output) ? "output" : NULL;
         for (size_t k = 0; k < i && !other; k++)
-            if (files[k].path && side_output_is_same(files[i].path, files[k].path)) other = files[k].option;
+            if (files[k].path && side_output_is_same(files[i].path, files[k].path))
+                other = files[k].option;
         if (!other) continue;
         complain("--%s and --%s cannot both go to %s", other, files[i].option,
                  files_is_standard(files[i].path) ? "standard output" : files[i].path);
@@ -35,7 +36,8 @@ int side_outputs_open(side_output *files, size_t count)
     signals_set_temporary(NULL);
     for (size_t i = 0; i < count; i++) {
         if (!files[i].path) continue;
-        if (mw_output_open(files[i].path, &files[i].out, &error) != MW_OK) return fail_writing(&error);
+        if (mw_output_open(files[i].path, &files[i].out, &error) != MW_OK)
+            return fail_writing(&error);
         signals_add_temporary(mw_output_temporary(files[i].out));
     }
     return 0;
@@ -46,7 +48,8 @@ int side_outputs_close(side_output *files, size_t count, bool commit)
     mw_error error;
     int end = 0;
     for (size_t i = 0; i < count; i++) {
-        if (mw_output_close(files[i].out, commit && end == 0, &error) != MW_OK) end = fail_writing(&error);
+        if (mw_output_close(files[i].out, commit && end == 0, &error) != MW_OK)
+            end = fail_writing(&error);
         files[i].out = NULL;
     }
     signals_set_temporary(NULL);

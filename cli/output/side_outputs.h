@@ -14,8 +14,8 @@ typedef struct side_output {
 
 /* Refuse a side output that is an input, the main output or another side output. Returns 0, or
  * END_USAGE after a complaint. */
-int side_outputs_check(const side_output *files, size_t count, const char *main_output, const char *const *inputs,
-                       int input_count);
+int side_outputs_check(const side_output *files, size_t count, const char *main_output,
+                       const char *const *inputs, int input_count);
 
 /* Open the requested ones, at most MAX_TEMPORARIES; close them also if opening failed. Both return
  * 0, or an exit code after a complaint. */

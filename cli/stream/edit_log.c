@@ -12,7 +12,8 @@ static void edit_log_write_line(edit_log *log, const mw_edit_line *line)
 
 static void edit_log_write_oldest(edit_log *log)
 {
-    edit_log_write_line(log, &(mw_edit_line){.kind = MW_EDIT_LINE_EDIT, .edit = log->edit[log->first]});
+    edit_log_write_line(log,
+                        &(mw_edit_line){.kind = MW_EDIT_LINE_EDIT, .edit = log->edit[log->first]});
     log->first = (log->first + 1) % log->room;
     log->count--;
 }

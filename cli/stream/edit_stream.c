@@ -34,12 +34,13 @@ static const char *input_name(const char *path)
 }
 
 /* The editor refuses a line. */
-static int edit_stream_refuse(edit_stream *s, const char *path, const mw_edit_line *line, const char *kind,
-                              const mw_error *error)
+static int edit_stream_refuse(edit_stream *s, const char *path, const mw_edit_line *line,
+                              const char *kind, const mw_error *error)
 {
     char message[1024];
     if (error->status == MW_ERROR_MEMORY) return fail_memory();
-    snprintf(message, sizeof message, "%.400s:%" PRId64 ": %s: %s", input_name(path), line->line, kind, error->message);
+    snprintf(message, sizeof message, "%.400s:%" PRId64 ": %s: %s", input_name(path), line->line,
+             kind, error->message);
     if (error->status == MW_ERROR_INPUT) return edit_stream_skip(s, message);
     complain("%s", message);
     return END_RESOURCE;
@@ -55,7 +56,8 @@ static void change_write_triangles(text *row, const mw_change *c, size_t first, 
         text_printf(row, i > first ? " %" PRIu32 : "%" PRIu32, c->triangle[i].triangle);
 }
 
-static void edit_stream_write_change(edit_stream *s, int64_t line, const char *kind, const mw_change *c)
+static void edit_stream_write_change(edit_stream *s, int64_t line, const char *kind,
+                                     const mw_change *c)
 {
     text *row = &s->row;
     if (!s->output[EDIT_STREAM_CHANGES].out) return;
@@ -91,19 +93,22 @@ static int edit_stream_undo(edit_stream *s, const char *path, const mw_edit_line
 {
     mw_error error;
     mw_change change = {.vertex = MW_NONE};
-    if (mw_edit_undo(s->editor, &change, &error) != MW_OK) return edit_stream_refuse(s, path, line, "undo", &error);
+    if (mw_edit_undo(s->editor, &change, &error) != MW_OK)
+        return edit_stream_refuse(s, path, line, "undo", &error);
     s->undone++;
     edit_stream_write_change(s, line->line, "undo", &change);
     edit_log_undo(&s->log);
     return 0;
 }
 
-static int edit_stream_fail_no_answers(const edit_stream *s, const char *path, const mw_edit_line *line)
+static int edit_stream_fail_no_answers(const edit_stream *s, const char *path,
+                                       const mw_edit_line *line)
 {
     const char *taken = "output";
     for (int i = 0; i < EDIT_STREAM_OUTPUTS; i++)
         if (s->output[i].path && files_is_standard(s->output[i].path)) taken = s->output[i].option;
-    complain("%s:%" PRId64 ": standard output is taken by --%s: --answers FILE tells where answers go",
+    complain("%s:%" PRId64
+             ": standard output is taken by --%s: --answers FILE tells where answers go",
              input_name(path), line->line, taken);
     return END_USAGE;
 }
@@ -111,7 +116,8 @@ static int edit_stream_fail_no_answers(const edit_stream *s, const char *path, c
 static void edit_stream_write_answer_header(edit_stream *s)
 {
     if (s->headed || !s->output[EDIT_STREAM_ANSWERS].out) return;
-    text_string(&s->row, s->heights != MW_NONE ? "x,y,status,triangle,w0,w1,w2,z\n" : "x,y,status,triangle,w0,w1,w2\n");
+    text_string(&s->row, s->heights != MW_NONE ? "x,y,status,triangle,w0,w1,w2,z\n"
+                                               : "x,y,status,triangle,w0,w1,w2\n");
     edit_stream_write_row(s, EDIT_STREAM_ANSWERS);
     s->headed = true;
 }
@@ -162,8 +168,8 @@ static void number_table_release(number_table *n)
     free(n->vertex);
 }
 
-static void number_table_write_rows(edit_stream *s, int64_t line, const char *what, const uint32_t *number,
-                                    uint32_t count)
+static void number_table_write_rows(edit_stream *s, int64_t line, const char *what,
+                                    const uint32_t *number, uint32_t count)
 {
     text *row = &s->row;
     for (uint32_t i = 0; i < count; i++) {
@@ -209,7 +215,8 @@ int edit_stream_mesh(edit_stream *s, mw_mesh **mesh)
     mw_error error;
     number_table n;
     int end = number_table_make(s, &n) ? 0 : fail_memory();
-    if (end == 0 && mw_editor_mesh(s->editor, n.triangle, n.vertex, mesh, &error) != MW_OK) end = fail_query(&error);
+    if (end == 0 && mw_editor_mesh(s->editor, n.triangle, n.vertex, mesh, &error) != MW_OK)
+        end = fail_query(&error);
     if (end == 0) number_table_write(s, 0, &n);
     number_table_release(&n);
     return end;
@@ -229,7 +236,8 @@ static int edit_stream_execute(edit_stream *s, const char *path, const mw_edit_l
 }
 
 /* Read and execute one line. Sets *more to whether there was a line, good or bad. */
-static int edit_stream_next_line(edit_stream *s, const char *path, mw_edit_reader *reader, bool *more)
+static int edit_stream_next_line(edit_stream *s, const char *path, mw_edit_reader *reader,
+                                 bool *more)
 {
     mw_error error;
     mw_edit_line line;
@@ -257,8 +265,10 @@ int edit_stream_run(edit_stream *s, const char *path)
     mw_edit_reader *reader;
     int end = 0;
     progress_phase("editing", path);
-    if (mw_edit_reader_open(path, &s->fields, &reader, &error) != MW_OK) return fail_reading(&error);
-    s->log = (edit_log){.out = s->output[EDIT_STREAM_LOG].out, .fields = &s->fields, .undo = s->undo};
+    if (mw_edit_reader_open(path, &s->fields, &reader, &error) != MW_OK)
+        return fail_reading(&error);
+    s->log =
+        (edit_log){.out = s->output[EDIT_STREAM_LOG].out, .fields = &s->fields, .undo = s->undo};
     edit_stream_write_headers(s);
     for (bool more = true; more && end == 0;) {
         end = edit_stream_next_line(s, path, reader, &more);

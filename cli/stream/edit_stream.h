@@ -9,7 +9,13 @@
 #include "cli/stream/statistics.h"
 
 /* The files written beside the mesh, by option. */
-enum { EDIT_STREAM_ANSWERS, EDIT_STREAM_CHANGES, EDIT_STREAM_LOG, EDIT_STREAM_NUMBERS, EDIT_STREAM_OUTPUTS };
+enum {
+    EDIT_STREAM_ANSWERS,
+    EDIT_STREAM_CHANGES,
+    EDIT_STREAM_LOG,
+    EDIT_STREAM_NUMBERS,
+    EDIT_STREAM_OUTPUTS
+};
 
 typedef struct edit_stream {
     mw_editor *editor;

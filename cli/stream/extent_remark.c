@@ -33,7 +33,8 @@ static bool extents_meet(const extent *a, const extent *b)
 /* The extent with its coordinates exchanged. */
 static extent extent_exchanged(const extent *e)
 {
-    return (extent){.low = {e->low[1], e->low[0]}, .high = {e->high[1], e->high[0]}, .count = e->count};
+    return (extent){
+        .low = {e->low[1], e->low[0]}, .high = {e->high[1], e->high[0]}, .count = e->count};
 }
 
 static extent extent_scaled(const extent *e, double factor)
@@ -71,39 +72,47 @@ static const char *extent_suspicion(const extent *mesh, const extent *points)
     if (degrees && !mesh_degrees) return "the points look like degrees, the mesh does not";
     if (mesh_degrees && !degrees && !extent_is_lonlat(&exchanged))
         return "the mesh looks like degrees, the points do not";
-    if (degrees && mesh_degrees && points->count < FEW) return NULL; /* small numbers meet by chance */
-    if (extents_meet(&exchanged, mesh)) return "with x and y exchanged they would meet: --columns tells which is which";
+    /* small numbers meet by chance */
+    if (degrees && mesh_degrees && points->count < FEW) return NULL;
+    if (extents_meet(&exchanged, mesh))
+        return "with x and y exchanged they would meet: --columns tells which is which";
     if (degrees && extents_meet(&east, mesh)) return "with 360 degrees more in x they would meet";
     if (degrees && extents_meet(&west, mesh)) return "with 360 degrees less in x they would meet";
-    if (extents_meet(&feet, mesh)) return "they would meet if the points were in feet and the mesh in metres";
-    if (extents_meet(&metres, mesh)) return "they would meet if the points were in metres and the mesh in feet";
+    if (extents_meet(&feet, mesh))
+        return "they would meet if the points were in feet and the mesh in metres";
+    if (extents_meet(&metres, mesh))
+        return "they would meet if the points were in metres and the mesh in feet";
     return NULL;
 }
 
 /* Write "x from 1 to 2, y from 3 to 4". */
 static const char *extent_write(const extent *e, char words[120])
 {
-    snprintf(words, 120, "x from %.10g to %.10g, y from %.10g to %.10g", e->low[0], e->high[0], e->low[1], e->high[1]);
+    snprintf(words, 120, "x from %.10g to %.10g, y from %.10g to %.10g", e->low[0], e->high[0],
+             e->low[1], e->high[1]);
     return words;
 }
 
-void extent_remark(const char *mesh_path, const extent *mesh, const char *points_path, const extent *points,
-                   uint64_t found)
+void extent_remark(const char *mesh_path, const extent *mesh, const char *points_path,
+                   const extent *points, uint64_t found)
 {
     if (points->count == 0 || mesh->count == 0 || 2 * found >= points->count) return;
     const char *suspicion = extent_suspicion(mesh, points);
     if (!suspicion && points->count < FEW) return;
     char of_mesh[120], of_points[120];
-    complain("%s: remark: %" PRIu64 " of %" PRIu64 " points lie outside of %s: the points have %s; the mesh has %s%s%s",
-             files_is_standard(points_path) ? "standard input" : points_path, points->count - found, points->count,
-             files_is_standard(mesh_path) ? "standard input" : mesh_path, extent_write(points, of_points),
-             extent_write(mesh, of_mesh), suspicion ? "; " : "", suspicion ? suspicion : "");
+    complain("%s: remark: %" PRIu64 " of %" PRIu64
+             " points lie outside of %s: the points have %s; the mesh has %s%s%s",
+             files_is_standard(points_path) ? "standard input" : points_path, points->count - found,
+             points->count, files_is_standard(mesh_path) ? "standard input" : mesh_path,
+             extent_write(points, of_points), extent_write(mesh, of_mesh), suspicion ? "; " : "",
+             suspicion ? suspicion : "");
 }
 
 static bool triangle_is_wide(const mw_mesh_file *file, const uint32_t *corner)
 {
     for (int k = 0; k < 3; k++) {
-        const double *a = file->points + 3 * (size_t)corner[k], *b = file->points + 3 * (size_t)corner[(k + 1) % 3];
+        const double *a = file->points + 3 * (size_t)corner[k],
+                     *b = file->points + 3 * (size_t)corner[(k + 1) % 3];
         if (fabs(a[0] - b[0]) > 180) return true;
     }
     return false;
@@ -113,9 +122,11 @@ void extent_warn_of_seam(const char *mesh_path, const extent *mesh, const mw_mes
 {
     size_t wide = 0;
     if (mesh->count == 0 || !extent_is_lonlat(mesh) || mesh->high[0] - mesh->low[0] <= 180) return;
-    for (size_t t = 0; t < file->triangle_count; t++) wide += triangle_is_wide(file, file->triangles + 3 * t);
+    for (size_t t = 0; t < file->triangle_count; t++)
+        wide += triangle_is_wide(file, file->triangles + 3 * t);
     if (wide == 0 || wide > file->triangle_count / 10) return;
-    complain("%s: warning: %zu of its triangles are wider than 180 degrees: in the plane a mesh cannot cross that "
+    complain("%s: warning: %zu of its triangles are wider than 180 degrees: in the plane a mesh "
+             "cannot cross that "
              "meridian; 'meshwalk star --lonlat' locates on the sphere",
              mesh_path, wide);
 }

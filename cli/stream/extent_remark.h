@@ -1,4 +1,5 @@
-/* extent_remark.h - compares where points lie with where the mesh lies, if most of them missed it. */
+/* extent_remark.h - compares where points lie with where the mesh lies, if most of them missed it.
+ * */
 #ifndef MW_CLI_STREAM_EXTENT_REMARK_H
 #define MW_CLI_STREAM_EXTENT_REMARK_H
 
@@ -12,18 +13,19 @@ typedef struct extent {
     uint64_t count;
 } extent;
 
-/* Add points in the plane: x and y at points[i * stride]. Those that are not finite are passed over. */
+/* Add points in the plane: x and y at points[i * stride]. Those that are not finite are passed
+ * over. */
 void extent_add(extent *e, const double *points, size_t count, size_t stride);
 
 /* Tell on standard error that most points lie outside of the mesh, with both extents, and what the
- * reason may be: degrees, feet, exchanged coordinates, longitudes counted from another meridian. Says
- * nothing if half of the points were found, or if there are only a few and no reason is in sight.
- *   found  how many points lie in the mesh */
-void extent_remark(const char *mesh_path, const extent *mesh, const char *points_path, const extent *points,
-                   uint64_t found);
+ * reason may be: degrees, feet, exchanged coordinates, longitudes counted from another meridian.
+ * Says nothing if half of the points were found, or if there are only a few and no reason is in
+ *   sight. found  how many points lie in the mesh */
+void extent_remark(const char *mesh_path, const extent *mesh, const char *points_path,
+                   const extent *points, uint64_t found);
 
-/* Warn of a mesh of longitudes that crosses the meridian of 180 degrees: one of its edges is wider than
- * 180. */
+/* Warn of a mesh of longitudes that crosses the meridian of 180 degrees: one of its edges is wider
+ * than 180. */
 void extent_warn_of_seam(const char *mesh_path, const extent *mesh, const mw_mesh_file *file);
 
 #endif

@@ -39,7 +39,8 @@ static const char *finish_name(int i)
 /* Whether pockets and holes are filled: by mw_fill_mode. */
 static const char *fill_name(int i)
 {
-    static const char *const names[] = {[MW_FILL_AUTO] = "auto", [MW_FILL_YES] = "yes", [MW_FILL_NO] = "no", NULL};
+    static const char *const names[] = {
+        [MW_FILL_AUTO] = "auto", [MW_FILL_YES] = "yes", [MW_FILL_NO] = "no", NULL};
     return names[i];
 }
 
@@ -51,9 +52,10 @@ static const char *descent_name(int i)
 }
 static const char *descent_help(int i)
 {
-    static const char *const helps[] = {"the nearest", "the nearest, which makes the shorter walks",
-                                        ("the one with the largest coordinate of the point, which --walk direct and "
-                                         "barycentric know")};
+    static const char *const helps[] = {
+        "the nearest", "the nearest, which makes the shorter walks",
+        ("the one with the largest coordinate of the point, which --walk direct and "
+         "barycentric know")};
     return helps[i];
 }
 
@@ -70,11 +72,14 @@ const option point_query_options[] = {
     {"start", 0, OPTION_CHOICE, offsetof(point_query_settings, start), "NAME",
      "how to choose the first triangle (default: auto):", &point_query_starts},
     {"arithmetic", 0, OPTION_CHOICE, offsetof(point_query_settings, arithmetic), "NAME",
-     "how walks decide their turns (default: exact); the triangle found is exact in either case:", &arithmetics},
+     "how walks decide their turns (default: exact); the triangle found is exact in either case:",
+     &arithmetics},
     {"finish", 0, OPTION_CHOICE, offsetof(point_query_settings, finish), "NAME",
-     "the walk that ends those whose own tests are only a guide (default: auto, by the mesh):", &finish_choices},
+     "the walk that ends those whose own tests are only a guide (default: auto, by the mesh):",
+     &finish_choices},
     {"fill", 0, OPTION_CHOICE, offsetof(point_query_settings, fill), "NAME",
-     "fill pockets and holes of the mesh with triangles that count as outside, so that every walk can cross them; "
+     "fill pockets and holes of the mesh with triangles that count as outside, so that every walk "
+     "can cross them; "
      "without "
      "them only --walk border finds its way (default: auto: no with --walk border, else yes):",
      &fill_choices},
@@ -83,11 +88,13 @@ const option point_query_options[] = {
     {"areas", 0, OPTION_FLAG, offsetof(point_query_settings, areas), NULL,
      "store the areas of the triangles, which saves tests with --walk direct", NULL},
     {"sample", 0, OPTION_SAMPLE, offsetof(point_query_settings, sample), "K",
-     "--start sample: look at K random triangles; also cube-root (the default) or fourth-root, of the number of "
+     "--start sample: look at K random triangles; also cube-root (the default) or fourth-root, of "
+     "the number of "
      "vertices",
      NULL},
     {"cells", 0, OPTION_COUNT, offsetof(point_query_settings, cells), "N",
-     "--start grid, buckets, triangle-buckets, two-level-grid: about N cells, of the first level; curve: N samples "
+     "--start grid, buckets, triangle-buckets, two-level-grid: about N cells, of the first level; "
+     "curve: N samples "
      "(default: 0, by the size of "
      "the "
      "mesh)",
@@ -95,17 +102,21 @@ const option point_query_options[] = {
     {"layers", 0, OPTION_COUNT, offsetof(point_query_settings, layers), "N",
      "--start layers: N layers, the mesh itself counted (default: 0, by its size)", NULL},
     {"descent", 0, OPTION_CHOICE, offsetof(point_query_settings, descent), "NAME",
-     "--start layers: the vertex at which to go down from one to the next (default: auto):", &point_query_descents},
+     "--start layers: the vertex at which to go down from one to the next (default: auto):",
+     &point_query_descents},
     {"tolerance", 0, OPTION_LENGTH, offsetof(point_query_settings, tolerance), "D",
      "a point outside, at most D away from the mesh, is 'near' (default: 0)", NULL},
     {"columns", 0, OPTION_TEXT, offsetof(point_query_settings, stream.source.columns), "LIST",
-     "columns of POINTS that hold x and y, as names or numbers from 1: lon,lat or 3,4 (default: those that a header "
+     "columns of POINTS that hold x and y, as names or numbers from 1: lon,lat or 3,4 (default: "
+     "those that a header "
      "calls so, by names that the manual page lists, or the only two)",
      NULL},
     {"crs", 0, OPTION_TEXT, offsetof(point_query_settings, crs), "CRS",
-     "the coordinate system of MESH, or of polygons, as EPSG:2056 (default: what their file tells)", NULL},
+     "the coordinate system of MESH, or of polygons, as EPSG:2056 (default: what their file tells)",
+     NULL},
     {"points-crs", 0, OPTION_TEXT, offsetof(point_query_settings, stream.source.crs), "CRS",
-     "that of POINTS, or 'same' as MESH (default: what POINTS tell; columns called lon and lat are WGS 84). "
+     "that of POINTS, or 'same' as MESH (default: what POINTS tell; columns called lon and lat are "
+     "WGS 84). "
      "Points in another system than MESH are transformed",
      NULL},
     {"any", 0, OPTION_FLAG, offsetof(point_query_settings, any), NULL,
@@ -120,7 +131,8 @@ static void point_query_warn(const point_query *q, const char *path)
 }
 
 /* If some triangle has an area, a mesh is refused only for its defects, and --any accepts it. */
-static int point_query_fail_mesh(const point_query *q, const char *path, bool area, const mw_error *error)
+static int point_query_fail_mesh(const point_query *q, const char *path, bool area,
+                                 const mw_error *error)
 {
     int end = fail_mesh(path, error);
     if (end == END_INPUT && !q->settings->any && area)
@@ -128,12 +140,14 @@ static int point_query_fail_mesh(const point_query *q, const char *path, bool ar
     return end;
 }
 
-static int point_query_make_mesh(point_query *q, const char *path, const mw_mesh_file *file, bool area)
+static int point_query_make_mesh(point_query *q, const char *path, const mw_mesh_file *file,
+                                 bool area)
 {
     mw_error error;
     mw_arrays arrays = mw_mesh_file_arrays(file);
-    mw_mesh_options options = {
-        .tolerant = q->settings->any, .threads = q->settings->stream.common.threads, .progress = progress_of_call()};
+    mw_mesh_options options = {.tolerant = q->settings->any,
+                               .threads = q->settings->stream.common.threads,
+                               .progress = progress_of_call()};
     progress_phase("preparing", path);
     if (mw_mesh_create(&arrays, &options, &q->own, &error) != MW_OK)
         return point_query_fail_mesh(q, path, area, &error);
@@ -151,7 +165,8 @@ static int point_query_make_locator(point_query *q, const char *path, bool borde
                                   .fill = (mw_fill_mode)settings->fill,
                                   .threads = settings->stream.common.threads,
                                   .progress = progress_of_call()};
-    if (settings->walk == MW_WALK_BORDER && settings->fill == MW_FILL_AUTO) options.fill = MW_FILL_NO;
+    if (settings->walk == MW_WALK_BORDER && settings->fill == MW_FILL_AUTO)
+        options.fill = MW_FILL_NO;
     if (mw_locator_create(q->mesh, &options, &q->locator, &error) != MW_OK)
         return point_query_fail_mesh(q, path, area, &error);
     point_query_warn(q, path);
@@ -167,7 +182,9 @@ int point_query_check_index(uint32_t cells, uint32_t layers)
 /* Only the border walk works in a mesh whose pockets and holes are not filled. */
 static int point_query_check_fill(const point_query_settings *settings)
 {
-    if (settings->fill != MW_FILL_NO || settings->walk == MW_WALK_AUTO || settings->walk == MW_WALK_BORDER) return 0;
+    if (settings->fill != MW_FILL_NO || settings->walk == MW_WALK_AUTO ||
+        settings->walk == MW_WALK_BORDER)
+        return 0;
     complain("--fill no wants --walk border, not %s", mw_walk_name((mw_walk_kind)settings->walk));
     return END_USAGE;
 }
@@ -184,10 +201,13 @@ static int point_query_make_index(point_query *q)
                                 .descent = (mw_descent)settings->descent,
                                 .seed = settings->stream.common.seed,
                                 .progress = progress_of_call()};
-    return mw_index_create(q->locator, start, &options, &q->index, &error) == MW_OK ? 0 : fail_query(&error);
+    return mw_index_create(q->locator, start, &options, &q->index, &error) == MW_OK
+               ? 0
+               : fail_query(&error);
 }
 
-int point_query_begin(point_query *q, const point_query_settings *settings, const char *const *inputs, int count)
+int point_query_begin(point_query *q, const point_query_settings *settings,
+                      const char *const *inputs, int count)
 {
     *q = (point_query){.settings = settings, .begin = monotonic_seconds()};
     int end = files_check_output(settings->stream.common.output, inputs, count);
@@ -202,7 +222,8 @@ int point_query_prepare(point_query *q, const mw_mesh *mesh, const char *path, c
     double at[2];
     q->mesh = mesh;
     q->path = path;
-    int end = mesh_crs_settle(path, q->settings->crs, crs, q->settings->stream.common.quiet, &q->crs);
+    int end =
+        mesh_crs_settle(path, q->settings->crs, crs, q->settings->stream.common.quiet, &q->crs);
     if (end) return end;
     for (uint32_t v = 0; v < mw_mesh_vertex_count(mesh); v++) {
         mw_mesh_vertex(mesh, v, at);
@@ -212,8 +233,9 @@ int point_query_prepare(point_query *q, const mw_mesh *mesh, const char *path, c
     return end ? end : point_query_make_index(q);
 }
 
-int point_query_open(point_query *q, const point_query_settings *settings, const char *const *operands, bool border,
-                     point_query_load *load, const void *self)
+int point_query_open(point_query *q, const point_query_settings *settings,
+                     const char *const *operands, bool border, point_query_load *load,
+                     const void *self)
 {
     const char *path = operands[0];
     mw_mesh_file file;
@@ -250,8 +272,8 @@ typedef struct point_query_context {
 } point_query_context;
 
 /* Interpolate the values of a block. */
-static mw_status point_query_interpolate(const point_query *q, const mw_location *answers, size_t count,
-                                         mw_error *error)
+static mw_status point_query_interpolate(const point_query *q, const mw_location *answers,
+                                         size_t count, mw_error *error)
 {
     point_query_values *v = q->values;
     if (!v) return MW_OK;
@@ -282,16 +304,18 @@ static int point_query_answer_block(void *self, const query_block *block, void *
         .index = context->query->index,
         .progress = progress_of_call(),
     };
-    mw_status status = mw_locate_batch(context->query->locator, block->values, block->count, block->stride, &options,
-                                       answers, &counters, &error);
-    if (status == MW_OK) status = point_query_interpolate(context->query, answers, block->count, &error);
+    mw_status status = mw_locate_batch(context->query->locator, block->values, block->count,
+                                       block->stride, &options, answers, &counters, &error);
+    if (status == MW_OK)
+        status = point_query_interpolate(context->query, answers, block->count, &error);
     if (status != MW_OK) return fail_query(&error);
     location_statistics_add(&context->statistics, answers, block->count, &counters);
     extent_add(&context->extent, block->values, block->count, block->stride);
     return 0;
 }
 
-static bool point_query_write_row(const void *self, const double *point, const void *answer, text *out)
+static bool point_query_write_row(const void *self, const double *point, const void *answer,
+                                  text *out)
 {
     const point_query_context *context = self;
     return context->row(context->query, context->self, point, answer, out);
@@ -342,8 +366,8 @@ static void point_query_report(const void *self, report *r)
     point_query_report_memory(r, context->query);
 }
 
-int point_query_run(const point_query *q, const char *points, const char *const *answers, const char *kinds,
-                    point_query_row *row, const void *self)
+int point_query_run(const point_query *q, const char *points, const char *const *answers,
+                    const char *kinds, point_query_row *row, const void *self)
 {
     point_query_context context = {.query = q, .row = row, .self = self};
     query_stream s = {

@@ -61,31 +61,34 @@ typedef struct point_query {
 
 /* Write the answer for one point, each cell behind a comma. Returns false if there is none. `self`
  * is the command's own data. Several threads call this at the same time. */
-typedef bool point_query_row(const point_query *q, const void *self, const double point[2], const mw_location *where,
-                             text *out);
+typedef bool point_query_row(const point_query *q, const void *self, const double point[2],
+                             const mw_location *where, text *out);
 
 /* Copy from the mesh's file what the rows need: the file is released before the queries begin.
  * Returns 0, or an exit code after a complaint. */
-typedef int point_query_load(mw_mesh *mesh, const char *path, const mw_mesh_file *file, const void *self);
+typedef int point_query_load(mw_mesh *mesh, const char *path, const mw_mesh_file *file,
+                             const void *self);
 
 /* Read the mesh operands[0] and prepare it for queries. `border` tells that rows use
  * mw_nearest_border; `load` may be NULL. Returns 0, or an exit code after a complaint. Release it
  * in both cases. */
-int point_query_open(point_query *q, const point_query_settings *settings, const char *const *operands, bool border,
-                     point_query_load *load, const void *self);
+int point_query_open(point_query *q, const point_query_settings *settings,
+                     const char *const *operands, bool border, point_query_load *load,
+                     const void *self);
 void point_query_release(point_query *q);
 
 /* The same in two steps, for a mesh that comes from elsewhere. First what is asked for is checked,
  * before long work: `inputs` are the files that are read. Then the mesh is prepared, which has to
  * outlive the query; `path` is the file that it comes from, and `crs` the coordinate system that
  * this tells, or NULL. */
-int point_query_begin(point_query *q, const point_query_settings *settings, const char *const *inputs, int count);
+int point_query_begin(point_query *q, const point_query_settings *settings,
+                      const char *const *inputs, int count);
 int point_query_prepare(point_query *q, const mw_mesh *mesh, const char *path, const char *crs);
 
 /* Write the header, then the row of every point with its answer, in order. `answers` are the names
  * of the answer's cells; NULL ends them; `kinds` tell what they hold, as in query_stream.h.
  * Returns the exit code. */
-int point_query_run(const point_query *q, const char *points, const char *const *answers, const char *kinds,
-                    point_query_row *row, const void *self);
+int point_query_run(const point_query *q, const char *points, const char *const *answers,
+                    const char *kinds, point_query_row *row, const void *self);
 
 #endif

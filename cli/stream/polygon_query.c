@@ -20,7 +20,10 @@ typedef struct polygon_rows {
 
 static void counts_add(polygon_counts *c, const feature_hit *hits, size_t count, bool bad)
 {
-    atomic_uint_fast64_t *which = bad ? &c->bad : count == 0 ? &c->outside : hits[0].border ? &c->border : &c->inside;
+    atomic_uint_fast64_t *which = bad              ? &c->bad
+                                  : count == 0     ? &c->outside
+                                  : hits[0].border ? &c->border
+                                                   : &c->inside;
     atomic_fetch_add_explicit(which, 1, memory_order_relaxed);
     if (count > 1) atomic_fetch_add_explicit(&c->several, 1, memory_order_relaxed);
 }
@@ -40,7 +43,8 @@ static void rows_write_list(const feature_hit *hits, size_t count, bool border, 
     if (first) csv_row_count(out, false, 0);
 }
 
-static void rows_write_values(const polygon_rows *rows, const feature_hit *hits, size_t count, text *out)
+static void rows_write_values(const polygon_rows *rows, const feature_hit *hits, size_t count,
+                              text *out)
 {
     const feature_values *values = &rows->file->values;
     for (size_t i = 0; i < values->count; i++) {
@@ -52,8 +56,8 @@ static void rows_write_values(const polygon_rows *rows, const feature_hit *hits,
     }
 }
 
-static bool rows_write(const point_query *q, const void *self, const double point[2], const mw_location *where,
-                       text *out)
+static bool rows_write(const point_query *q, const void *self, const double point[2],
+                       const mw_location *where, text *out)
 {
     const polygon_rows *rows = self;
     feature_hit room[FEATURE_ROOM], *hits;
@@ -111,7 +115,8 @@ static int rows_run(const point_query *q, const polygon_rows *rows, const char *
     return end;
 }
 
-static int polygon_query_check(const point_query_settings *s, const polygon_file_settings *polygons, const char *points)
+static int polygon_query_check(const point_query_settings *s, const polygon_file_settings *polygons,
+                               const char *points)
 {
     const char *unfit = s->tolerance > 0 ? "tolerance" : s->any ? "any" : s->fill ? "fill" : NULL;
     if (unfit) {
@@ -123,8 +128,8 @@ static int polygon_query_check(const point_query_settings *s, const polygon_file
     return END_USAGE;
 }
 
-int polygon_query_run(const point_query_settings *settings, const polygon_file_settings *polygons, const char *points,
-                      bool details)
+int polygon_query_run(const point_query_settings *settings, const polygon_file_settings *polygons,
+                      const char *points, bool details)
 {
     point_query q;
     polygon_file file = {0};
@@ -134,7 +139,8 @@ int polygon_query_run(const point_query_settings *settings, const polygon_file_s
     if (end) return end;
     end = point_query_begin(&q, settings, inputs, 2);
     if (end == 0) end = polygon_file_read(&file, polygons, &settings->stream.common);
-    if (end == 0) end = point_query_prepare(&q, mw_polygons_mesh(file.polygons), polygons->path, file.crs);
+    if (end == 0)
+        end = point_query_prepare(&q, mw_polygons_mesh(file.polygons), polygons->path, file.crs);
     q.tally = rows_tally;
     if (end == 0) end = rows_run(&q, &(polygon_rows){&file, &counts, details}, points);
     point_query_release(&q);

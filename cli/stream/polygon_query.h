@@ -7,7 +7,7 @@
 
 /* Read the polygons and answer every point, with all statuses and numbers if `details`. Returns
  * the exit code. */
-int polygon_query_run(const point_query_settings *settings, const polygon_file_settings *polygons, const char *points,
-                      bool details);
+int polygon_query_run(const point_query_settings *settings, const polygon_file_settings *polygons,
+                      const char *points, bool details);
 
 #endif

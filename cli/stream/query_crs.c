@@ -30,28 +30,33 @@ query_preference query_crs_prefers(const query_crs_settings *s)
 }
 
 /* The system that the file tells; NULL if it names none that is known. */
-static const char *crs_of_source(const query_crs_settings *s, const char *points, const query_source *source)
+static const char *crs_of_source(const query_crs_settings *s, const char *points,
+                                 const query_source *source)
 {
     const char *crs = query_source_crs(source);
     if (!crs || crs_known(crs)) return crs;
-    if (!s->quiet) complain("%s: warning: its coordinate system is not understood: %.200s", points, crs);
+    if (!s->quiet)
+        complain("%s: warning: its coordinate system is not understood: %.200s", points, crs);
     return NULL;
 }
 
 /* The system of the queries by what the user or the file says. */
-static const char *crs_told(const query_crs_settings *s, const char *points, const query_source *source)
+static const char *crs_told(const query_crs_settings *s, const char *points,
+                            const query_source *source)
 {
     char names[2][CRS_NAME];
     const char *of_file = crs_of_source(s, points, source);
     if (!s->option) return of_file;
     if (of_file && !s->quiet && !crs_same(of_file, s->option))
-        complain("%s: warning: it says that it is in %s, --points-crs that it is in %s, which counts", points,
-                 crs_name(of_file, names[0]), crs_name(s->option, names[1]));
+        complain(
+            "%s: warning: it says that it is in %s, --points-crs that it is in %s, which counts",
+            points, crs_name(of_file, names[0]), crs_name(s->option, names[1]));
     return s->option;
 }
 
 /* Both are known. */
-static int query_crs_join(query_crs *c, const query_crs_settings *s, const char *points, const char *mesh_crs)
+static int query_crs_join(query_crs *c, const query_crs_settings *s, const char *points,
+                          const char *mesh_crs)
 {
     char names[2][CRS_NAME];
     bool rough = false;
@@ -60,7 +65,8 @@ static int query_crs_join(query_crs *c, const query_crs_settings *s, const char 
     int end = gdal_transform_open(&c->transform, &ends, &rough);
     if (end || s->quiet) return end;
     if (rough)
-        complain("%s: warning: only a rough transformation from %s to %s is known, without a shift between the datums",
+        complain("%s: warning: only a rough transformation from %s to %s is known, without a shift "
+                 "between the datums",
                  points, crs_name(c->of_rows, names[0]), crs_name(mesh_crs, names[1]));
     return 0;
 }
@@ -70,11 +76,13 @@ static void warn_of_unknown(const query_crs_settings *s, const char *points, con
     char name[CRS_NAME];
     if (s->quiet) return;
     if (known == s->mesh_crs)
-        complain("%s: warning: its coordinate system is not known, and %s is in %s: the points are taken as they are; "
+        complain("%s: warning: its coordinate system is not known, and %s is in %s: the points are "
+                 "taken as they are; "
                  "--points-crs tells their system, or 'same'",
                  points, s->mesh, crs_name(known, name));
     else
-        complain("%s: warning: its coordinate system is not known, and %s is in %s: the points are taken as they are; "
+        complain("%s: warning: its coordinate system is not known, and %s is in %s: the points are "
+                 "taken as they are; "
                  "--crs tells that of the mesh",
                  s->mesh, points, crs_name(known, name));
 }
@@ -85,7 +93,8 @@ static int query_crs_suppose_lonlat(query_crs *c, const query_crs_settings *s, c
     if (!s->mesh_crs) return 0;
     c->of_rows = CRS_LONLAT;
     if (!s->quiet && !crs_same(CRS_LONLAT, s->mesh_crs))
-        complain("%s: remark: its longitudes and latitudes are taken as WGS 84 (" CRS_LONLAT "); --points-crs tells "
+        complain("%s: remark: its longitudes and latitudes are taken as WGS 84 (" CRS_LONLAT
+                 "); --points-crs tells "
                  "another system",
                  points);
     return query_crs_join(c, s, points, s->mesh_crs);
@@ -98,7 +107,8 @@ static int query_crs_open_plane(query_crs *c, const query_crs_settings *s, const
     c->of_rows = crs_told(s, points, source);
     c->told = c->of_rows != NULL;
     bool lonlat = query_source_is_lonlat(source);
-    if (lonlat && !s->option && c->of_rows && !crs_is_lonlat(c->of_rows)) c->of_rows = NULL, c->told = false;
+    if (lonlat && !s->option && c->of_rows && !crs_is_lonlat(c->of_rows))
+        c->of_rows = NULL, c->told = false;
     if (c->of_rows && s->mesh_crs) return query_crs_join(c, s, points, s->mesh_crs);
     if (lonlat && !c->of_rows) return query_crs_suppose_lonlat(c, s, points);
     if (c->of_rows) warn_of_unknown(s, points, c->of_rows);
@@ -109,7 +119,8 @@ static int query_crs_open_plane(query_crs *c, const query_crs_settings *s, const
     return 0;
 }
 
-int query_crs_open(query_crs *c, const query_crs_settings *s, const char *path, const query_source *source)
+int query_crs_open(query_crs *c, const query_crs_settings *s, const char *path,
+                   const query_source *source)
 {
     const char *points = files_is_standard(path) ? "standard input" : path;
     *c = (query_crs){0};

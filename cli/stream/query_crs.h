@@ -1,4 +1,5 @@
-/* query_crs.h - the coordinate systems of queries and of what they ask: told, compared, transformed. */
+/* query_crs.h - the coordinate systems of queries and of what they ask: told, compared,
+ * transformed. */
 #ifndef MW_CLI_STREAM_QUERY_CRS_H
 #define MW_CLI_STREAM_QUERY_CRS_H
 
@@ -33,9 +34,10 @@ int query_crs_check(const char *mesh_option, const char *points_option);
 query_preference query_crs_prefers(const query_crs_settings *settings);
 
 /* Decide how the queries of `source` come into the system of the mesh. What is supposed and what is
- * not known is told on standard error. Returns 0, or an exit code after a complaint; close it in both
- * cases. The texts of `settings` and of the source last until then. */
-int query_crs_open(query_crs *c, const query_crs_settings *settings, const char *points, const query_source *source);
+ * not known is told on standard error. Returns 0, or an exit code after a complaint; close it in
+ * both cases. The texts of `settings` and of the source last until then. */
+int query_crs_open(query_crs *c, const query_crs_settings *settings, const char *points,
+                   const query_source *source);
 void query_crs_close(query_crs *c);
 
 #endif

@@ -37,13 +37,16 @@ static void name_write(text *out, const char *name, const char *suffix, char sep
     text_string(out, "\"");
 }
 
-static void answer_names_write(text *out, taken_names taken, const char *const *answers, char separator)
+static void answer_names_write(text *out, taken_names taken, const char *const *answers,
+                               char separator)
 {
     taken.of_answers = answers;
     for (taken.answer_count = 0; answers[taken.answer_count]; taken.answer_count++) {
         const char *name = answers[taken.answer_count];
         char suffix[32] = "", full[320];
-        for (int again = 1; snprintf(full, sizeof full, "%s%s", name, suffix), name_is_taken(&taken, full); again++)
+        for (int again = 1;
+             snprintf(full, sizeof full, "%s%s", name, suffix), name_is_taken(&taken, full);
+             again++)
             snprintf(suffix, sizeof suffix, again == 1 ? "_mw" : "_mw%d", again);
         text_bytes(out, &separator, 1);
         name_write(out, name, suffix, separator);
@@ -52,8 +55,8 @@ static void answer_names_write(text *out, taken_names taken, const char *const *
 }
 
 /* Write the names of columns that the file does not name. */
-static void column_names_write(text *out, const query_columns *wanted, const size_t *index, size_t count,
-                               char separator)
+static void column_names_write(text *out, const query_columns *wanted, const size_t *index,
+                               size_t count, char separator)
 {
     for (size_t i = 0; i < count; i++) {
         size_t k = 0;
@@ -66,8 +69,8 @@ static void column_names_write(text *out, const query_columns *wanted, const siz
     }
 }
 
-void query_header_write(text *out, const mw_point_table *table, const query_columns *wanted, const size_t *index,
-                        const char *const *answers)
+void query_header_write(text *out, const mw_point_table *table, const query_columns *wanted,
+                        const size_t *index, const char *const *answers)
 {
     taken_names taken = {.of_columns = wanted->names, .column_count = wanted->count};
     if (table->header) {
@@ -80,10 +83,12 @@ void query_header_write(text *out, const mw_point_table *table, const query_colu
     answer_names_write(out, taken, answers, table->separator);
 }
 
-void query_header_write_answers(text *out, const query_columns *wanted, size_t shown, const char *const *answers)
+void query_header_write_answers(text *out, const query_columns *wanted, size_t shown,
+                                const char *const *answers)
 {
     size_t index[MAX_QUERY_COLUMNS];
     for (size_t k = 0; k < MAX_QUERY_COLUMNS; k++) index[k] = k;
     column_names_write(out, wanted, index, shown, ',');
-    answer_names_write(out, (taken_names){.of_columns = wanted->names, .column_count = shown}, answers, ',');
+    answer_names_write(out, (taken_names){.of_columns = wanted->names, .column_count = shown},
+                       answers, ',');
 }

@@ -20,15 +20,18 @@
 #define CHUNKS (QUERY_BLOCK_SIZE / CHUNK)
 
 const option query_stream_options[] = {
-    {"strict", 0, OPTION_FLAG, offsetof(query_stream_settings, strict), NULL, "exit with 1 if a point has no answer",
-     NULL},
+    {"strict", 0, OPTION_FLAG, offsetof(query_stream_settings, strict), NULL,
+     "exit with 1 if a point has no answer", NULL},
     {"stats", 0, OPTION_FLAG, offsetof(query_stream_settings, stats), NULL,
      "print counts and times on standard error when done", NULL},
-    {"json", 0, OPTION_FLAG, offsetof(query_stream_settings, json), NULL, "with --stats: as JSON", NULL},
+    {"json", 0, OPTION_FLAG, offsetof(query_stream_settings, json), NULL, "with --stats: as JSON",
+     NULL},
     {"layer", 0, OPTION_TEXT, offsetof(query_stream_settings, source.layer), "NAME",
-     "of a file that GDAL reads: the layer with the points (default: the only one that has any)", NULL},
+     "of a file that GDAL reads: the layer with the points (default: the only one that has any)",
+     NULL},
     {"where", 0, OPTION_TEXT, offsetof(query_stream_settings, source.where), "CONDITION",
-     "of a file that GDAL reads: which features are read, in SQL, as \"depth > 10\" (default: all)", NULL},
+     "of a file that GDAL reads: which features are read, in SQL, as \"depth > 10\" (default: all)",
+     NULL},
     {"only-answers", 0, OPTION_FLAG, offsetof(query_stream_settings, only_answers), NULL,
      "write the coordinates and the answers, not the other columns; as CSV with commas", NULL},
     {0},
@@ -94,7 +97,8 @@ static int pipeline_learn_chunks(query_pipeline *p, size_t chunks)
     int end = 0;
     if (!p->rows || p->statistics.blocks > 1) return 0;
     for (size_t k = 0; end == 0 && k < chunks; k++)
-        if (!p->chunk[k].failed) end = gdal_rows_learn(p->rows, p->chunk[k].bytes, p->chunk[k].size);
+        if (!p->chunk[k].failed)
+            end = gdal_rows_learn(p->rows, p->chunk[k].bytes, p->chunk[k].size);
     return end;
 }
 
@@ -105,7 +109,8 @@ static int pipeline_write_chunks(query_pipeline *p, size_t chunks)
         const text *chunk = &p->chunk[k];
         if (chunk->failed) return fail_memory();
         if (p->rows)
-            end = gdal_rows_write(p->rows, chunk->bytes, chunk->size, p->values + k * CHUNK * p->width, p->width);
+            end = gdal_rows_write(p->rows, chunk->bytes, chunk->size,
+                                  p->values + k * CHUNK * p->width, p->width);
         else
             mw_output_write(p->out, chunk->bytes, chunk->size);
         p->statistics.unanswered += p->unanswered[k];
@@ -123,7 +128,8 @@ static void pipeline_format_chunks(void *work, uint32_t member)
 {
     pipeline_formatting *f = work;
     (void)member;
-    for (size_t k; (k = atomic_fetch_add(&f->next, 1)) < f->chunks;) pipeline_format_chunk(f->pipeline, k, f->count);
+    for (size_t k; (k = atomic_fetch_add(&f->next, 1)) < f->chunks;)
+        pipeline_format_chunk(f->pipeline, k, f->count);
 }
 
 /* Several threads make the rows, at most one for each chunk. One thread then writes them in
@@ -132,7 +138,8 @@ static int pipeline_write_block(query_pipeline *p, size_t count)
 {
     pipeline_formatting formatting = {p, count, (count + CHUNK - 1) / CHUNK, 0};
     size_t chunks = formatting.chunks;
-    mw__team_run(mw__team(p->stream->settings->common.threads, chunks), pipeline_format_chunks, &formatting);
+    mw__team_run(mw__team(p->stream->settings->common.threads, chunks), pipeline_format_chunks,
+                 &formatting);
     return pipeline_write_chunks(p, chunks);
 }
 
@@ -141,13 +148,14 @@ static void pipeline_move_block(query_pipeline *p, size_t count)
 {
     if (p->moved == p->values) return;
     memcpy(p->moved, p->values, count * p->width * sizeof *p->values);
-    p->crs.lost +=
-        gdal_transform_points(p->crs.transform, p->moved, count, p->width, p->stream->settings->common.threads);
+    p->crs.lost += gdal_transform_points(p->crs.transform, p->moved, count, p->width,
+                                         p->stream->settings->common.threads);
 }
 
 static int pipeline_answer_block(query_pipeline *p, size_t count)
 {
-    query_block block = {.values = p->moved, .stride = p->width, .count = count, .block = p->statistics.blocks};
+    query_block block = {
+        .values = p->moved, .stride = p->width, .count = count, .block = p->statistics.blocks};
     double begin = monotonic_seconds();
     pipeline_move_block(p, count);
     int end = p->stream->answer(p->stream->self, &block, p->answers);
@@ -211,7 +219,8 @@ static int pipeline_write_header(query_pipeline *p)
         query_header_write(&header, &p->table, &s->columns, p->index, s->answers);
     int end = header.failed ? fail_memory() : 0;
     if (end == 0 && !p->rows_wanted)
-        end = prj_output_check(s->settings->common.output, pipeline_told_crs(p), s->settings->common.quiet);
+        end = prj_output_check(s->settings->common.output, pipeline_told_crs(p),
+                               s->settings->common.quiet);
     if (end == 0 && p->rows_wanted)
         end = pipeline_open_rows(p, &header);
     else if (end == 0)
@@ -264,7 +273,8 @@ static int pipeline_run(query_pipeline *p)
     p->answers = malloc(QUERY_BLOCK_SIZE * s->answer_size);
     int end = p->values && p->moved && p->answers ? pipeline_run_blocks(p) : fail_memory();
     progress_phase("writing", NULL);
-    if (p->out && mw_output_close(p->out, end == 0, &error) != MW_OK && end == 0) end = fail_writing(&error);
+    if (p->out && mw_output_close(p->out, end == 0, &error) != MW_OK && end == 0)
+        end = fail_writing(&error);
     int closed = gdal_rows_close(p->rows, end == 0);
     if (end == 0) end = closed;
     signals_set_temporary(NULL);
@@ -278,7 +288,8 @@ static int pipeline_run(query_pipeline *p)
 static void pipeline_remark_lost(const query_pipeline *p)
 {
     if (p->crs.lost == 0 || p->stream->settings->common.quiet) return;
-    complain("%s: remark: %" PRIu64 " points have no place in the coordinate system of the mesh; their status is bad",
+    complain("%s: remark: %" PRIu64
+             " points have no place in the coordinate system of the mesh; their status is bad",
              files_is_standard(p->path) ? "standard input" : p->path, p->crs.lost);
 }
 
@@ -306,14 +317,17 @@ int query_stream_run(const query_stream *s, const char *path)
     mw_error error;
     query_pipeline *p = calloc(1, sizeof *p);
     if (!p) return fail_memory();
-    *p = (query_pipeline){.stream = s, .path = path, .statistics = {.begin = s->begin, .ready = monotonic_seconds()}};
+    *p = (query_pipeline){
+        .stream = s, .path = path, .statistics = {.begin = s->begin, .ready = monotonic_seconds()}};
     progress_phase(s->doing, path);
     int end = pipeline_open_source(p);
     p->rows_wanted = gdal_rows_known(output);
-    if (end == 0 && !p->rows_wanted && mw_output_open(output, &p->out, &error) != MW_OK) end = fail_writing(&error);
+    if (end == 0 && !p->rows_wanted && mw_output_open(output, &p->out, &error) != MW_OK)
+        end = fail_writing(&error);
     if (end == 0) end = pipeline_run(p);
     if (end == 0) pipeline_remark_lost(p);
-    if (end == 0 && !p->rows_wanted) end = prj_output_write(output, pipeline_told_crs(p), settings->common.quiet);
+    if (end == 0 && !p->rows_wanted)
+        end = prj_output_write(output, pipeline_told_crs(p), settings->common.quiet);
     query_crs_close(&p->crs);
     query_source_close(p->source);
     if (end == 0 && settings->stats) end = pipeline_print_statistics(p);

@@ -1,6 +1,6 @@
 /* query_stream.h - reads a file of queries, has them answered, and writes each row again with its
- * answer behind it, in order. It works in blocks of a fixed size, so its memory does not depend on the number of
- * queries. */
+ * answer behind it, in order. It works in blocks of a fixed size, so its memory does not depend on
+ * the number of queries. */
 #ifndef MW_CLI_STREAM_QUERY_STREAM_H
 #define MW_CLI_STREAM_QUERY_STREAM_H
 
@@ -29,11 +29,16 @@ typedef struct query_block {
 } query_block;
 
 /* What a command does for its stream. `self` is the command's own data.
- *   _answer  answers a block; returns 0, or an exit code after a complaint
- *   _row     writes the cells of one answer, each behind a comma; returns false if there is none. The
- *            query is in the coordinate system of the mesh, as for _answer.
- *            Several threads call it at the same time
- *   _report  adds to the report of --stats, which has the number of points and the times already */
+ *   _answer
+ *   _row
+ *
+ *
+ *   _report
+ *
+ * answers a block; returns 0, or an exit code after a complaint writes the cells of one answer,
+ * each behind a comma; returns false if there is none. The query is in the coordinate system of the
+ * mesh, as for _answer. Several threads call it at the same time adds to the report of --stats,
+ * which has the number of points and the times already */
 typedef int query_stream_answer(void *self, const query_block *block, void *answers);
 typedef bool query_stream_row(const void *self, const double *query, const void *answer, text *out);
 typedef void query_stream_report(const void *self, report *r);
@@ -55,8 +60,8 @@ typedef struct query_stream {
     void *self;
 } query_stream;
 
-/* Refuse an output that rows cannot be written to, before anything is read. Returns 0, or an exit code
- * after a complaint. */
+/* Refuse an output that rows cannot be written to, before anything is read. Returns 0, or an exit
+ * code after a complaint. */
 int query_stream_check_output(const query_stream_settings *settings);
 
 /* Write the header, then every row of the file with its answer. Returns the exit code. */

@@ -21,8 +21,10 @@ void statistics_report_settings(report *r, const common_settings *common)
 
 void statistics_report_walks(report *r, const mw_counters *counters)
 {
-    uint64_t tests = counters->orient_init + counters->orient + counters->orient_final + counters->orient_border;
-    statistics_report_mean(r, "triangles_per_query", counters->triangles_visited, counters->queries);
+    uint64_t tests =
+        counters->orient_init + counters->orient + counters->orient_final + counters->orient_border;
+    statistics_report_mean(r, "triangles_per_query", counters->triangles_visited,
+                           counters->queries);
     report_count(r, "triangles_max", counters->triangles_max);
     statistics_report_mean(r, "triangles_init", counters->triangles_init, counters->queries);
     statistics_report_mean(r, "triangles", counters->triangles, counters->queries);

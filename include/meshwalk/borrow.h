@@ -55,9 +55,10 @@ typedef struct mw_borrow_options {
     /** 1, with `unchecked`: the triangles fill their convex hull without overlap. A point beyond
      * an edge without a neighbour is then outside. 0: unknown. */
     int convex;
-    uint32_t threads;            /**< of the check; 0: one per processor */
-    const mw_progress *progress; /**< of the check: progress and cancelling, see base.h; NULL: none */
-    uint32_t reserved[4];        /**< must be zero */
+    uint32_t threads; /**< of the check; 0: one per processor */
+    const mw_progress
+        *progress;        /**< of the check: progress and cancelling, see base.h; NULL: none */
+    uint32_t reserved[4]; /**< must be zero */
 } mw_borrow_options;
 
 /**
@@ -77,8 +78,8 @@ typedef struct mw_borrow_options {
  *
  * Cost: O(n) time for the check, else O(1); O(1) memory in either case.
  */
-MW_API mw_status mw_mesh_borrow(const mw_borrowed_arrays *arrays, const mw_borrow_options *options, mw_borrowed **out,
-                                mw_error *error);
+MW_API mw_status mw_mesh_borrow(const mw_borrowed_arrays *arrays, const mw_borrow_options *options,
+                                mw_borrowed **out, mw_error *error);
 
 /** Release a view; the arrays are not touched. NULL is allowed. */
 MW_API void mw_borrowed_release(mw_borrowed *mesh);
@@ -87,7 +88,7 @@ MW_API void mw_borrowed_release(mw_borrowed *mesh);
 typedef struct mw_borrowed_info {
     size_t bytes; /**< memory of the view, without the caller's arrays */
     int checked;
-    int convex;                   /**< 1: the triangles fill their convex hull, by the check or the caller's word */
+    int convex; /**< 1: the triangles fill their convex hull, by the check or the caller's word */
     uint32_t flat_triangles;      /**< triangles without area; 0 if unchecked */
     uint32_t clockwise_triangles; /**< 0 if unchecked */
 } mw_borrowed_info;
@@ -100,9 +101,9 @@ typedef struct mw_borrowed_query_options {
     /** MW_WALK_REMEMBERING; or MW_WALK_BARYCENTRIC or MW_WALK_DIRECT, as published for mixed
      * orientation and ended by the remembering walk; 0: remembering. */
     mw_walk_kind walk;
-    int in_order;                /**< batches, 1: each query is near the previous one; do not sort */
-    uint64_t seed;               /**< seed of samples; answers do not depend on it */
-    uint32_t threads;            /**< batches: number of threads; 0: one per processor */
+    int in_order;     /**< batches, 1: each query is near the previous one; do not sort */
+    uint64_t seed;    /**< seed of samples; answers do not depend on it */
+    uint32_t threads; /**< batches: number of threads; 0: one per processor */
     const mw_progress *progress; /**< batches: progress and cancelling, see base.h; NULL: none */
     uint32_t reserved[4];        /**< must be zero */
 } mw_borrowed_query_options;
@@ -126,8 +127,8 @@ typedef struct mw_borrowed_cursor {
  * @param options  NULL = all zero
  * @return MW_OK; MW_ERROR_ARGUMENT for another walk than those of mw_borrowed_query_options
  */
-MW_API mw_status mw_borrowed_cursor_init(const mw_borrowed_query_options *options, mw_borrowed_cursor *cursor,
-                                         mw_error *error);
+MW_API mw_status mw_borrowed_cursor_init(const mw_borrowed_query_options *options,
+                                         mw_borrowed_cursor *cursor, mw_error *error);
 
 /**
  * Locate one point. The walk begins at the triangle found last if the point is near, else at the
@@ -137,7 +138,8 @@ MW_API mw_status mw_borrowed_cursor_init(const mw_borrowed_query_options *option
  *
  * Thread-safe with one cursor per thread; no allocation, no failure.
  */
-MW_API mw_location mw_borrowed_locate(const mw_borrowed *mesh, mw_borrowed_cursor *cursor, double x, double y);
+MW_API mw_location mw_borrowed_locate(const mw_borrowed *mesh, mw_borrowed_cursor *cursor, double x,
+                                      double y);
 
 /**
  * Locate n points. Queries are sorted along a Hilbert curve first, so that each walk begins where
@@ -153,9 +155,10 @@ MW_API mw_location mw_borrowed_locate(const mw_borrowed *mesh, mw_borrowed_curso
  *
  * Thread-safe. Takes 32 bytes a query for the sort, of 4 million queries at most.
  */
-MW_API mw_status mw_borrowed_locate_batch(const mw_borrowed *mesh, const double *points, size_t n, size_t stride,
-                                          const mw_borrowed_query_options *options, mw_location *locations,
-                                          mw_counters *counters, mw_error *error);
+MW_API mw_status mw_borrowed_locate_batch(const mw_borrowed *mesh, const double *points, size_t n,
+                                          size_t stride, const mw_borrowed_query_options *options,
+                                          mw_location *locations, mw_counters *counters,
+                                          mw_error *error);
 
 #ifdef __cplusplus
 }

@@ -66,8 +66,8 @@ typedef struct mw_editor_options {
  *
  * Thread-safe for a const mesh. Time and memory: about linear in the triangles.
  */
-MW_API mw_status mw_editor_create(const mw_mesh *mesh, const mw_editor_options *options, mw_editor **out,
-                                  mw_error *error);
+MW_API mw_status mw_editor_create(const mw_mesh *mesh, const mw_editor_options *options,
+                                  mw_editor **out, mw_error *error);
 
 /** Destroy an editor with its locator and indices. NULL is allowed. */
 MW_API void mw_editor_destroy(mw_editor *editor);
@@ -144,7 +144,8 @@ typedef struct mw_change {
  * If the mesh is kept Delaunay, edges that are no longer Delaunay are flipped, decided exactly
  * [Lawson 1977]. Not thread-safe: no other call on the editor or its locator may run.
  */
-MW_API mw_status mw_edit_apply(mw_editor *editor, const mw_edit *edit, mw_change *change, mw_error *error);
+MW_API mw_status mw_edit_apply(mw_editor *editor, const mw_edit *edit, mw_change *change,
+                               mw_error *error);
 
 /**
  * Insert a vertex at (x, y).
@@ -166,7 +167,8 @@ MW_API mw_status mw_edit_apply(mw_editor *editor, const mw_edit *edit, mw_change
  * guide; then proportional to the triangles in conflict, about six for spread points. Not
  * thread-safe.
  */
-MW_API mw_status mw_edit_insert(mw_editor *editor, double x, double y, mw_change *change, mw_error *error);
+MW_API mw_status mw_edit_insert(mw_editor *editor, double x, double y, mw_change *change,
+                                mw_error *error);
 
 /**
  * Remove a vertex. Its triangles are replaced by two fewer, which keep the lowest numbers.
@@ -182,7 +184,8 @@ MW_API mw_status mw_edit_insert(mw_editor *editor, double x, double y, mw_change
  *
  * Time: O(d log d) for a vertex of degree d. Not thread-safe.
  */
-MW_API mw_status mw_edit_remove(mw_editor *editor, uint32_t vertex, mw_change *change, mw_error *error);
+MW_API mw_status mw_edit_remove(mw_editor *editor, uint32_t vertex, mw_change *change,
+                                mw_error *error);
 
 /**
  * Move a vertex to (x, y). The vertex keeps its number and its values.
@@ -202,8 +205,8 @@ MW_API mw_status mw_edit_remove(mw_editor *editor, uint32_t vertex, mw_change *c
  *
  * Time: O(d) in place, else as a removal and an insertion. Not thread-safe.
  */
-MW_API mw_status mw_edit_move(mw_editor *editor, uint32_t vertex, double x, double y, mw_change *change,
-                              mw_error *error);
+MW_API mw_status mw_edit_move(mw_editor *editor, uint32_t vertex, double x, double y,
+                              mw_change *change, mw_error *error);
 
 /**
  * Flip the edge between two vertices. Its two triangles must form a strictly convex quadrilateral.
@@ -219,7 +222,8 @@ MW_API mw_status mw_edit_move(mw_editor *editor, uint32_t vertex, double x, doub
  *
  * Time: O(d) for the degree of `from`. Not thread-safe.
  */
-MW_API mw_status mw_edit_flip(mw_editor *editor, uint32_t from, uint32_t to, mw_change *change, mw_error *error);
+MW_API mw_status mw_edit_flip(mw_editor *editor, uint32_t from, uint32_t to, mw_change *change,
+                              mw_error *error);
 
 /**
  * Constrain the segment between two vertices: make it an edge, or a chain of edges, that stays.
@@ -236,7 +240,8 @@ MW_API mw_status mw_edit_flip(mw_editor *editor, uint32_t from, uint32_t to, mw_
  *
  * Time: O(m log m) for m crossed triangles, expected. Not thread-safe.
  */
-MW_API mw_status mw_edit_constrain(mw_editor *editor, uint32_t from, uint32_t to, mw_change *change, mw_error *error);
+MW_API mw_status mw_edit_constrain(mw_editor *editor, uint32_t from, uint32_t to, mw_change *change,
+                                   mw_error *error);
 
 /**
  * Release the constraints along the segment between two vertices. The edges may be flipped again.
@@ -250,7 +255,8 @@ MW_API mw_status mw_edit_constrain(mw_editor *editor, uint32_t from, uint32_t to
  *
  * Time: O(m) for the edges along the segment, and the flips. Not thread-safe.
  */
-MW_API mw_status mw_edit_release(mw_editor *editor, uint32_t from, uint32_t to, mw_change *change, mw_error *error);
+MW_API mw_status mw_edit_release(mw_editor *editor, uint32_t from, uint32_t to, mw_change *change,
+                                 mw_error *error);
 
 /**
  * Set the value of a field at a vertex.
@@ -264,7 +270,8 @@ MW_API mw_status mw_edit_release(mw_editor *editor, uint32_t from, uint32_t to, 
  *
  * Time: O(1). Not thread-safe.
  */
-MW_API mw_status mw_edit_value(mw_editor *editor, uint32_t field, uint32_t vertex, double value, mw_error *error);
+MW_API mw_status mw_edit_value(mw_editor *editor, uint32_t field, uint32_t vertex, double value,
+                               mw_error *error);
 
 /**
  * Insert n points as one edit. Faster than inserting them one by one.
@@ -289,8 +296,9 @@ MW_API mw_status mw_edit_value(mw_editor *editor, uint32_t field, uint32_t verte
  *
  * Not thread-safe.
  */
-MW_API mw_status mw_edit_insert_points(mw_editor *editor, const double *points, size_t n, size_t stride,
-                                       uint32_t *vertices, mw_change *change, mw_error *error);
+MW_API mw_status mw_edit_insert_points(mw_editor *editor, const double *points, size_t n,
+                                       size_t stride, uint32_t *vertices, mw_change *change,
+                                       mw_error *error);
 
 /**
  * Undo the latest edit that has not been undone. Restores the mesh and all numbers.
@@ -335,7 +343,8 @@ MW_API const mw_edit *mw_editor_log(const mw_editor *editor, size_t *count);
  *
  * Time: O(n). Not thread-safe.
  */
-MW_API mw_status mw_editor_compact(mw_editor *editor, uint32_t *triangles, uint32_t *vertices, mw_error *error);
+MW_API mw_status mw_editor_compact(mw_editor *editor, uint32_t *triangles, uint32_t *vertices,
+                                   mw_error *error);
 
 /* --- the present mesh ------------------------------------------------------------------------- */
 
@@ -401,8 +410,8 @@ MW_API uint32_t mw_editor_triangle_of(const mw_editor *editor, uint32_t vertex);
  *
  * Time: O(degree).
  */
-MW_API size_t mw_editor_adjacent_vertices(const mw_editor *editor, uint32_t vertex, uint32_t *neighbours,
-                                          size_t capacity);
+MW_API size_t mw_editor_adjacent_vertices(const mw_editor *editor, uint32_t vertex,
+                                          uint32_t *neighbours, size_t capacity);
 
 /** What kind of edge joins two vertices. */
 typedef enum mw_edge_kind {
@@ -430,8 +439,8 @@ MW_API double mw_editor_value(const mw_editor *editor, uint32_t field, uint32_t 
  * @param n          number of locations
  * @param result     receives n values; NaN without a triangle
  */
-MW_API void mw_editor_interpolate(const mw_editor *editor, uint32_t field, const mw_location *locations, size_t n,
-                                  double *result);
+MW_API void mw_editor_interpolate(const mw_editor *editor, uint32_t field,
+                                  const mw_location *locations, size_t n, double *result);
 
 /**
  * Copy the present mesh, numbered as mw_editor_compact() would number it, with all fields.
@@ -447,8 +456,8 @@ MW_API void mw_editor_interpolate(const mw_editor *editor, uint32_t field, const
  *
  * Time: O(n).
  */
-MW_API mw_status mw_editor_mesh(const mw_editor *editor, uint32_t *triangles, uint32_t *vertices, mw_mesh **out,
-                                mw_error *error);
+MW_API mw_status mw_editor_mesh(const mw_editor *editor, uint32_t *triangles, uint32_t *vertices,
+                                mw_mesh **out, mw_error *error);
 
 /**
  * The constrained edges, two vertices each.
@@ -495,8 +504,9 @@ MW_API const mw_locator *mw_editor_locator(const mw_editor *editor);
  *
  * Not thread-safe.
  */
-MW_API mw_status mw_editor_index(mw_editor *editor, mw_start_kind start, const mw_index_options *options,
-                                 const mw_index **index, mw_error *error);
+MW_API mw_status mw_editor_index(mw_editor *editor, mw_start_kind start,
+                                 const mw_index_options *options, const mw_index **index,
+                                 mw_error *error);
 
 #ifdef __cplusplus
 }

@@ -65,7 +65,8 @@ typedef struct mw_file_options {
  *
  * O(size of the file).
  */
-MW_API mw_status mw_read_mesh(const char *path, const mw_file_options *options, mw_mesh_file *file, mw_error *error);
+MW_API mw_status mw_read_mesh(const char *path, const mw_file_options *options, mw_mesh_file *file,
+                              mw_error *error);
 
 /** Release a mesh that was read. NULL and an empty file are allowed. */
 MW_API void mw_mesh_file_release(mw_mesh_file *file);
@@ -127,8 +128,8 @@ typedef struct mw_constraint_file {
  *
  * O(size of the file).
  */
-MW_API mw_status mw_read_constraints(const char *path, const mw_file_options *options, mw_constraint_file *file,
-                                     mw_error *error);
+MW_API mw_status mw_read_constraints(const char *path, const mw_file_options *options,
+                                     mw_constraint_file *file, mw_error *error);
 /** Release constraints that were read. NULL and an empty file are allowed. */
 MW_API void mw_constraint_file_release(mw_constraint_file *file);
 
@@ -250,8 +251,8 @@ typedef struct mw_point_reader mw_point_reader;
  *         MW_ERROR_INPUT, also for a column that the file does not have; MW_ERROR_MEMORY;
  *         MW_ERROR_ARGUMENT for a selection of fewer than two columns or of one column twice.
  */
-MW_API mw_status mw_point_reader_open(const char *path, const mw_point_reader_options *options, mw_point_reader **out,
-                                      mw_error *error);
+MW_API mw_status mw_point_reader_open(const char *path, const mw_point_reader_options *options,
+                                      mw_point_reader **out, mw_error *error);
 
 /** Values per point: the columns of the file, or the selected ones; at least 2. */
 MW_API size_t mw_point_reader_width(const mw_point_reader *reader);
@@ -272,8 +273,8 @@ MW_API const char *mw_point_reader_column(const mw_point_reader *reader, size_t 
  * @return MW_OK; MW_ERROR_INPUT, MW_ERROR_SYSTEM, MW_ERROR_MEMORY. On failure *count points before
  *         the faulty one are valid, and the reader can only be closed.
  */
-MW_API mw_status mw_point_reader_read(mw_point_reader *reader, double *values, size_t capacity, size_t *count,
-                                      mw_error *error);
+MW_API mw_status mw_point_reader_read(mw_point_reader *reader, double *values, size_t capacity,
+                                      size_t *count, mw_error *error);
 
 /** Tell the coordinate system of the points: that of the records of LAS (WKT, or the EPSG code of
  * its GeoTIFF keys), or else of a .prj file beside the points.
@@ -308,14 +309,16 @@ typedef struct mw_point_table {
  * points have.
  * @param table  is filled in; its texts last until mw_point_reader_close
  * @return MW_OK; MW_ERROR_ARGUMENT: NULL. Thread-safe on different readers. */
-MW_API mw_status mw_point_reader_table(const mw_point_reader *reader, mw_point_table *table, mw_error *error);
+MW_API mw_status mw_point_reader_table(const mw_point_reader *reader, mw_point_table *table,
+                                       mw_error *error);
 
 /** Choose the columns to read as numbers, in place of those chosen so far. A reader that was
  * opened with `table` and without `columns` reads none before this call.
  * @param columns  numbers of columns, from 0, at least two, each once
  * @return MW_OK; MW_ERROR_ARGUMENT: NULL, no such column, one twice, a reader without `table`, or
  * after the first mw_point_reader_read; MW_ERROR_MEMORY. Thread-safe on different readers. */
-MW_API mw_status mw_point_reader_select(mw_point_reader *reader, const size_t *columns, size_t count, mw_error *error);
+MW_API mw_status mw_point_reader_select(mw_point_reader *reader, const size_t *columns,
+                                        size_t count, mw_error *error);
 
 /** Tell which column of the file a value comes from.
  * @param column  number of the value within a point, from 0
@@ -392,8 +395,8 @@ MW_API const char *mw_edit_name(mw_edit_kind kind);
  *
  * Thread-safe.
  */
-MW_API mw_status mw_edit_parse(const char *text, const mw_edit_text_options *options, mw_edit_line *line,
-                               mw_error *error);
+MW_API mw_status mw_edit_parse(const char *text, const mw_edit_text_options *options,
+                               mw_edit_line *line, mw_error *error);
 
 /** Room for any line of edits, its NUL included. */
 #define MW_EDIT_TEXT_SIZE 160
@@ -427,8 +430,8 @@ typedef struct mw_edit_reader mw_edit_reader;
  * @param error    NULL, or receives the message of a failure
  * @return MW_OK, MW_ERROR_SYSTEM, MW_ERROR_MEMORY; MW_ERROR_ARGUMENT for NULL.
  */
-MW_API mw_status mw_edit_reader_open(const char *path, const mw_edit_text_options *options, mw_edit_reader **out,
-                                     mw_error *error);
+MW_API mw_status mw_edit_reader_open(const char *path, const mw_edit_text_options *options,
+                                     mw_edit_reader **out, mw_error *error);
 
 /**
  * Read the next line that is not blank.
@@ -477,7 +480,8 @@ MW_API mw_status mw_output_resolve(const char *path, char **name, mw_error *erro
 MW_API void mw_output_write(mw_output *output, const void *bytes, size_t size);
 
 /** Write as printf() does: text and integers only, because decimals follow the locale. */
-MW_API void mw_output_printf(mw_output *output, const char *format, ...) __attribute__((format(printf, 2, 3)));
+MW_API void mw_output_printf(mw_output *output, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
 
 /** Format a double: the shortest of %.15g, %.16g and %.17g in the "C" locale that reads back as
  * the same double; "nan", "inf", "-inf". Returns its length, at most 24. Thread-safe. */

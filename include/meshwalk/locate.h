@@ -132,8 +132,8 @@ typedef struct mw_locator_options {
  *
  * Thread-safe. Time: O(n) for n triangles; O(b log b) for b border edges if the mesh is not convex.
  */
-MW_API mw_status mw_locator_create(const mw_mesh *mesh, const mw_locator_options *options, mw_locator **out,
-                                   mw_error *error);
+MW_API mw_status mw_locator_create(const mw_mesh *mesh, const mw_locator_options *options,
+                                   mw_locator **out, mw_error *error);
 /** Destroy a locator. NULL is allowed. */
 MW_API void mw_locator_destroy(mw_locator *locator);
 
@@ -212,8 +212,8 @@ typedef struct mw_index_options {
  *
  * Thread-safe. Time: O(n) expected; O(n log n) for layers and the tree.
  */
-MW_API mw_status mw_index_create(const mw_locator *locator, mw_start_kind start, const mw_index_options *options,
-                                 mw_index **out, mw_error *error);
+MW_API mw_status mw_index_create(const mw_locator *locator, mw_start_kind start,
+                                 const mw_index_options *options, mw_index **out, mw_error *error);
 /** Destroy an index. NULL is allowed. */
 MW_API void mw_index_destroy(mw_index *index);
 
@@ -356,8 +356,8 @@ typedef struct mw_cursor {
  *
  * Thread-safe. O(1).
  */
-MW_API mw_status mw_cursor_init(const mw_locator *locator, const mw_query_options *options, mw_cursor *cursor,
-                                mw_error *error);
+MW_API mw_status mw_cursor_init(const mw_locator *locator, const mw_query_options *options,
+                                mw_cursor *cursor, mw_error *error);
 
 /**
  * Locate one point.
@@ -393,8 +393,8 @@ MW_API mw_location mw_locate(const mw_locator *locator, mw_cursor *cursor, doubl
  *
  * Thread-safe with one cursor per thread. No allocation.
  */
-MW_API size_t mw_walk_path(const mw_locator *locator, mw_cursor *cursor, double x, double y, uint32_t *triangles,
-                           size_t capacity, mw_location *location);
+MW_API size_t mw_walk_path(const mw_locator *locator, mw_cursor *cursor, double x, double y,
+                           uint32_t *triangles, size_t capacity, mw_location *location);
 
 /** The stages of a search, as mw_counters has them. */
 typedef enum mw_walk_stage {
@@ -428,8 +428,8 @@ typedef struct mw_walk_way {
  *
  * Thread-safe with one cursor per thread. No allocation.
  */
-MW_API size_t mw_walk_follow(const mw_locator *locator, mw_cursor *cursor, double x, double y, mw_walk_way *way,
-                             mw_location *location);
+MW_API size_t mw_walk_follow(const mw_locator *locator, mw_cursor *cursor, double x, double y,
+                             mw_walk_way *way, mw_location *location);
 
 /**
  * Locate n points.
@@ -462,9 +462,9 @@ MW_API size_t mw_walk_follow(const mw_locator *locator, mw_cursor *cursor, doubl
  *
  * Thread-safe.
  */
-MW_API mw_status mw_locate_batch(const mw_locator *locator, const double *points, size_t n, size_t stride,
-                                 const mw_query_options *options, mw_location *locations, mw_counters *counters,
-                                 mw_error *error);
+MW_API mw_status mw_locate_batch(const mw_locator *locator, const double *points, size_t n,
+                                 size_t stride, const mw_query_options *options,
+                                 mw_location *locations, mw_counters *counters, mw_error *error);
 
 /**
  * A border edge and its point nearest to a query.
@@ -496,8 +496,8 @@ typedef struct mw_nearest_border_point {
  * Thread-safe. O(log b) for b border edges if few are about equally near; O(b) at worst, in the
  * middle of a round hole.
  */
-MW_API mw_status mw_nearest_border(const mw_locator *locator, double x, double y, mw_nearest_border_point *nearest,
-                                   mw_error *error);
+MW_API mw_status mw_nearest_border(const mw_locator *locator, double x, double y,
+                                   mw_nearest_border_point *nearest, mw_error *error);
 
 /**
  * Interpolate values at vertices linearly: result[i] is the sum of weight[k] * values[vertex k].
@@ -510,8 +510,8 @@ MW_API mw_status mw_nearest_border(const mw_locator *locator, double x, double y
  *
  * Thread-safe. O(n), without allocation.
  */
-MW_API void mw_interpolate(const mw_mesh *mesh, const double *values, const mw_location *locations, size_t n,
-                           double *result);
+MW_API void mw_interpolate(const mw_mesh *mesh, const double *values, const mw_location *locations,
+                           size_t n, double *result);
 
 /** The type of the values of a table. */
 typedef enum mw_value_type { MW_FLOAT64 = 0, MW_FLOAT32 } mw_value_type;
@@ -556,8 +556,10 @@ typedef struct mw_interpolate_options {
  *
  * Thread-safe. The same bits for any number of threads. Allocates memory for threads only.
  */
-MW_API mw_status mw_interpolate_table(const mw_mesh *mesh, const mw_value_table *table, const mw_location *locations,
-                                      size_t n, const mw_interpolate_options *options, void *result, mw_error *error);
+MW_API mw_status mw_interpolate_table(const mw_mesh *mesh, const mw_value_table *table,
+                                      const mw_location *locations, size_t n,
+                                      const mw_interpolate_options *options, void *result,
+                                      mw_error *error);
 
 #ifdef __cplusplus
 }

@@ -86,8 +86,8 @@ typedef struct mw_mended {
  * Thread-safe. Time O(n log n), if few vertices lie in the boxes of border edges that they are not
  * near.
  */
-MW_API mw_status mw_mend_arrays(const mw_arrays *arrays, const mw_mend_options *options, mw_mended *mended,
-                                mw_error *error);
+MW_API mw_status mw_mend_arrays(const mw_arrays *arrays, const mw_mend_options *options,
+                                mw_mended *mended, mw_error *error);
 /** Release a mended mesh. @param mended  NULL and an empty one are allowed */
 MW_API void mw_mended_release(mw_mended *mended);
 

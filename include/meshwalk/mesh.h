@@ -124,8 +124,8 @@ typedef struct mw_check_options {
  * Thread-safe. O(n) for local defects; O(b log^2 b) expected for b border edges, whether they
  * cross or not (docs/guarantees.md).
  */
-MW_API mw_status mw_check_arrays(const mw_arrays *arrays, const mw_check_options *options, mw_check *check,
-                                 mw_error *error);
+MW_API mw_status mw_check_arrays(const mw_arrays *arrays, const mw_check_options *options,
+                                 mw_check *check, mw_error *error);
 /** Release the defects of a check. A zero-initialised check is allowed. */
 MW_API void mw_check_release(mw_check *check);
 
@@ -168,8 +168,8 @@ typedef struct mw_mesh_options {
  *
  * Thread-safe. O(n) for n triangles.
  */
-MW_API mw_status mw_mesh_create(const mw_arrays *arrays, const mw_mesh_options *options, mw_mesh **out,
-                                mw_error *error);
+MW_API mw_status mw_mesh_create(const mw_arrays *arrays, const mw_mesh_options *options,
+                                mw_mesh **out, mw_error *error);
 /** Destroy a mesh. Its locators must be destroyed before. NULL is allowed. */
 MW_API void mw_mesh_destroy(mw_mesh *mesh);
 
@@ -197,7 +197,8 @@ MW_API void mw_mesh_triangle(const mw_mesh *mesh, uint32_t triangle, uint32_t ve
  *
  * O(1).
  */
-MW_API uint32_t mw_mesh_neighbour(const mw_mesh *mesh, uint32_t triangle, unsigned local_edge, unsigned *edge);
+MW_API uint32_t mw_mesh_neighbour(const mw_mesh *mesh, uint32_t triangle, unsigned local_edge,
+                                  unsigned *edge);
 
 /** Memory used by a mesh with its fields, in bytes. O(fields). */
 MW_API size_t mw_mesh_bytes(const mw_mesh *mesh);
@@ -214,8 +215,8 @@ MW_API size_t mw_mesh_bytes(const mw_mesh *mesh);
  *
  * Not thread-safe: no other thread may use the mesh. O(n).
  */
-MW_API mw_status mw_mesh_set_field(mw_mesh *mesh, const char *name, const double *values, size_t stride,
-                                   mw_error *error);
+MW_API mw_status mw_mesh_set_field(mw_mesh *mesh, const char *name, const double *values,
+                                   size_t stride, mw_error *error);
 
 /** The values of a field, one per vertex, owned by the mesh; NULL if no field has that name. */
 MW_API const double *mw_mesh_field(const mw_mesh *mesh, const char *name);
@@ -257,8 +258,8 @@ typedef struct mw_mesh_info {
  *
  * Thread-safe. Cost as mw_check_arrays().
  */
-MW_API mw_status mw_mesh_describe(const mw_mesh *mesh, const mw_check_options *options, mw_mesh_info *info,
-                                  mw_error *error);
+MW_API mw_status mw_mesh_describe(const mw_mesh *mesh, const mw_check_options *options,
+                                  mw_mesh_info *info, mw_error *error);
 
 /**
  * Orders of triangles and vertices along a Hilbert curve: for arrays whose neighbours lie near each
@@ -274,7 +275,8 @@ MW_API mw_status mw_mesh_describe(const mw_mesh *mesh, const mw_check_options *o
  *
  * Thread-safe. O(n).
  */
-MW_API mw_status mw_mesh_hilbert_order(const mw_mesh *mesh, uint32_t *triangles, uint32_t *vertices, mw_error *error);
+MW_API mw_status mw_mesh_hilbert_order(const mw_mesh *mesh, uint32_t *triangles, uint32_t *vertices,
+                                       mw_error *error);
 
 #ifdef __cplusplus
 }

@@ -61,8 +61,8 @@ typedef struct mw_polygons_options {
  * each face of the plane. Source: constrained triangulation [Lee, Lin 1986; Chew 1989]; the
  * even-odd rule [Shimrat 1962], as a label of triangles.
  */
-MW_API mw_status mw_polygons_create(const mw_constraints *rings, const mw_polygons_options *options, mw_polygons **out,
-                                    mw_error *error);
+MW_API mw_status mw_polygons_create(const mw_constraints *rings, const mw_polygons_options *options,
+                                    mw_polygons **out, mw_error *error);
 /** Destroy polygons. NULL is allowed. */
 MW_API void mw_polygons_destroy(mw_polygons *polygons);
 
@@ -90,8 +90,8 @@ typedef struct mw_polygon_hit {
  * Thread-safe; no allocation, no failure. Time in proportion to the result and to the segments
  * that pass through the triangle uncut.
  */
-MW_API size_t mw_polygons_at(const mw_polygons *polygons, const double point[2], const mw_location *location,
-                             mw_polygon_hit *hits, size_t capacity);
+MW_API size_t mw_polygons_at(const mw_polygons *polygons, const double point[2],
+                             const mw_location *location, mw_polygon_hit *hits, size_t capacity);
 
 /**
  * Name the polygons whose own segments cross each other, or run along each other.
@@ -99,7 +99,8 @@ MW_API size_t mw_polygons_at(const mw_polygons *polygons, const double point[2],
  * @param polygons_found  room for `capacity` numbers, or NULL if that is 0; ascending
  * @return how many there are, which may be more than `capacity`. Thread-safe.
  */
-MW_API size_t mw_polygons_crossing(const mw_polygons *polygons, uint32_t *polygons_found, size_t capacity);
+MW_API size_t mw_polygons_crossing(const mw_polygons *polygons, uint32_t *polygons_found,
+                                   size_t capacity);
 
 /** What was prepared. */
 typedef struct mw_polygons_info {

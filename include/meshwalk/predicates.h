@@ -40,7 +40,8 @@ MW_API double mw_orient2d(const double a[2], const double b[2], const double c[2
  * @return positive if d lies on the side from which a, b, c appear counter-clockwise, negative if
  *         on the other side, 0 if in the plane. Shewchuk's orient3d has the opposite sign.
  */
-MW_API double mw_orient3d(const double a[3], const double b[3], const double c[3], const double d[3]);
+MW_API double mw_orient3d(const double a[3], const double b[3], const double c[3],
+                          const double d[3]);
 
 /**
  * Whether a point lies inside a circle.
@@ -50,7 +51,8 @@ MW_API double mw_orient3d(const double a[3], const double b[3], const double c[3
  * @return positive if d lies inside the circle, negative if outside, 0 if on it. For clockwise
  *         a, b, c the sign is reversed.
  */
-MW_API double mw_incircle(const double a[2], const double b[2], const double c[2], const double d[2]);
+MW_API double mw_incircle(const double a[2], const double b[2], const double c[2],
+                          const double d[2]);
 
 #ifdef __cplusplus
 }

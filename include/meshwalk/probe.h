@@ -49,8 +49,8 @@ typedef struct mw_prober_options {
  *
  * Thread-safe. O(1) without boxes, O(n log n) with boxes.
  */
-MW_API mw_status mw_prober_create(const mw_surface *surface, const mw_prober_options *options, mw_prober **out,
-                                  mw_error *error);
+MW_API mw_status mw_prober_create(const mw_surface *surface, const mw_prober_options *options,
+                                  mw_prober **out, mw_error *error);
 /** Destroy a prober. NULL is allowed. */
 MW_API void mw_prober_destroy(mw_prober *prober);
 
@@ -186,8 +186,8 @@ typedef struct mw_probe_cursor {
  *
  * Thread-safe. O(1).
  */
-MW_API mw_status mw_probe_cursor_init(const mw_prober *prober, const mw_probe_options *options, mw_probe_cursor *cursor,
-                                      mw_error *error);
+MW_API mw_status mw_probe_cursor_init(const mw_prober *prober, const mw_probe_options *options,
+                                      mw_probe_cursor *cursor, mw_error *error);
 
 /**
  * Answer one probe.
@@ -223,9 +223,9 @@ MW_API mw_touch mw_probe(const mw_prober *prober, mw_probe_cursor *cursor, const
  *
  * Thread-safe.
  */
-MW_API mw_status mw_probe_batch(const mw_prober *prober, const double *queries, size_t n, size_t stride,
-                                const mw_probe_options *options, mw_touch *touches, mw_probe_counters *counters,
-                                mw_error *error);
+MW_API mw_status mw_probe_batch(const mw_prober *prober, const double *queries, size_t n,
+                                size_t stride, const mw_probe_options *options, mw_touch *touches,
+                                mw_probe_counters *counters, mw_error *error);
 
 /**
  * The triangles that the walks of one probe visit, in order. The query runs without a race.
@@ -249,8 +249,8 @@ MW_API mw_status mw_probe_batch(const mw_prober *prober, const double *queries, 
  * Thread-safe with one cursor per thread.
  */
 MW_API size_t mw_probe_path(const mw_prober *prober, mw_probe_cursor *cursor, const double point[3],
-                            const double motion[3], uint32_t *triangles, uint32_t *iteration, size_t capacity,
-                            mw_touch *touch);
+                            const double motion[3], uint32_t *triangles, uint32_t *iteration,
+                            size_t capacity, mw_touch *touch);
 
 /**
  * The point of a surface nearest to a point: the proxy of haptic rendering.
@@ -288,8 +288,9 @@ typedef struct mw_nearest_surface_point {
  *
  * Thread-safe. O(log n) typically.
  */
-MW_API mw_status mw_nearest_on_surface(const mw_prober *prober, const double point[3], double max_distance,
-                                       mw_nearest_surface_point *nearest, mw_error *error);
+MW_API mw_status mw_nearest_on_surface(const mw_prober *prober, const double point[3],
+                                       double max_distance, mw_nearest_surface_point *nearest,
+                                       mw_error *error);
 
 #ifdef __cplusplus
 }

@@ -84,8 +84,8 @@ typedef struct mw_star_options {
  *
  * Thread-safe. O(n) time for n facets.
  */
-MW_API mw_status mw_star_create(const mw_surface *surface, const mw_star_options *options, mw_star **out,
-                                mw_error *error);
+MW_API mw_status mw_star_create(const mw_surface *surface, const mw_star_options *options,
+                                mw_star **out, mw_error *error);
 /** Destroy a star. NULL is allowed. */
 MW_API void mw_star_destroy(mw_star *star);
 
@@ -134,8 +134,9 @@ MW_API void mw_star_describe(const mw_star *star, mw_star_info *info);
  *
  * Thread-safe. O(n).
  */
-MW_API mw_status mw_star_check_arrays(const mw_arrays *arrays, int weld, const mw_star_options *options,
-                                      mw_check *check, mw_error *error);
+MW_API mw_status mw_star_check_arrays(const mw_arrays *arrays, int weld,
+                                      const mw_star_options *options, mw_check *check,
+                                      mw_error *error);
 
 /* --- the unit sphere -------------------------------------------------------------------------- */
 
@@ -206,7 +207,8 @@ typedef struct mw_star_index_options {
  * Thread-safe. Time: a short walk per cell.
  */
 MW_API mw_status mw_star_index_create(const mw_star *star, mw_star_start_kind start,
-                                      const mw_star_index_options *options, mw_star_index **out, mw_error *error);
+                                      const mw_star_index_options *options, mw_star_index **out,
+                                      mw_error *error);
 /** Destroy an index. NULL is allowed. */
 MW_API void mw_star_index_destroy(mw_star_index *index);
 
@@ -276,8 +278,8 @@ typedef struct mw_star_cursor {
  *
  * Thread-safe. O(1).
  */
-MW_API mw_status mw_star_cursor_init(const mw_star *star, const mw_star_query_options *options, mw_star_cursor *cursor,
-                                     mw_error *error);
+MW_API mw_status mw_star_cursor_init(const mw_star *star, const mw_star_query_options *options,
+                                     mw_star_cursor *cursor, mw_error *error);
 
 /**
  * The facet that the ray from the centre through a point meets.
@@ -297,7 +299,8 @@ MW_API mw_status mw_star_cursor_init(const mw_star *star, const mw_star_query_op
  *
  * Thread-safe with one cursor per thread. No allocation.
  */
-MW_API mw_location mw_star_locate(const mw_star *star, mw_star_cursor *cursor, const double point[3]);
+MW_API mw_location mw_star_locate(const mw_star *star, mw_star_cursor *cursor,
+                                  const double point[3]);
 
 /**
  * Locate n points as mw_star_locate() does.
@@ -317,9 +320,10 @@ MW_API mw_location mw_star_locate(const mw_star *star, mw_star_cursor *cursor, c
  *
  * Thread-safe.
  */
-MW_API mw_status mw_star_locate_batch(const mw_star *star, const double *points, size_t n, size_t stride,
-                                      const mw_star_query_options *options, mw_location *locations,
-                                      mw_counters *counters, mw_error *error);
+MW_API mw_status mw_star_locate_batch(const mw_star *star, const double *points, size_t n,
+                                      size_t stride, const mw_star_query_options *options,
+                                      mw_location *locations, mw_counters *counters,
+                                      mw_error *error);
 
 /**
  * The facets that one query visits, in order, the first one included.
@@ -334,8 +338,8 @@ MW_API mw_status mw_star_locate_batch(const mw_star *star, const double *points,
  *
  * Thread-safe with one cursor per thread.
  */
-MW_API size_t mw_star_path(const mw_star *star, mw_star_cursor *cursor, const double point[3], uint32_t *facets,
-                           size_t capacity, mw_location *location);
+MW_API size_t mw_star_path(const mw_star *star, mw_star_cursor *cursor, const double point[3],
+                           uint32_t *facets, size_t capacity, mw_location *location);
 
 #ifdef __cplusplus
 }

@@ -62,8 +62,8 @@ typedef struct mw_surface_options {
  *
  * Thread-safe. O(n) time for n triangles.
  */
-MW_API mw_status mw_surface_create(const mw_arrays *arrays, const mw_surface_options *options, mw_surface **out,
-                                   mw_error *error);
+MW_API mw_status mw_surface_create(const mw_arrays *arrays, const mw_surface_options *options,
+                                   mw_surface **out, mw_error *error);
 
 /** Destroy a surface. Stars and probers of it must be destroyed before. NULL is allowed. */
 MW_API void mw_surface_destroy(mw_surface *surface);
@@ -93,7 +93,8 @@ MW_API void mw_surface_triangle(const mw_surface *surface, uint32_t triangle, ui
  *
  * O(1).
  */
-MW_API uint32_t mw_surface_neighbour(const mw_surface *surface, uint32_t triangle, unsigned local_edge, unsigned *edge);
+MW_API uint32_t mw_surface_neighbour(const mw_surface *surface, uint32_t triangle,
+                                     unsigned local_edge, unsigned *edge);
 
 /** Memory used by a surface, in bytes, without borrowed points. O(1). */
 MW_API size_t mw_surface_bytes(const mw_surface *surface);
@@ -155,7 +156,8 @@ MW_API double *mw_surface_points(mw_surface *surface);
  *
  * Time: proportional to the triangles round c.
  */
-MW_API mw_status mw_surface_flip(mw_surface *surface, uint32_t triangle, unsigned local_edge, mw_error *error);
+MW_API mw_status mw_surface_flip(mw_surface *surface, uint32_t triangle, unsigned local_edge,
+                                 mw_error *error);
 
 /* --- properties ------------------------------------------------------------------------------- */
 
@@ -195,7 +197,8 @@ typedef struct mw_surface_info {
  * Thread-safe. With mw_surface_options.shared this is a query: it must not be called between begin
  * and end of an update. O(n).
  */
-MW_API mw_status mw_surface_describe(const mw_surface *surface, mw_surface_info *info, mw_error *error);
+MW_API mw_status mw_surface_describe(const mw_surface *surface, mw_surface_info *info,
+                                     mw_error *error);
 
 /**
  * Find every defect of arrays as a surface.
@@ -213,8 +216,9 @@ MW_API mw_status mw_surface_describe(const mw_surface *surface, mw_surface_info 
  *
  * Thread-safe. O(n); O(n log b) for unusable arrays with b edges of one triangle.
  */
-MW_API mw_status mw_surface_check_arrays(const mw_arrays *arrays, int weld, const mw_check_options *options,
-                                         mw_check *check, mw_error *error);
+MW_API mw_status mw_surface_check_arrays(const mw_arrays *arrays, int weld,
+                                         const mw_check_options *options, mw_check *check,
+                                         mw_error *error);
 
 #ifdef __cplusplus
 }

@@ -57,8 +57,9 @@ typedef struct mw_delaunay_options {
  * Thread-safe. About linear time; O(n log n) triangles are made, expected, for any points. Needs
  * about 150 bytes per point, 80 of them for the mesh.
  */
-MW_API mw_status mw_delaunay(const double *points, size_t n, size_t stride, const mw_delaunay_options *options,
-                             uint32_t *duplicate_of, mw_delaunay_report *report, mw_mesh **out, mw_error *error);
+MW_API mw_status mw_delaunay(const double *points, size_t n, size_t stride,
+                             const mw_delaunay_options *options, uint32_t *duplicate_of,
+                             mw_delaunay_report *report, mw_mesh **out, mw_error *error);
 
 /* --- other kinds of triangulation ---------------------------------------------------------------
  * */
@@ -151,9 +152,10 @@ typedef struct mw_kind_options {
  *
  * Thread-safe. One thread after the Delaunay triangulation.
  */
-MW_API mw_status mw_triangulate(mw_triangulation_kind kind, const double *points, size_t n, size_t stride,
-                                const mw_kind_options *options, uint32_t *duplicate_of, mw_kind_report *report,
-                                mw_mesh **out, mw_error *error);
+MW_API mw_status mw_triangulate(mw_triangulation_kind kind, const double *points, size_t n,
+                                size_t stride, const mw_kind_options *options,
+                                uint32_t *duplicate_of, mw_kind_report *report, mw_mesh **out,
+                                mw_error *error);
 
 /* --- constraints ------------------------------------------------------------------------------ */
 
@@ -254,9 +256,11 @@ MW_API void mw_constrained_edges_release(mw_constrained_edges *edges);
  * Thread-safe. One thread after the Delaunay triangulation; time about proportional to the
  * triangles that segments cross (docs/guarantees.md).
  */
-MW_API mw_status mw_constrained_delaunay(const mw_constraints *constraints, const mw_constrain_options *options,
+MW_API mw_status mw_constrained_delaunay(const mw_constraints *constraints,
+                                         const mw_constrain_options *options,
                                          uint32_t *duplicate_of, mw_constrain_report *report,
-                                         mw_constrained_edges *edges, mw_mesh **out, mw_error *error);
+                                         mw_constrained_edges *edges, mw_mesh **out,
+                                         mw_error *error);
 
 #ifdef __cplusplus
 }

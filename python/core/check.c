@@ -51,7 +51,8 @@ static mw_status check_run(const check_request *request, const mw_arrays *arrays
     return mw_check_arrays(arrays, &request->check, check, error);
 }
 
-/* check_arrays(kind, points, triangles, weld, (x, y, z), progress): is it sound, and a list of defects */
+/* check_arrays(kind, points, triangles, weld, (x, y, z), progress): is it sound, and a list of
+ * defects */
 static PyObject *check_arrays(PyObject *module, PyObject *args)
 {
     PyObject *points, *triangles, *list, *function;

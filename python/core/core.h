@@ -92,7 +92,8 @@ typedef struct buffer_batch {
 } buffer_batch;
 
 /* `points` are rows of `width` doubles; `out` has room for an answer of `size` bytes for each, and
- * `hints` for a uint32, or is None. 0, or -1 with an exception; released by buffer_release_batch. */
+ * `hints` for a uint32, or is None. 0, or -1 with an exception; released by buffer_release_batch.
+ * */
 int buffer_get_batch(PyObject *points, size_t width, PyObject *out, size_t size, PyObject *hints,
                      buffer_batch *batch);
 void buffer_release_batch(buffer_batch *batch);

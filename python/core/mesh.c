@@ -93,8 +93,8 @@ static PyObject *mesh_copy_neighbours(PyObject *self, PyObject *out)
 }
 
 /* interpolate_table(values, narrow, locations, out, threads, progress): doubles, or floats if
- * `narrow`, a row for each vertex. The answers lie in rows for the locations, or, where the values of
- * a vertex do not lie side by side, in rows for the columns. */
+ * `narrow`, a row for each vertex. The answers lie in rows for the locations, or, where the values
+ * of a vertex do not lie side by side, in rows for the columns. */
 static PyObject *mesh_interpolate_table(PyObject *self, PyObject *args)
 {
     mesh_object *object = (mesh_object *)self;

@@ -61,7 +61,8 @@ static mw_triangulation_kind triangulation_kind_by_name(const char *name)
     return MW_KIND_COUNT;
 }
 
-/* The weights of a regular triangulation; *view stays empty without any. 0, or -1 with an exception. */
+/* The weights of a regular triangulation; *view stays empty without any. 0, or -1 with an
+ * exception. */
 static int triangulation_get_weights(PyObject *weights, triangulation_input *in, Py_buffer *view)
 {
     if (weights == Py_None || !buffer_get_packed(weights, sizeof(double), in->points.count, view))
@@ -70,8 +71,8 @@ static int triangulation_get_weights(PyObject *weights, triangulation_input *in,
     return -1;
 }
 
-/* triangulate(cls, points, duplicate_of, kind, weights, limit, threads, progress): a mesh, the number of
- * duplicates, and whether it is optimal */
+/* triangulate(cls, points, duplicate_of, kind, weights, limit, threads, progress): a mesh, the
+ * number of duplicates, and whether it is optimal */
 static PyObject *triangulation_of_kind(PyObject *module, PyObject *args)
 {
     core_state *state = PyModule_GetState(module);

@@ -28,8 +28,8 @@ const char *mw_version(void)
     return MW_VERSION_STRING;
 }
 
-static mw_status error_fill(mw_error *error, mw_status status, int64_t triangle, int64_t vertex, const char *format,
-                            va_list arguments)
+static mw_status error_fill(mw_error *error, mw_status status, int64_t triangle, int64_t vertex,
+                            const char *format, va_list arguments)
 {
     if (error) {
         *error = (mw_error){.status = status, .triangle = triangle, .vertex = vertex, .line = -1};

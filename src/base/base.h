@@ -16,7 +16,8 @@
 /* Fill in an error (NULL allowed) and return its status, so that `return mw__fail(...)` reads well.
  * The fields that say where (triangle, vertex, line) are -1; set them afterwards where they
  * apply. */
-mw_status mw__fail(mw_error *error, mw_status status, const char *format, ...) __attribute__((format(printf, 3, 4)));
+mw_status mw__fail(mw_error *error, mw_status status, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
 mw_status mw__fail_memory(mw_error *error);
 /* As mw__fail with MW_ERROR_INPUT, naming a triangle and a vertex (-1: none). */
 mw_status mw__fail_at(mw_error *error, int64_t triangle, int64_t vertex, const char *format, ...)

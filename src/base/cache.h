@@ -5,8 +5,10 @@
 #include "base/base.h"
 
 typedef struct mw_caches {
-    size_t second; /* bytes of a core's own second-level cache                                              */
-    size_t reach;  /* bytes that are near as a rule: what a core has of the caches, those it shares counted */
+    /* bytes of a core's own second-level cache */
+    size_t second;
+    /* bytes that are near as a rule: what a core has of the caches, those it shares counted */
+    size_t reach;
 } mw_caches;
 
 /* What the system says, common sizes where it says nothing. Takes 20 ns. */

@@ -41,7 +41,8 @@ mw_hilbert mw__hilbert(const double low[2], const double high[2])
 }
 
 /* By so many digits of so many bits, both constants, from the lowest on. */
-static MW_INLINE void sort_digits(mw_key *keys, mw_key *scratch, size_t n, uint32_t digits, uint32_t bits)
+static MW_INLINE void sort_digits(mw_key *keys, mw_key *scratch, size_t n, uint32_t digits,
+                                  uint32_t bits)
 {
     enum { DIGITS = 3, BUCKETS = 1 << 12 };
     uint32_t next[DIGITS][BUCKETS], mask = (UINT32_C(1) << bits) - 1;

@@ -10,9 +10,11 @@
 static bool job_tell(mw_job *job, double whole)
 {
     const mw_progress *p = job->progress;
-    if (whole > job->told) job->told = whole; /* rounding may make a stage begin before the last one ended */
+    /* rounding may make a stage begin before the last one ended */
+    if (whole > job->told) job->told = whole;
     job->next = job->told + 1.0 / REPORTS;
-    if (p->report && p->report(p->context, job->stage, job->told)) atomic_store(&job->stopped, true);
+    if (p->report && p->report(p->context, job->stage, job->told))
+        atomic_store(&job->stopped, true);
     return !mw__job_stopped(job);
 }
 
@@ -58,8 +60,10 @@ mw_job_span mw__job_steps_of(mw_job *job, uint64_t done, uint64_t count, uint64_
 
 mw_status mw__job_end(mw_job *job, mw_status status, mw_error *error)
 {
-    if (mw__job_stopped(job)) return mw__fail(error, MW_CANCELLED, "cancelled while %s", job->stage);
-    if (!status && job->progress && job->progress->report) job->progress->report(job->progress->context, job->stage, 1);
+    if (mw__job_stopped(job))
+        return mw__fail(error, MW_CANCELLED, "cancelled while %s", job->stage);
+    if (!status && job->progress && job->progress->report)
+        job->progress->report(job->progress->context, job->stage, 1);
     return status;
 }
 
@@ -84,7 +88,8 @@ static void chunk_loop_run(void *argument, uint32_t member)
     }
 }
 
-bool mw__job_chunks(mw_job *job, uint32_t team, uint64_t chunks, mw_chunk_work *chunk_work, void *work)
+bool mw__job_chunks(mw_job *job, uint32_t team, uint64_t chunks, mw_chunk_work *chunk_work,
+                    void *work)
 {
     chunk_loop loop = {.job = job, .chunk_work = chunk_work, .work = work, .chunks = chunks};
     mw__team_run(team, chunk_loop_run, &loop);

@@ -60,16 +60,17 @@ static inline bool mw__job_stopped(const mw_job *job)
     return atomic_load_explicit(&job->stopped, memory_order_relaxed);
 }
 
-/* `done` of `total` of the present stage are done. Reported when the fraction of the whole has grown
- * enough: 256 times a job at most. Only the calling thread of the user may call this. Returns false
- * if the job is to stop. */
+/* `done` of `total` of the present stage are done. Reported when the fraction of the whole has
+ * grown enough: 256 times a job at most. Only the calling thread of the user may call this.
+ * Returns false if the job is to stop. */
 static inline bool mw__job_step(mw_job *job, uint64_t done, uint64_t total)
 {
-    return MW_LIKELY(!job->progress) || mw__job_report(job, (double)done / (double)(total ? total : 1));
+    return MW_LIKELY(!job->progress) ||
+           mw__job_report(job, (double)done / (double)(total ? total : 1));
 }
 
-/* The steps that follow are those of items done .. done + count - 1 of `total` in the present stage.
- * Give the result to mw__job_steps_end. */
+/* The steps that follow are those of items done .. done + count - 1 of `total` in the present
+ * stage. Give the result to mw__job_steps_end. */
 mw_job_span mw__job_steps_of(mw_job *job, uint64_t done, uint64_t count, uint64_t total);
 static inline void mw__job_steps_end(mw_job *job, mw_job_span outer)
 {
@@ -93,7 +94,8 @@ typedef void mw_chunk_work(void *work, uint64_t chunk, uint32_t member);
 /* Do the chunks 0 .. chunks - 1 with a team (from mw__job_team). Members take them in order, one at
  * a time. Steps of the present stage. Returns false if the job is to stop; then some chunks are
  * missing. */
-bool mw__job_chunks(mw_job *job, uint32_t team, uint64_t chunks, mw_chunk_work *chunk_work, void *work);
+bool mw__job_chunks(mw_job *job, uint32_t team, uint64_t chunks, mw_chunk_work *chunk_work,
+                    void *work);
 
 /* Do the items from .. to - 1 of some work. */
 typedef void mw_range_work(void *work, uint64_t from, uint64_t to);

@@ -6,8 +6,8 @@ mw_status mw__reserved_check(const char *type, const void *reserved, size_t byte
     const unsigned char *byte = reserved;
     for (size_t i = 0; i < bytes; i++)
         if (byte[i])
-            return mw__fail(error, MW_ERROR_ARGUMENT, "%s.reserved is not zero: initialise the structure with = {0}",
-                            type);
+            return mw__fail(error, MW_ERROR_ARGUMENT,
+                            "%s.reserved is not zero: initialise the structure with = {0}", type);
     return MW_OK;
 }
 

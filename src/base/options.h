@@ -8,7 +8,7 @@
  * version gives these bytes a meaning, so no caller may leave anything in them today. */
 mw_status mw__reserved_check(const char *type, const void *reserved, size_t bytes, mw_error *error);
 
-#define MW_RESERVED_CHECK(type, options, error)                                                                        \
+#define MW_RESERVED_CHECK(type, options, error)                                                    \
     mw__reserved_check(#type, (options)->reserved, sizeof((const type *)0)->reserved, error)
 
 /* The number of cells that a grid over `triangles` triangles may have if `asked` are asked for: at

@@ -10,7 +10,8 @@
 #include <sched.h>
 #endif
 
-/* Processors that this process may use. A container or taskset(1) may allow fewer than there are. */
+/* Processors that this process may use. A container or taskset(1) may allow fewer than there are.
+ * */
 static uint32_t processor_count(void)
 {
 #ifdef __linux__
@@ -51,7 +52,9 @@ static uint32_t team_begin(team_member *members, uint32_t team)
     uint32_t made = 1;
     sigfillset(&all);
     if (pthread_sigmask(SIG_SETMASK, &all, &before) != 0) return made;
-    while (made < team && pthread_create(&members[made].thread, NULL, team_member_run, &members[made]) == 0) made++;
+    while (made < team &&
+           pthread_create(&members[made].thread, NULL, team_member_run, &members[made]) == 0)
+        made++;
     pthread_sigmask(SIG_SETMASK, &before, NULL);
     return made;
 }

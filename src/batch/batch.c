@@ -29,7 +29,8 @@ static void block_answer_chunk(void *work, uint64_t chunk, uint32_t member)
     batch_block *block = work;
     uint32_t first = (uint32_t)chunk * block->chunk, left = block->n - first;
     (void)member;
-    mw_counters counters = block->batch->answer(block->batch, first, left < block->chunk ? left : block->chunk);
+    mw_counters counters =
+        block->batch->answer(block->batch, first, left < block->chunk ? left : block->chunk);
     pthread_mutex_lock(&block->lock);
     mw_counters_add(&block->sum, &counters);
     pthread_mutex_unlock(&block->lock);
@@ -38,7 +39,8 @@ static void block_answer_chunk(void *work, uint64_t chunk, uint32_t member)
 /* Returns false if the job is to stop. */
 static bool block_answer(const mw_batch *batch, uint32_t n, mw_job *job, mw_counters *sum)
 {
-    batch_block block = {.batch = batch, .n = n, .chunk = n < SMALL ? CHUNK / 4 : CHUNK, .sum = *sum};
+    batch_block block = {
+        .batch = batch, .n = n, .chunk = n < SMALL ? CHUNK / 4 : CHUNK, .sum = *sum};
     uint64_t chunks = ((uint64_t)n + block.chunk - 1) / block.chunk;
     pthread_mutex_init(&block.lock, NULL);
     bool done = mw__job_chunks(job, mw__job_team(job, chunks), chunks, block_answer_chunk, &block);
@@ -48,7 +50,8 @@ static bool block_answer(const mw_batch *batch, uint32_t n, mw_job *job, mw_coun
 }
 
 /* Sort a block of queries, and answer them: both are stages that take `share` of the job. */
-static bool block_run(mw_batch *batch, mw_key *keys, size_t block, double share, mw_job *job, mw_counters *sum)
+static bool block_run(mw_batch *batch, mw_key *keys, size_t block, double share, mw_job *job,
+                      mw_counters *sum)
 {
     const double sorting = batch->sort ? 0.2 : 0;
     if (batch->sort) {
@@ -59,7 +62,8 @@ static bool block_run(mw_batch *batch, mw_key *keys, size_t block, double share,
     return block_answer(batch, (uint32_t)block, job, sum);
 }
 
-static mw_status batch_run_blocks(mw_batch *batch, size_t n, mw_job *job, mw_counters *sum, mw_error *error)
+static mw_status batch_run_blocks(mw_batch *batch, size_t n, mw_job *job, mw_counters *sum,
+                                  mw_error *error)
 {
     size_t block = n < BLOCK ? n : BLOCK;
     mw_key *keys = batch->sort ? mw__alloc_lines(2 * block, sizeof *keys) : NULL;
@@ -78,8 +82,8 @@ static mw_status batch_run_blocks(mw_batch *batch, size_t n, mw_job *job, mw_cou
     return MW_OK;
 }
 
-mw_status mw__batch_run(mw_batch *batch, size_t n, uint32_t threads, const mw_progress *progress, mw_counters *counters,
-                        mw_error *error)
+mw_status mw__batch_run(mw_batch *batch, size_t n, uint32_t threads, const mw_progress *progress,
+                        mw_counters *counters, mw_error *error)
 {
     mw_job job = mw__job(threads, progress);
     mw_counters sum = {0};

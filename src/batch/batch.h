@@ -9,9 +9,9 @@
 
 #define MW_SORT_WORTHWHILE 64 /* fewer queries are not sorted by `auto` */
 
-/* First member of what a room knows of its batch. Points, locations, hints and seed are those of one
- * block while it is answered; its queries are numbered from 0, and the random numbers of a query come
- * from the seed and its number. */
+/* First member of what a room knows of its batch. Points, locations, hints and seed are those of
+ * one block while it is answered; its queries are numbered from 0, and the random numbers of a
+ * query come from the seed and its number. */
 typedef struct mw_batch mw_batch;
 struct mw_batch {
     const double *points;
@@ -29,7 +29,7 @@ struct mw_batch {
 
 /* Answer n queries as a job of its own. What was done goes to *counters unless that is NULL.
  * MW_ERROR_MEMORY, MW_CANCELLED. */
-mw_status mw__batch_run(mw_batch *batch, size_t n, uint32_t threads, const mw_progress *progress, mw_counters *counters,
-                        mw_error *error);
+mw_status mw__batch_run(mw_batch *batch, size_t n, uint32_t threads, const mw_progress *progress,
+                        mw_counters *counters, mw_error *error);
 
 #endif

@@ -23,7 +23,8 @@ static mw_counters borrowed_batch_answer(const mw_batch *queries, uint32_t first
             queries->locations[item] = mw__location_nowhere(MW_BAD);
             continue;
         }
-        queries->locations[item] = mw__borrowed_locate(b->mesh, &cursor, (mw_point){q[0], q[1]}, chained);
+        queries->locations[item] =
+            mw__borrowed_locate(b->mesh, &cursor, (mw_point){q[0], q[1]}, chained);
         chained = queries->order != NULL;
     }
     return cursor.counters;
@@ -44,9 +45,9 @@ static void borrowed_batch_nowhere(const mw_batch *queries, size_t n)
     }
 }
 
-mw_status mw_borrowed_locate_batch(const mw_borrowed *mesh, const double *points, size_t n, size_t stride,
-                                   const mw_borrowed_query_options *options, mw_location *locations,
-                                   mw_counters *counters, mw_error *error)
+mw_status mw_borrowed_locate_batch(const mw_borrowed *mesh, const double *points, size_t n,
+                                   size_t stride, const mw_borrowed_query_options *options,
+                                   mw_location *locations, mw_counters *counters, mw_error *error)
 {
     static const mw_borrowed_query_options defaults;
     if (!options) options = &defaults;
@@ -59,9 +60,12 @@ mw_status mw_borrowed_locate_batch(const mw_borrowed *mesh, const double *points
     mw_status status = mw_borrowed_cursor_init(options, &b.cursor, error);
     if (status) return status;
     if (!mesh) return mw__fail(error, MW_ERROR_ARGUMENT, "no mesh");
-    if (n && (!points || !locations)) return mw__fail(error, MW_ERROR_ARGUMENT, "no points, or no place for results");
-    if (b.queries.stride == 1) return mw__fail(error, MW_ERROR_ARGUMENT, "a stride of 1 holds no y");
+    if (n && (!points || !locations))
+        return mw__fail(error, MW_ERROR_ARGUMENT, "no points, or no place for results");
+    if (b.queries.stride == 1)
+        return mw__fail(error, MW_ERROR_ARGUMENT, "a stride of 1 holds no y");
     if (mesh->tri_count == 0) borrowed_batch_nowhere(&b.queries, n);
     if (!options->in_order && n >= MW_SORT_WORTHWHILE) b.queries.sort = borrowed_batch_sort;
-    return mw__batch_run(&b.queries, mesh->tri_count ? n : 0, options->threads, options->progress, counters, error);
+    return mw__batch_run(&b.queries, mesh->tri_count ? n : 0, options->threads, options->progress,
+                         counters, error);
 }

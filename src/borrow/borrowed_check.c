@@ -9,23 +9,29 @@ typedef struct borrowed_survey {
     pthread_mutex_t lock; /* of what follows */
     uint32_t bad;         /* the first triangle that breaks a promise, or MW_NONE */
     uint32_t flat, reversed, borders;
-    uint32_t border, corner; /* a triangle with an area that has no neighbour opposite to this corner */
-    bool flat_pair;          /* two flat triangles are neighbours */
+    /* a triangle with an area that has no neighbour opposite to this corner */
+    uint32_t border, corner;
+    bool flat_pair; /* two flat triangles are neighbours */
 } borrowed_survey;
 
 /* --- one triangle --- */
 
-static mw_status check_corners(const mw_borrowed *mesh, uint32_t t, mw_borrowed_tile *tile, mw_error *error)
+static mw_status check_corners(const mw_borrowed *mesh, uint32_t t, mw_borrowed_tile *tile,
+                               mw_error *error)
 {
     if (!mw__borrowed_read(mesh, t, tile))
-        return mw__fail_at(error, t, -1, "triangle %" PRIu32 " names a vertex that does not exist; there are %" PRIu32,
+        return mw__fail_at(error, t, -1,
+                           "triangle %" PRIu32
+                           " names a vertex that does not exist; there are %" PRIu32,
                            t, mesh->point_count);
     for (uint32_t k = 0; k < 3; k++) {
         if (tile->v[k] == tile->v[mw__next(k)])
-            return mw__fail_at(error, t, tile->v[k], "triangle %" PRIu32 ": vertex %" PRIu32 " stands in it twice", t,
+            return mw__fail_at(error, t, tile->v[k],
+                               "triangle %" PRIu32 ": vertex %" PRIu32 " stands in it twice", t,
                                tile->v[k]);
         if (!mw__is_finite(tile->p[k]))
-            return mw__fail_at(error, t, tile->v[k], "triangle %" PRIu32 ": vertex %" PRIu32 " is not finite", t,
+            return mw__fail_at(error, t, tile->v[k],
+                               "triangle %" PRIu32 ": vertex %" PRIu32 " is not finite", t,
                                tile->v[k]);
     }
     return MW_OK;
@@ -48,20 +54,24 @@ static const char *check_hint(const mw_borrowed *mesh, uint32_t t, const mw_borr
 
 /* The neighbour opposite to corner k shares the edge, and says the same; *apex is its own corner
  * off the edge. */
-static mw_status check_neighbour(const mw_borrowed *mesh, uint32_t t, const mw_borrowed_tile *tile, uint32_t k,
-                                 uint32_t across, mw_point *apex, mw_error *error)
+static mw_status check_neighbour(const mw_borrowed *mesh, uint32_t t, const mw_borrowed_tile *tile,
+                                 uint32_t k, uint32_t across, mw_point *apex, mw_error *error)
 {
     mw_borrowed_tile there;
     uint32_t a = tile->v[mw__next(k)], b = tile->v[mw__prev(k)];
-    uint32_t at = across == t || !mw__borrowed_read(mesh, across, &there) ? 3 : mw__borrowed_apex(&there, a, b);
+    uint32_t at = across == t || !mw__borrowed_read(mesh, across, &there)
+                      ? 3
+                      : mw__borrowed_apex(&there, a, b);
     if (at == 3)
         return mw__fail_at(error, t, tile->v[k],
-                           "triangle %" PRIu32 ": its neighbour %" PRIu32 " opposite to vertex %" PRIu32
-                           " does not have the vertices %" PRIu32 " and %" PRIu32 "%s",
+                           "triangle %" PRIu32 ": its neighbour %" PRIu32
+                           " opposite to vertex %" PRIu32 " does not have the vertices %" PRIu32
+                           " and %" PRIu32 "%s",
                            t, across, tile->v[k], a, b, check_hint(mesh, t, tile));
     if (mw__borrowed_across(mesh, across, at) != t)
         return mw__fail_at(error, t, tile->v[k],
-                           "triangle %" PRIu32 ": triangle %" PRIu32 " is its neighbour opposite to vertex %" PRIu32
+                           "triangle %" PRIu32 ": triangle %" PRIu32
+                           " is its neighbour opposite to vertex %" PRIu32
                            ", but not the other way round",
                            t, across, tile->v[k]);
     *apex = there.p[at];
@@ -70,19 +80,21 @@ static mw_status check_neighbour(const mw_borrowed *mesh, uint32_t t, const mw_b
 
 /* Does the triangle across the edge opposite to corner k turn a flat one left (1), right (-1), or
  * not at all (0)? */
-static int check_flat_turn(const mw_borrowed *mesh, const mw_borrowed_tile *tile, uint32_t k, uint32_t across)
+static int check_flat_turn(const mw_borrowed *mesh, const mw_borrowed_tile *tile, uint32_t k,
+                           uint32_t across)
 {
     mw_borrowed_tile there;
     if (across == MW_NONE || !mw__borrowed_read(mesh, across, &there)) return 0;
     uint32_t apex = mw__borrowed_apex(&there, tile->v[mw__next(k)], tile->v[mw__prev(k)]);
-    double side = apex == 3 ? 0 : mw__orient2d(tile->p[mw__next(k)], tile->p[mw__prev(k)], there.p[apex]);
+    double side =
+        apex == 3 ? 0 : mw__orient2d(tile->p[mw__next(k)], tile->p[mw__prev(k)], there.p[apex]);
     return side > 0 ? -1 : side < 0;
 }
 
 /* A flat triangle between neighbours lies between them: seen from each it goes round the same way.
  */
-static mw_status check_flat(const mw_borrowed *mesh, uint32_t t, const mw_borrowed_tile *tile, bool *pair,
-                            mw_error *error)
+static mw_status check_flat(const mw_borrowed *mesh, uint32_t t, const mw_borrowed_tile *tile,
+                            bool *pair, mw_error *error)
 {
     int sum = 0, turns = 0;
     for (uint32_t k = 0; k < 3; k++) {
@@ -93,18 +105,20 @@ static mw_status check_flat(const mw_borrowed *mesh, uint32_t t, const mw_borrow
         *pair = *pair || (across != MW_NONE && turn == 0);
     }
     if (sum == turns || sum == -turns) return MW_OK;
-    return mw__fail_at(error, t, -1, "triangle %" PRIu32 " has no area, and its neighbours fold round it", t);
+    return mw__fail_at(error, t, -1,
+                       "triangle %" PRIu32 " has no area, and its neighbours fold round it", t);
 }
 
 /* Neighbours lie on different sides of their edge: the higher one is asked, by both. A flat
  * triangle lies on neither. */
-static mw_status check_links(const mw_borrowed *mesh, uint32_t t, const mw_borrowed_tile *tile, double area,
-                             mw_error *error)
+static mw_status check_links(const mw_borrowed *mesh, uint32_t t, const mw_borrowed_tile *tile,
+                             double area, mw_error *error)
 {
     for (uint32_t k = 0; k < 3; k++) {
         mw_point apex;
         uint32_t across = mw__borrowed_across(mesh, t, k);
-        mw_status status = across == MW_NONE ? MW_OK : check_neighbour(mesh, t, tile, k, across, &apex, error);
+        mw_status status =
+            across == MW_NONE ? MW_OK : check_neighbour(mesh, t, tile, k, across, &apex, error);
         if (status) return status;
         if (across == MW_NONE || across < t || area == 0) continue;
         double beyond = mw__orient2d(tile->p[mw__next(k)], tile->p[mw__prev(k)], apex);

@@ -18,12 +18,15 @@
 #include "walk/value.h"
 
 /* Twice the area that q makes with the edge opposite to corner k, positive if they turn left. */
-static MW_INLINE double coordinate_of(mw_borrowed_walk *w, const mw_borrowed_tile *tile, uint32_t k, double *off)
+static MW_INLINE double coordinate_of(mw_borrowed_walk *w, const mw_borrowed_tile *tile, uint32_t k,
+                                      double *off)
 {
-    return area_value(&w->counts, tile->p[mw__next(k)], tile->p[mw__prev(k)], w->q, off, mw__borrowed_policy);
+    return area_value(&w->counts, tile->p[mw__next(k)], tile->p[mw__prev(k)], w->q, off,
+                      mw__borrowed_policy);
 }
 
-static MW_INLINE double coordinate_sum(mw_borrowed_walk *w, const mw_borrowed_tile *tile, double *off)
+static MW_INLINE double coordinate_sum(mw_borrowed_walk *w, const mw_borrowed_tile *tile,
+                                       double *off)
 {
     return area_value(&w->counts, tile->p[0], tile->p[1], tile->p[2], off, mw__borrowed_policy);
 }

@@ -61,7 +61,8 @@ static bool borrowed_contains(const mw_borrowed *mesh, uint32_t t, mw_point q, b
 /* --- the conclusion --- */
 
 /* Look at all triangles; the first one that contains q is the lowest. */
-static mw_location borrowed_scan(const mw_borrowed *mesh, mw_point q, mw_counters *counters, uint32_t *last)
+static mw_location borrowed_scan(const mw_borrowed *mesh, mw_point q, mw_counters *counters,
+                                 uint32_t *last)
 {
     counters->handovers++;
     for (uint32_t t = 0; t < mesh->tri_count; t++) {
@@ -78,7 +79,8 @@ static mw_location borrowed_scan(const mw_borrowed *mesh, mw_point q, mw_counter
 /* From triangle *t over its edge opposite to vertex number `off`, to one that has vertex `at`,
  * too. Returns the vertex that was not met before; MW_NONE: there is no such triangle, which
  * *broken tells from a border. */
-static uint32_t borrowed_turn(const mw_borrowed *mesh, uint32_t at, uint32_t off, uint32_t *t, bool *broken)
+static uint32_t borrowed_turn(const mw_borrowed *mesh, uint32_t at, uint32_t off, uint32_t *t,
+                              bool *broken)
 {
     mw_borrowed_tile tile;
     uint32_t k = 0;
@@ -86,13 +88,15 @@ static uint32_t borrowed_turn(const mw_borrowed *mesh, uint32_t at, uint32_t off
     if (!mw__borrowed_read(mesh, *t, &tile)) return MW_NONE;
     while (k < 3 && tile.v[k] != off) k++;
     if (k == 3) return MW_NONE;
-    uint32_t a = tile.v[mw__next(k)], b = tile.v[mw__prev(k)], across = mw__borrowed_across(mesh, *t, k);
+    uint32_t a = tile.v[mw__next(k)], b = tile.v[mw__prev(k)],
+             across = mw__borrowed_across(mesh, *t, k);
     *broken = across != MW_NONE;
     if (across == MW_NONE || !mw__borrowed_read(mesh, across, &tile)) return MW_NONE;
     uint32_t apex = mw__borrowed_apex(&tile, a, b);
     if (apex == 3 || (a != at && b != at)) return MW_NONE;
     borrowed_view view;
-    if (!borrowed_view_read(mesh, across, &view)) return MW_NONE; /* beyond one without area there may be another */
+    /* beyond one without area there may be another */
+    if (!borrowed_view_read(mesh, across, &view)) return MW_NONE;
     *t = across;
     return tile.v[apex];
 }
@@ -100,8 +104,8 @@ static uint32_t borrowed_turn(const mw_borrowed *mesh, uint32_t at, uint32_t off
 /* One way round the vertex `at` of triangle `first`, whose other vertices are `off` and `to`: over
  * the edge opposite to `off`. Lowers *best. Returns 1 if all round, 0 at the border, -1 where
  * links are wrong. */
-static int borrowed_go_round(const mw_borrowed *mesh, uint32_t first, uint32_t at, uint32_t off, uint32_t to,
-                             uint32_t *best)
+static int borrowed_go_round(const mw_borrowed *mesh, uint32_t first, uint32_t at, uint32_t off,
+                             uint32_t to, uint32_t *best)
 {
     uint32_t t = first;
     for (uint32_t turns = 0; turns < mesh->tri_count; turns++) {
@@ -117,7 +121,8 @@ static int borrowed_go_round(const mw_borrowed *mesh, uint32_t first, uint32_t a
 }
 
 /* The lowest of the triangles round the vertex `k` of the view; MW_NONE: links do not tell. */
-static uint32_t borrowed_lowest_at_vertex(const mw_borrowed *mesh, const borrowed_view *view, uint32_t k)
+static uint32_t borrowed_lowest_at_vertex(const mw_borrowed *mesh, const borrowed_view *view,
+                                          uint32_t k)
 {
     uint32_t t = view->user & MW_USER_MASK, best = t;
     uint32_t at = view->v[k], off = view->v[mw__next(k)], to = view->v[mw__prev(k)];
@@ -127,7 +132,8 @@ static uint32_t borrowed_lowest_at_vertex(const mw_borrowed *mesh, const borrowe
 }
 
 /* The same at the edge opposite to vertex `k` of the view. */
-static uint32_t borrowed_lowest_at_edge(const mw_borrowed *mesh, const borrowed_view *view, uint32_t k, mw_point q)
+static uint32_t borrowed_lowest_at_edge(const mw_borrowed *mesh, const borrowed_view *view,
+                                        uint32_t k, mw_point q)
 {
     uint32_t t = view->user & MW_USER_MASK, across = mw__borrowed_across(mesh, t, view->k[k]);
     borrowed_view other;
@@ -137,10 +143,12 @@ static uint32_t borrowed_lowest_at_edge(const mw_borrowed *mesh, const borrowed_
 }
 
 /* q is in triangle t, as the walk says. */
-static mw_location borrowed_answer(const mw_borrowed *mesh, uint32_t *t, mw_point q, mw_counters *counters)
+static mw_location borrowed_answer(const mw_borrowed *mesh, uint32_t *t, mw_point q,
+                                   mw_counters *counters)
 {
     borrowed_view view;
-    if (MW_UNLIKELY(!borrowed_contains(mesh, *t, q, &view))) return borrowed_scan(mesh, q, counters, t);
+    if (MW_UNLIKELY(!borrowed_contains(mesh, *t, q, &view)))
+        return borrowed_scan(mesh, q, counters, t);
     uint32_t zeros = 0, zero = 0, other = 0, lowest = *t;
     for (uint32_t k = 0; k < 3; k++) {
         zeros += view.area[k] == 0;
@@ -152,7 +160,8 @@ static mw_location borrowed_answer(const mw_borrowed *mesh, uint32_t *t, mw_poin
     if (zeros == 1) lowest = borrowed_lowest_at_edge(mesh, &view, zero, q);
     if (zeros == 2) lowest = borrowed_lowest_at_vertex(mesh, &view, other);
     if (MW_LIKELY(lowest == *t)) return mw__location_of(view.corner, view.user, q, view.area);
-    if (lowest == MW_NONE || !borrowed_contains(mesh, lowest, q, &view)) return borrowed_scan(mesh, q, counters, t);
+    if (lowest == MW_NONE || !borrowed_contains(mesh, lowest, q, &view))
+        return borrowed_scan(mesh, q, counters, t);
     return mw__location_of(view.corner, view.user, q, view.area);
 }
 
@@ -161,7 +170,8 @@ static bool borrowed_is_outside(const mw_borrowed *mesh, uint32_t t, mw_point q)
 {
     borrowed_view view;
     if (!mesh->convex) return false;
-    if (!borrowed_view_read(mesh, t, &view)) return mesh->checked; /* a walk goes over flat triangles, too */
+    /* a walk goes over flat triangles, too */
+    if (!borrowed_view_read(mesh, t, &view)) return mesh->checked;
     for (uint32_t k = 0; k < 3; k++)
         if (mw__borrowed_across(mesh, t, view.k[k]) == MW_NONE &&
             mw__orient2d(view.corner[mw__next(k)], view.corner[mw__prev(k)], q) < 0)
@@ -176,12 +186,14 @@ static bool borrowed_is_close(const mw_borrowed_tile *tile, mw_point q)
 {
     enum { LENGTHS = 3 };
     double least = INFINITY;
-    for (uint32_t k = 0; k < 3; k++) least = fmin(least, mw__distance2(tile->p[k], tile->p[mw__next(k)]));
+    for (uint32_t k = 0; k < 3; k++)
+        least = fmin(least, mw__distance2(tile->p[k], tile->p[mw__next(k)]));
     return mw__distance2(tile->p[0], q) <= LENGTHS * LENGTHS * least;
 }
 
 /* The nearest to q, by its vertex 0, of a sample and of the triangle found last. */
-static uint32_t borrowed_sample(const mw_borrowed *mesh, uint32_t last, mw_point q, uint64_t *random)
+static uint32_t borrowed_sample(const mw_borrowed *mesh, uint32_t last, mw_point q,
+                                uint64_t *random)
 {
     uint32_t count = (uint32_t)lround(cbrt(mesh->point_count)), best = last;
     double least = INFINITY;
@@ -209,7 +221,8 @@ static uint32_t borrowed_with_area(const mw_borrowed *mesh, uint32_t t)
     return t;
 }
 
-static uint32_t borrowed_first(const mw_borrowed *mesh, mw_borrowed_cursor *cursor, mw_point q, bool chained)
+static uint32_t borrowed_first(const mw_borrowed *mesh, mw_borrowed_cursor *cursor, mw_point q,
+                               bool chained)
 {
     uint32_t last = cursor->last < mesh->tri_count ? cursor->last : 0;
     mw_borrowed_tile tile;
@@ -254,30 +267,36 @@ static mw_verdict borrowed_walk_run(mw_borrowed_walk *w, mw_walk_kind kind)
     return mw__borrowed_remembering(w);
 }
 
-mw_location mw__borrowed_locate(const mw_borrowed *mesh, mw_borrowed_cursor *cursor, mw_point q, bool chained)
+mw_location mw__borrowed_locate(const mw_borrowed *mesh, mw_borrowed_cursor *cursor, mw_point q,
+                                bool chained)
 {
     mw_work work = {0};
     uint32_t first = borrowed_first(mesh, cursor, q, chained);
-    mw_borrowed_walk w = {.mesh = mesh, .q = q, .fuel = borrowed_fuel(mesh), .random = mw__random(&cursor->random)};
+    mw_borrowed_walk w = {
+        .mesh = mesh, .q = q, .fuel = borrowed_fuel(mesh), .random = mw__random(&cursor->random)};
     w.counts.work = &work;
     w.counts.stage = MW_STAGE_WALK;
     mw__borrowed_enter(&w, first);
     mw_verdict verdict = borrowed_walk_run(&w, (mw_walk_kind)cursor->walk);
     borrowed_count(&cursor->counters, &work);
     cursor->last = w.t;
-    if (MW_LIKELY(verdict == MW_VERDICT_FOUND)) return borrowed_answer(mesh, &cursor->last, q, &cursor->counters);
-    if (verdict == MW_VERDICT_LEFT && borrowed_is_outside(mesh, w.t, q)) return mw__location_nowhere(MW_OUTSIDE);
+    if (MW_LIKELY(verdict == MW_VERDICT_FOUND))
+        return borrowed_answer(mesh, &cursor->last, q, &cursor->counters);
+    if (verdict == MW_VERDICT_LEFT && borrowed_is_outside(mesh, w.t, q))
+        return mw__location_nowhere(MW_OUTSIDE);
     return borrowed_scan(mesh, q, &cursor->counters, &cursor->last);
 }
 
-mw_location mw_borrowed_locate(const mw_borrowed *mesh, mw_borrowed_cursor *cursor, double x, double y)
+mw_location mw_borrowed_locate(const mw_borrowed *mesh, mw_borrowed_cursor *cursor, double x,
+                               double y)
 {
     if (!isfinite(x) || !isfinite(y)) return mw__location_nowhere(MW_BAD);
     if (mesh->tri_count == 0) return mw__location_nowhere(MW_OUTSIDE);
     return mw__borrowed_locate(mesh, cursor, (mw_point){x, y}, false);
 }
 
-mw_status mw_borrowed_cursor_init(const mw_borrowed_query_options *options, mw_borrowed_cursor *cursor, mw_error *error)
+mw_status mw_borrowed_cursor_init(const mw_borrowed_query_options *options,
+                                  mw_borrowed_cursor *cursor, mw_error *error)
 {
     static const mw_borrowed_query_options defaults;
     if (!cursor) return mw__fail(error, MW_ERROR_ARGUMENT, "no place for the cursor");
@@ -285,10 +304,13 @@ mw_status mw_borrowed_cursor_init(const mw_borrowed_query_options *options, mw_b
     mw_status status = MW_RESERVED_CHECK(mw_borrowed_query_options, options, error);
     if (status) return status;
     mw_walk_kind walk = options->walk;
-    if (walk != MW_WALK_AUTO && walk != MW_WALK_REMEMBERING && walk != MW_WALK_BARYCENTRIC && walk != MW_WALK_DIRECT)
-        return mw__fail(error, MW_ERROR_ARGUMENT,
-                        "the walks in borrowed arrays are remembering, barycentric and direct, not %s",
-                        (unsigned)walk < MW_WALK_COUNT ? mw_walk_name(walk) : "an unknown one");
-    *cursor = (mw_borrowed_cursor){.random = mw__random_seed(options->seed, 0), .walk = (uint32_t)walk};
+    if (walk != MW_WALK_AUTO && walk != MW_WALK_REMEMBERING && walk != MW_WALK_BARYCENTRIC &&
+        walk != MW_WALK_DIRECT)
+        return mw__fail(
+            error, MW_ERROR_ARGUMENT,
+            "the walks in borrowed arrays are remembering, barycentric and direct, not %s",
+            (unsigned)walk < MW_WALK_COUNT ? mw_walk_name(walk) : "an unknown one");
+    *cursor =
+        (mw_borrowed_cursor){.random = mw__random_seed(options->seed, 0), .walk = (uint32_t)walk};
     return MW_OK;
 }

@@ -5,6 +5,7 @@
 #include "borrow/borrowed.h"
 
 /* As mw_borrowed_locate; the walk begins at the cursor's last triangle if `chained`. */
-mw_location mw__borrowed_locate(const mw_borrowed *mesh, mw_borrowed_cursor *cursor, mw_point q, bool chained);
+mw_location mw__borrowed_locate(const mw_borrowed *mesh, mw_borrowed_cursor *cursor, mw_point q,
+                                bool chained);
 
 #endif

@@ -24,8 +24,8 @@ static void borrowed_mesh_look(mw_borrowed *mesh)
     }
 }
 
-static mw_status borrowed_mesh_validate(const mw_borrowed_arrays *arrays, const mw_borrow_options *options,
-                                        mw_error *error)
+static mw_status borrowed_mesh_validate(const mw_borrowed_arrays *arrays,
+                                        const mw_borrow_options *options, mw_error *error)
 {
     mw_status status = MW_RESERVED_CHECK(mw_borrow_options, options, error);
     if (!status) status = mw__arrays_validate(arrays ? &arrays->mesh : NULL, 2, error);
@@ -35,11 +35,13 @@ static mw_status borrowed_mesh_validate(const mw_borrowed_arrays *arrays, const 
     if ((unsigned)arrays->layout > MW_NEIGHBOUR_ACROSS_EDGE)
         return mw__fail(error, MW_ERROR_ARGUMENT, "unknown layout of neighbours");
     if (options->convex && !options->unchecked)
-        return mw__fail(error, MW_ERROR_ARGUMENT, "whether the mesh is convex is decided by the check");
+        return mw__fail(error, MW_ERROR_ARGUMENT,
+                        "whether the mesh is convex is decided by the check");
     return MW_OK;
 }
 
-static mw_borrowed borrowed_mesh_view(const mw_borrowed_arrays *arrays, const mw_borrow_options *options)
+static mw_borrowed borrowed_mesh_view(const mw_borrowed_arrays *arrays,
+                                      const mw_borrow_options *options)
 {
     return (mw_borrowed){
         .points = arrays->mesh.points,
@@ -55,8 +57,8 @@ static mw_borrowed borrowed_mesh_view(const mw_borrowed_arrays *arrays, const mw
     };
 }
 
-mw_status mw_mesh_borrow(const mw_borrowed_arrays *arrays, const mw_borrow_options *options, mw_borrowed **out,
-                         mw_error *error)
+mw_status mw_mesh_borrow(const mw_borrowed_arrays *arrays, const mw_borrow_options *options,
+                         mw_borrowed **out, mw_error *error)
 {
     static const mw_borrow_options defaults;
     if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "no place for the mesh");

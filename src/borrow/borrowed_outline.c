@@ -58,7 +58,8 @@ bool mw__borrowed_is_convex(const mw_borrowed *mesh, uint32_t first, uint32_t k,
 {
     outline_edge e = {.t = first, .a = mw__next(k), .b = mw__prev(k), .s = k};
     if (!mw__borrowed_read(mesh, first, &e.tile)) return false;
-    if (mw__orient2d(e.tile.p[e.a], e.tile.p[e.b], e.tile.p[e.s]) < 0) e = (outline_edge){e.tile, e.t, e.b, e.a, e.s};
+    if (mw__orient2d(e.tile.p[e.a], e.tile.p[e.b], e.tile.p[e.s]) < 0)
+        e = (outline_edge){e.tile, e.t, e.b, e.a, e.s};
     uint32_t start = e.tile.v[e.a], next = e.tile.v[e.b], switches = 0, passed = 0;
     do {
         mw_point a = outline_from(&e), b = outline_to(&e);

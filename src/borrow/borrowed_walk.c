@@ -18,13 +18,15 @@ typedef struct borrowed_step {
     uint32_t a, b, s;
 } borrowed_step;
 
-static MW_INLINE bool borrowed_beyond(mw_borrowed_walk *w, const borrowed_step *at, uint32_t from, uint32_t to)
+static MW_INLINE bool borrowed_beyond(mw_borrowed_walk *w, const borrowed_step *at, uint32_t from,
+                                      uint32_t to)
 {
     return orient(&w->counts, at->tile.p[from], at->tile.p[to], w->q, mw__borrowed_policy) < 0;
 }
 
 /* Over the edge from corner `from` to corner `to`, which q lies to the right of. */
-static MW_INLINE mw_verdict borrowed_cross(mw_borrowed_walk *w, borrowed_step *at, uint32_t from, uint32_t to)
+static MW_INLINE mw_verdict borrowed_cross(mw_borrowed_walk *w, borrowed_step *at, uint32_t from,
+                                           uint32_t to)
 {
     uint32_t next = mw__borrowed_across(w->mesh, w->t, 3 - from - to);
     if (MW_UNLIKELY(next == MW_NONE)) return MW_VERDICT_LEFT;
@@ -43,12 +45,14 @@ static MW_INLINE mw_verdict borrowed_cross(mw_borrowed_walk *w, borrowed_step *a
 static mw_verdict borrowed_begin(mw_borrowed_walk *w, borrowed_step *at)
 {
     if (!mw__borrowed_read(w->mesh, w->t, &at->tile)) return MW_VERDICT_OUT_OF_FUEL;
-    double area = orient(&w->counts, at->tile.p[0], at->tile.p[1], at->tile.p[2], mw__borrowed_policy);
+    double area =
+        orient(&w->counts, at->tile.p[0], at->tile.p[1], at->tile.p[2], mw__borrowed_policy);
     if (area == 0) return MW_VERDICT_OUT_OF_FUEL;
     at->a = area > 0 ? 0 : 1;
     at->b = 1 - at->a;
     at->s = 2;
-    return borrowed_beyond(w, at, at->a, at->b) ? borrowed_cross(w, at, at->a, at->b) : MW_VERDICT_GO_ON;
+    return borrowed_beyond(w, at, at->a, at->b) ? borrowed_cross(w, at, at->a, at->b)
+                                                : MW_VERDICT_GO_ON;
 }
 
 /* Over one of the two edges that the walk did not come by, `swap`: SA first. */

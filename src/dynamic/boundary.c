@@ -18,7 +18,8 @@ static void pool_sort(const mw_triangle *tri, uint32_t *tile, size_t n)
         for (size_t i = gap; i < n; i++) {
             uint32_t t = tile[i], number = tri[t].user & MW_USER_MASK;
             size_t j = i;
-            for (; j >= gap && (tri[tile[j - gap]].user & MW_USER_MASK) > number; j -= gap) tile[j] = tile[j - gap];
+            for (; j >= gap && (tri[tile[j - gap]].user & MW_USER_MASK) > number; j -= gap)
+                tile[j] = tile[j - gap];
             tile[j] = t;
         }
 }
@@ -63,22 +64,24 @@ void mw__pool_end(mw_dynamic_tiling *dynamic, mw_pool *pool, uint32_t heir)
 }
 
 /* Link the half-edge of a new tile that replaces a step with what lies beyond the step. */
-static void boundary_step_attach(mw_dynamic_tiling *dynamic, uint32_t half, const mw_boundary_step *step, mw_pool *pool)
+static void boundary_step_attach(mw_dynamic_tiling *dynamic, uint32_t half,
+                                 const mw_boundary_step *step, mw_pool *pool)
 {
     uint32_t beyond = step->beyond;
     if (step->slit) {
         size_t i = 0;
         while (i < pool->slit_count && pool->slit[i].half != beyond) i++;
         beyond = i < pool->slit_count ? pool->slit[i].beyond : MW_NONE; /* MW_NONE: not there yet */
-        if (beyond == MW_NONE) pool->slit[pool->slit_count++] = (mw_boundary_step){.half = step->half, .beyond = half};
+        if (beyond == MW_NONE)
+            pool->slit[pool->slit_count++] = (mw_boundary_step){.half = step->half, .beyond = half};
     }
     mw__attach(dynamic, half, beyond);
 }
 
 /* Cut off the corner where step b follows step a: a new tile. Returns the half-edge that closes it,
  * whose neighbour is still missing. */
-static uint32_t corner_cut_off(mw_dynamic_tiling *dynamic, const mw_boundary_step *a, const mw_boundary_step *b,
-                               uint32_t end, mw_pool *pool)
+static uint32_t corner_cut_off(mw_dynamic_tiling *dynamic, const mw_boundary_step *a,
+                               const mw_boundary_step *b, uint32_t end, mw_pool *pool)
 {
     uint32_t t = pool->tile[pool->used++];
     mw__set_corners(dynamic, t, a->vertex, b->vertex, end);
@@ -91,7 +94,8 @@ static uint32_t corner_cut_off(mw_dynamic_tiling *dynamic, const mw_boundary_ste
     return mw__link(t, 2);
 }
 
-bool mw__chain_cut_corners(mw_dynamic_tiling *dynamic, mw_boundary_step *step, size_t *n, mw_pool *pool)
+bool mw__chain_cut_corners(mw_dynamic_tiling *dynamic, mw_boundary_step *step, size_t *n,
+                           mw_pool *pool)
 {
     const mw_point *p = dynamic->tiling->point;
     size_t top = 0; /* steps kept so far */
@@ -114,7 +118,8 @@ bool mw__chain_cut_corners(mw_dynamic_tiling *dynamic, mw_boundary_step *step, s
 
 /* Of the vertices between the ends of n steps, the one whose circle through both ends contains none
  * of the others. */
-static size_t find_delaunay_apex(const mw_dynamic_tiling *dynamic, const mw_boundary_step *step, size_t n)
+static size_t find_delaunay_apex(const mw_dynamic_tiling *dynamic, const mw_boundary_step *step,
+                                 size_t n)
 {
     const mw_point *p = dynamic->tiling->point, from = p[step[n].vertex];
     mw_lifted_vertex to = mw__lift_vertex(dynamic->tiling, step[0].vertex, from), apex = to;
@@ -135,12 +140,13 @@ static size_t find_delaunay_apex(const mw_dynamic_tiling *dynamic, const mw_boun
     return best;
 }
 
-static uint32_t polygon_fill(mw_dynamic_tiling *dynamic, const mw_boundary_step *step, size_t n, mw_pool *pool);
+static uint32_t polygon_fill(mw_dynamic_tiling *dynamic, const mw_boundary_step *step, size_t n,
+                             mw_pool *pool);
 
 /* The half-edge beyond n steps, for a tile that has their ends: that of a new tile, or, for one
  * step, what is beyond it. */
-static MW_INLINE uint32_t fill_beyond(mw_dynamic_tiling *dynamic, const mw_boundary_step *step, size_t n, mw_pool *pool,
-                                      bool *fixed)
+static MW_INLINE uint32_t fill_beyond(mw_dynamic_tiling *dynamic, const mw_boundary_step *step,
+                                      size_t n, mw_pool *pool, bool *fixed)
 {
     *fixed = n == 1 && step->fixed;
     return n == 1 ? step->beyond : polygon_fill(dynamic, step, n, pool);
@@ -150,19 +156,22 @@ static MW_INLINE uint32_t fill_beyond(mw_dynamic_tiling *dynamic, const mw_bound
  * the first: make the tile at that edge, then fill what is beyond its other two edges. The vertex
  * removed lies in or on the circle of the tile; so vertices on the circle are met in their order
  * round it, and no step crosses the tile. Returns the half-edge of that edge. */
-static uint32_t polygon_fill(mw_dynamic_tiling *dynamic, const mw_boundary_step *step, size_t n, mw_pool *pool)
+static uint32_t polygon_fill(mw_dynamic_tiling *dynamic, const mw_boundary_step *step, size_t n,
+                             mw_pool *pool)
 {
     size_t apex = n == 2 ? 1 : find_delaunay_apex(dynamic, step, n);
     uint32_t t = pool->tile[pool->used++];
     bool fixed[2];
     mw__set_corners(dynamic, t, step[n].vertex, step[0].vertex, step[apex].vertex);
     mw__attach(dynamic, mw__link(t, 1), fill_beyond(dynamic, step, apex, pool, &fixed[0]));
-    mw__attach(dynamic, mw__link(t, 2), fill_beyond(dynamic, step + apex, n - apex, pool, &fixed[1]));
+    mw__attach(dynamic, mw__link(t, 2),
+               fill_beyond(dynamic, step + apex, n - apex, pool, &fixed[1]));
     mw__set_fixed(dynamic, t, (uint32_t)fixed[0] << 1 | (uint32_t)fixed[1] << 2);
     return mw__link(t, 0);
 }
 
-void mw__ring_fill_delaunay(mw_dynamic_tiling *dynamic, const mw_boundary_step *step, size_t n, mw_pool *pool)
+void mw__ring_fill_delaunay(mw_dynamic_tiling *dynamic, const mw_boundary_step *step, size_t n,
+                            mw_pool *pool)
 {
     uint32_t last = polygon_fill(dynamic, step, n - 1, pool), t = mw__link_triangle(last);
     mw__attach(dynamic, last, step[n - 1].beyond);
@@ -172,18 +181,20 @@ void mw__ring_fill_delaunay(mw_dynamic_tiling *dynamic, const mw_boundary_step *
 
 /* Does the corner between steps a and b turn left, and is q not in the tile that would cut it
  * off? */
-static bool is_ear(const mw_dynamic_tiling *dynamic, const mw_boundary_step *a, const mw_boundary_step *b, uint32_t end,
-                   mw_point q)
+static bool is_ear(const mw_dynamic_tiling *dynamic, const mw_boundary_step *a,
+                   const mw_boundary_step *b, uint32_t end, mw_point q)
 {
     const mw_point *p = dynamic->tiling->point;
-    return mw__orient2d(p[a->vertex], p[b->vertex], p[end]) > 0 && mw__orient2d(p[a->vertex], p[end], q) >= 0;
+    return mw__orient2d(p[a->vertex], p[b->vertex], p[end]) > 0 &&
+           mw__orient2d(p[a->vertex], p[end], q) >= 0;
 }
 
 /* The ring is star-shaped, seen from q. If such a ring has more than three steps, one of its
  * corners can be cut off so that q still sees, or lies on, the rest: the edges from q to the ring
  * can be flipped in some order [Lawson 1977]. After a corner was cut off, the one before it is
  * tried again. */
-bool mw__ring_cut_corners(mw_dynamic_tiling *dynamic, mw_boundary_step *step, size_t n, mw_point q, mw_pool *pool)
+bool mw__ring_cut_corners(mw_dynamic_tiling *dynamic, mw_boundary_step *step, size_t n, mw_point q,
+                          mw_pool *pool)
 {
     size_t top = 0, i = 0; /* steps 0 .. top - 1 have been tried, i .. n - 1 have not */
     while (top + (n - i) > 3) {

@@ -32,15 +32,18 @@ bool mw__pool_begin_ring(mw_dynamic_tiling *dynamic, mw_pool *pool);
  * Sets *n to the number of steps left. If corners were cut off at a step, its `beyond` is edge 2 of
  * the last tile there. Pushes the edges between new tiles for mw__legalise. False when out of
  * memory. */
-bool mw__chain_cut_corners(mw_dynamic_tiling *dynamic, mw_boundary_step *step, size_t *n, mw_pool *pool);
+bool mw__chain_cut_corners(mw_dynamic_tiling *dynamic, mw_boundary_step *step, size_t *n,
+                           mw_pool *pool);
 
 /* Fill the closed ring of n steps with Delaunay tiles. The ring is the star of a vertex that has no
  * fixed edge, in a mesh that is kept Delaunay. */
-void mw__ring_fill_delaunay(mw_dynamic_tiling *dynamic, const mw_boundary_step *step, size_t n, mw_pool *pool);
+void mw__ring_fill_delaunay(mw_dynamic_tiling *dynamic, const mw_boundary_step *step, size_t n,
+                            mw_pool *pool);
 
 /* Fill the closed ring of n steps, the star of a vertex at q, with any tiles: cut off its
  * corners. */
-bool mw__ring_cut_corners(mw_dynamic_tiling *dynamic, mw_boundary_step *step, size_t n, mw_point q, mw_pool *pool);
+bool mw__ring_cut_corners(mw_dynamic_tiling *dynamic, mw_boundary_step *step, size_t n, mw_point q,
+                          mw_pool *pool);
 
 /* Redirect the numbers of the tiles left over to the lowest number used, or, if none was, to the
  * number `heir`. The caller drops the tiles. */

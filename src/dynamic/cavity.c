@@ -43,8 +43,8 @@ bool mw__cavity_room(mw_dynamic_tiling *dynamic, size_t tiles)
     return mw__boundary_room(dynamic, room_besides(&first, 3) + FEW);
 }
 
-static cavity_writer cavity_writer_begin(const mw_dynamic_tiling *dynamic, const mw_cavity *cavity, size_t steps,
-                                         uint32_t lifted_count)
+static cavity_writer cavity_writer_begin(const mw_dynamic_tiling *dynamic, const mw_cavity *cavity,
+                                         size_t steps, uint32_t lifted_count)
 {
     uint32_t *pool = dynamic->pool + cavity->pool;
     return (cavity_writer){dynamic->boundary + cavity->first,
@@ -56,7 +56,8 @@ static cavity_writer cavity_writer_begin(const mw_dynamic_tiling *dynamic, const
 }
 
 /* Make room for twice as many tiles. When out of memory the pool remains full. */
-static __attribute__((noinline)) cavity_writer cavity_writer_widen(mw_dynamic_tiling *dynamic, const mw_cavity *cavity,
+static __attribute__((noinline)) cavity_writer cavity_writer_widen(mw_dynamic_tiling *dynamic,
+                                                                   const mw_cavity *cavity,
                                                                    size_t steps, cavity_writer at)
 {
     const size_t boundary = (size_t)(at.boundary - dynamic->boundary),
@@ -68,7 +69,8 @@ static __attribute__((noinline)) cavity_writer cavity_writer_widen(mw_dynamic_ti
                            dynamic->lifted,
                            at.lifted_count,
                            dynamic->pool + pool,
-                           dynamic->pool + cavity->pool + (dynamic->boundary_room - room_besides(cavity, steps))};
+                           dynamic->pool + cavity->pool +
+                               (dynamic->boundary_room - room_besides(cavity, steps))};
 }
 
 /* --- circles ---------------------------------------------------------------------------------- */
@@ -78,7 +80,8 @@ typedef double double_pair __attribute__((vector_size(16)));
 
 /* Does the tile beyond a step stay, whatever its circle? `unconstrained`: no edge is fixed, and the
  * mesh is kept Delaunay. */
-static MW_INLINE bool step_is_closed(const mw_dynamic_tiling *dynamic, const mw_pending_step *step, bool unconstrained)
+static MW_INLINE bool step_is_closed(const mw_dynamic_tiling *dynamic, const mw_pending_step *step,
+                                     bool unconstrained)
 {
     return step->beyond == MW_NONE || (!unconstrained && (step->fixed || !dynamic->delaunay));
 }
@@ -89,8 +92,8 @@ static MW_INLINE uint32_t apex_beyond(const mw_triangle *tri, uint32_t beyond)
     return tri[mw__link_triangle(beyond)].v[mw__prev(mw__link_edge(beyond))];
 }
 
-static __attribute__((noinline)) bool in_circle_exact(const mw_dynamic_tiling *dynamic, uint32_t a, uint32_t b,
-                                                      uint32_t c, mw_point q)
+static __attribute__((noinline)) bool in_circle_exact(const mw_dynamic_tiling *dynamic, uint32_t a,
+                                                      uint32_t b, uint32_t c, mw_point q)
 {
     const mw_point *p = dynamic->tiling->point;
     const mw_lifted_vertex *lifted = dynamic->lifted;
@@ -114,7 +117,8 @@ static MW_INLINE bool tile_conflicts(const mw_dynamic_tiling *dynamic, mw_point 
                            c = mw__lift_vertex(dynamic->tiling, v, q);
     double bound, det = mw__lifted_incircle(b, a, &c, &bound);
     dynamic->lifted[apex] = c;
-    if (MW_UNLIKELY(!(fabs(det) > bound))) return in_circle_exact(dynamic, step->end, from, apex, q);
+    if (MW_UNLIKELY(!(fabs(det) > bound)))
+        return in_circle_exact(dynamic, step->end, from, apex, q);
     return det > 0;
 }
 
@@ -122,10 +126,9 @@ typedef struct conflict_pair {
     bool one, two;
 } conflict_pair;
 
-static __attribute__((noinline)) conflict_pair pair_conflicts_scalar(const mw_dynamic_tiling *dynamic, mw_point q,
-                                                                     uint32_t from, mw_pending_step one,
-                                                                     mw_pending_step two, uint32_t apex,
-                                                                     bool unconstrained)
+static __attribute__((noinline)) conflict_pair
+pair_conflicts_scalar(const mw_dynamic_tiling *dynamic, mw_point q, uint32_t from,
+                      mw_pending_step one, mw_pending_step two, uint32_t apex, bool unconstrained)
 {
     conflict_pair conflict = {.one = tile_conflicts(dynamic, q, from, &one, apex, unconstrained)};
     conflict.two = tile_conflicts(dynamic, q, one.end, &two, apex + 1, unconstrained);
@@ -133,13 +136,16 @@ static __attribute__((noinline)) conflict_pair pair_conflicts_scalar(const mw_dy
 }
 
 /* The same for two consecutive steps and two apices. If not `wanted`, the result may be wrong. */
-static MW_INLINE conflict_pair pair_conflicts(const mw_dynamic_tiling *dynamic, mw_point q, uint32_t from,
-                                              const mw_pending_step *one, const mw_pending_step *two, uint32_t apex,
+static MW_INLINE conflict_pair pair_conflicts(const mw_dynamic_tiling *dynamic, mw_point q,
+                                              uint32_t from, const mw_pending_step *one,
+                                              const mw_pending_step *two, uint32_t apex,
                                               bool wanted, bool unconstrained)
 {
     const conflict_pair neither = {false, false};
-    if (MW_UNLIKELY(step_is_closed(dynamic, one, unconstrained) || step_is_closed(dynamic, two, unconstrained)))
-        return wanted ? pair_conflicts_scalar(dynamic, q, from, *one, *two, apex, unconstrained) : neither;
+    if (MW_UNLIKELY(step_is_closed(dynamic, one, unconstrained) ||
+                    step_is_closed(dynamic, two, unconstrained)))
+        return wanted ? pair_conflicts_scalar(dynamic, q, from, *one, *two, apex, unconstrained)
+                      : neither;
     const mw_triangle *tri = dynamic->tiling->tri;
     mw_lifted_vertex *lifted = dynamic->lifted;
     const uint32_t v1 = apex_beyond(tri, one->beyond), v2 = apex_beyond(tri, two->beyond);
@@ -151,21 +157,25 @@ static MW_INLINE conflict_pair pair_conflicts(const mw_dynamic_tiling *dynamic, 
     const double_pair from_x = {a->x, b->x}, from_y = {a->y, b->y}, from_lift = {a->lift, b->lift};
     const double_pair end_x = {b->x, c->x}, end_y = {b->y, c->y}, end_lift = {b->lift, c->lift};
     const double_pair lifts = from_lift + end_lift + lift;
-    const double_pair det = end_lift * (from_x * y - from_y * x) + from_lift * (x * end_y - y * end_x) +
+    const double_pair det = end_lift * (from_x * y - from_y * x) +
+                            from_lift * (x * end_y - y * end_x) +
                             lift * (end_x * from_y - end_y * from_x);
     lifted[apex] = (mw_lifted_vertex){to1[0], to1[1], lift[0], v1};
     lifted[apex + 1] = (mw_lifted_vertex){to2[0], to2[1], lift[1], v2};
-    const double both = lifts[0] + lifts[1], bound = both * both * MW_LIFTED_ERROR + MW_UNDERFLOW_ERROR;
+    const double both = lifts[0] + lifts[1],
+                 bound = both * both * MW_LIFTED_ERROR + MW_UNDERFLOW_ERROR;
     const double first = fabs(det[0]), second = fabs(det[1]);
     if (MW_UNLIKELY(!((first < second ? first : second) > bound)))
-        return wanted ? pair_conflicts_scalar(dynamic, q, from, *one, *two, apex, unconstrained) : neither;
+        return wanted ? pair_conflicts_scalar(dynamic, q, from, *one, *two, apex, unconstrained)
+                      : neither;
     return (conflict_pair){det[0] > 0, det[1] > 0};
 }
 
 /* --- along the boundary ----------------------------------------------------------------------- */
 
 /* Copy member by member: a read wider than the stores before it would defeat store forwarding. */
-static MW_INLINE void pending_step_copy(mw_pending_step *to, const mw_pending_step *step, bool unconstrained)
+static MW_INLINE void pending_step_copy(mw_pending_step *to, const mw_pending_step *step,
+                                        bool unconstrained)
 {
     to->end = step->end;
     to->beyond = step->beyond;
@@ -173,24 +183,30 @@ static MW_INLINE void pending_step_copy(mw_pending_step *to, const mw_pending_st
     if (!unconstrained) to->fixed = step->fixed;
 }
 
-/* Follow the boundary from dynamic->lifted[from] on: first `step`, then the `steps` pending ones, the
- * last one first. */
+/* Follow the boundary from dynamic->lifted[from] on: first `step`, then the `steps` pending ones,
+ * the last one first. */
 static MW_INLINE bool cavity_dig_along(mw_dynamic_tiling *dynamic, mw_cavity *cavity, uint32_t from,
-                                       mw_pending_step step, size_t steps, uint32_t lifted_count, bool unconstrained)
+                                       mw_pending_step step, size_t steps, uint32_t lifted_count,
+                                       bool unconstrained)
 {
     const size_t dug = cavity->tiles;
     const mw_point q = cavity->q;
     cavity_writer at = cavity_writer_begin(dynamic, cavity, steps, lifted_count);
     for (;;) {
         while (step.apex != MW_NONE) {
-            const uint32_t t = mw__link_triangle(step.beyond), e = mw__link_edge(step.beyond), next = mw__next(e),
-                           prev = mw__prev(e), fixed = unconstrained ? 0 : dynamic->mark[t];
+            const uint32_t t = mw__link_triangle(step.beyond), e = mw__link_edge(step.beyond),
+                           next = mw__next(e), prev = mw__prev(e),
+                           fixed = unconstrained ? 0 : dynamic->mark[t];
             const uint32_t *link = dynamic->tiling->tri[t].link;
-            if (MW_UNLIKELY(at.pool >= at.full)) at = cavity_writer_widen(dynamic, cavity, steps, at);
+            if (MW_UNLIKELY(at.pool >= at.full))
+                at = cavity_writer_widen(dynamic, cavity, steps, at);
             if (MW_UNLIKELY(at.pool >= at.full)) return false;
             *at.pool++ = t;
-            mw_pending_step one = {.end = step.apex, .beyond = link[next], .fixed = fixed >> next & 1},
-                            two = {.end = step.end, .beyond = link[prev], .fixed = fixed >> prev & 1};
+            mw_pending_step one = {.end = step.apex,
+                                   .beyond = link[next],
+                                   .fixed = fixed >> next & 1},
+                            two = {
+                                .end = step.end, .beyond = link[prev], .fixed = fixed >> prev & 1};
             const conflict_pair conflict =
                 pair_conflicts(dynamic, q, from, &one, &two, at.lifted_count, true, unconstrained);
             two.apex = select_number(conflict.two, at.lifted_count + 1, MW_NONE);
@@ -227,11 +243,12 @@ static MW_INLINE bool cavity_begin_with(mw_dynamic_tiling *dynamic, mw_cavity *c
 }
 
 /* Edge k of tile t, which is in the cavity, as a step that ends at lifted vertex `end`. */
-static MW_INLINE mw_pending_step pending_edge(const mw_dynamic_tiling *dynamic, uint32_t t, uint32_t k, uint32_t end,
-                                              bool unconstrained)
+static MW_INLINE mw_pending_step pending_edge(const mw_dynamic_tiling *dynamic, uint32_t t,
+                                              uint32_t k, uint32_t end, bool unconstrained)
 {
-    return (mw_pending_step){
-        .end = end, .beyond = dynamic->tiling->tri[t].link[k], .fixed = !unconstrained && dynamic->mark[t] >> k & 1};
+    return (mw_pending_step){.end = end,
+                             .beyond = dynamic->tiling->tri[t].link[k],
+                             .fixed = !unconstrained && dynamic->mark[t] >> k & 1};
 }
 
 /* Append edge k of the first tile, `step`, to the pending steps; or, if the tile beyond
@@ -239,26 +256,30 @@ static MW_INLINE mw_pending_step pending_edge(const mw_dynamic_tiling *dynamic, 
  * vertices: 3 + k is the apex of the tile beyond, 6 + 2 k and 7 + 2 k are those of the tiles beyond
  * that. The writes do not depend on `conflicts`; if the tile stays, some are beyond
  * the end of their list. */
-static MW_INLINE size_t cavity_put_neighbour(mw_dynamic_tiling *dynamic, mw_cavity *cavity, size_t steps, uint32_t k,
-                                             const mw_pending_step *step, bool conflicts, bool unconstrained)
+static MW_INLINE size_t cavity_put_neighbour(mw_dynamic_tiling *dynamic, mw_cavity *cavity,
+                                             size_t steps, uint32_t k, const mw_pending_step *step,
+                                             bool conflicts, bool unconstrained)
 {
-    const uint32_t t = mw__link_triangle(step->beyond), e = mw__link_edge(step->beyond), apex = 3 + k, next = 6 + 2 * k;
+    const uint32_t t = mw__link_triangle(step->beyond), e = mw__link_edge(step->beyond),
+                   apex = 3 + k, next = 6 + 2 * k;
     mw_pending_step one = pending_edge(dynamic, t, mw__next(e), apex, unconstrained),
                     two = pending_edge(dynamic, t, mw__prev(e), step->end, unconstrained);
-    const conflict_pair conflict = pair_conflicts(dynamic, cavity->q, k, &one, &two, next, conflicts, unconstrained);
+    const conflict_pair conflict =
+        pair_conflicts(dynamic, cavity->q, k, &one, &two, next, conflicts, unconstrained);
     one.apex = select_number(conflict.one, next, MW_NONE);
     two.apex = select_number(conflicts & conflict.two, next + 1, MW_NONE);
     two.beyond = select_number(conflicts, two.beyond, step->beyond);
     if (!unconstrained && !conflicts) two.fixed = step->fixed;
     pending_step_copy(&dynamic->pending[steps], &two, unconstrained);
-    pending_step_copy(&dynamic->pending[steps + 1], &one, unconstrained); /* on top: it comes first */
+    /* on top: it comes first */
+    pending_step_copy(&dynamic->pending[steps + 1], &one, unconstrained);
     dynamic->pool[cavity->pool + cavity->tiles] = t;
     cavity->tiles += conflicts;
     return steps + 1 + conflicts;
 }
 
-static MW_INLINE bool cavity_dig_from_tile(mw_dynamic_tiling *dynamic, mw_cavity *cavity, uint32_t t,
-                                           bool unconstrained)
+static MW_INLINE bool cavity_dig_from_tile(mw_dynamic_tiling *dynamic, mw_cavity *cavity,
+                                           uint32_t t, bool unconstrained)
 {
     mw_pending_step one = pending_edge(dynamic, t, 0, 1, unconstrained),
                     two = pending_edge(dynamic, t, 1, 2, unconstrained),
@@ -266,7 +287,8 @@ static MW_INLINE bool cavity_dig_from_tile(mw_dynamic_tiling *dynamic, mw_cavity
     const bool all_open = !step_is_closed(dynamic, &one, unconstrained) &&
                           !step_is_closed(dynamic, &two, unconstrained) &&
                           !step_is_closed(dynamic, &three, unconstrained);
-    const conflict_pair conflict = pair_conflicts(dynamic, cavity->q, 0, &one, &two, 3, true, unconstrained);
+    const conflict_pair conflict =
+        pair_conflicts(dynamic, cavity->q, 0, &one, &two, 3, true, unconstrained);
     const bool last = tile_conflicts(dynamic, cavity->q, 2, &three, 5, unconstrained);
     if (MW_UNLIKELY(!all_open)) {
         one.apex = select_number(conflict.one, 3, MW_NONE);
@@ -296,10 +318,12 @@ bool mw__cavity_dig_side(mw_dynamic_tiling *dynamic, mw_cavity *cavity, uint32_t
 {
     const uint32_t t = mw__link_triangle(half), k = mw__link_edge(half), next = mw__next(k);
     const uint32_t prev = mw__prev(k);
-    mw_pending_step one = pending_edge(dynamic, t, next, prev, false), two = pending_edge(dynamic, t, prev, k, false);
+    mw_pending_step one = pending_edge(dynamic, t, next, prev, false),
+                    two = pending_edge(dynamic, t, prev, k, false);
     if (!cavity_begin_with(dynamic, cavity, t)) return false;
     mw__lift_corners(dynamic, t, cavity->q);
-    const conflict_pair conflict = pair_conflicts(dynamic, cavity->q, next, &one, &two, 3, true, false);
+    const conflict_pair conflict =
+        pair_conflicts(dynamic, cavity->q, next, &one, &two, 3, true, false);
     one.apex = conflict.one ? 3 : MW_NONE;
     two.apex = conflict.two ? 4 : MW_NONE;
     dynamic->pending[0] = two;
@@ -331,9 +355,12 @@ bool mw__cavity_dig_outside(mw_dynamic_tiling *dynamic, mw_cavity *cavity, uint3
 {
     const mw_point q = cavity->q;
     uint32_t steps = 0, half = mw__link(t, 0), after;
-    while (mw__beyond(dynamic, half) != MW_NONE || !mw__sees_hull_edge(dynamic, q, half)) half = mw__half_next(half);
-    while (mw__sees_hull_edge(dynamic, q, mw__hull_before(dynamic, half))) half = mw__hull_before(dynamic, half);
-    for (after = half; mw__sees_hull_edge(dynamic, q, after); after = mw__hull_after(dynamic, after)) {
+    while (mw__beyond(dynamic, half) != MW_NONE || !mw__sees_hull_edge(dynamic, q, half))
+        half = mw__half_next(half);
+    while (mw__sees_hull_edge(dynamic, q, mw__hull_before(dynamic, half)))
+        half = mw__hull_before(dynamic, half);
+    for (after = half; mw__sees_hull_edge(dynamic, q, after);
+         after = mw__hull_after(dynamic, after)) {
         /* this tile stays, but no other tile tells that it had no neighbour here */
         if (!mw__journal_tile(dynamic, mw__link_triangle(after)) ||
             !mw__boundary_room(dynamic, room_besides(cavity, steps + 1)))
@@ -346,6 +373,9 @@ bool mw__cavity_dig_outside(mw_dynamic_tiling *dynamic, mw_cavity *cavity, uint3
     dynamic->lifted[steps] = mw__lift_vertex(dynamic->tiling, mw__corner(dynamic, after), q);
     for (uint32_t i = 0; i < steps; i++)
         dynamic->pending[i].apex =
-            tile_conflicts(dynamic, q, i + 1, &dynamic->pending[i], steps + 1 + i, false) ? steps + 1 + i : MW_NONE;
-    return cavity_dig_along(dynamic, cavity, steps, dynamic->pending[steps - 1], steps - 1, 2 * steps + 1, false);
+            tile_conflicts(dynamic, q, i + 1, &dynamic->pending[i], steps + 1 + i, false)
+                ? steps + 1 + i
+                : MW_NONE;
+    return cavity_dig_along(dynamic, cavity, steps, dynamic->pending[steps - 1], steps - 1,
+                            2 * steps + 1, false);
 }

@@ -9,9 +9,9 @@
 
 #include "dynamic/dynamic_tiling.h"
 
-/* A cavity round q. Its boundary, counter-clockwise, is in dynamic->boundary from `first` on; one more
- * step tells where the last one ends. Its tiles are in dynamic->pool from `pool` on, in the order in
- * which they were found. This order decides which new tile gets which number. */
+/* A cavity round q. Its boundary, counter-clockwise, is in dynamic->boundary from `first` on; one
+ * more step tells where the last one ends. Its tiles are in dynamic->pool from `pool` on, in the
+ * order in which they were found. This order decides which new tile gets which number. */
 typedef struct mw_cavity {
     mw_point q;
     size_t first, pool;
@@ -21,8 +21,8 @@ typedef struct mw_cavity {
 /* Room for any cavity in a mesh of so many tiles, and for a second one across an edge. */
 bool mw__cavity_room(mw_dynamic_tiling *dynamic, size_t tiles);
 
-/* Dig from tile t, which contains q. The first three of dynamic->lifted are its corners. False when out
- * of memory, here and below. */
+/* Dig from tile t, which contains q. The first three of dynamic->lifted are its corners. False
+ * when out of memory, here and below. */
 bool mw__cavity_dig_tile(mw_dynamic_tiling *dynamic, mw_cavity *cavity, uint32_t t);
 
 /* Dig on one side of an edge that contains q: the side where `half` is. */
@@ -39,7 +39,8 @@ uint32_t mw__hull_before(const mw_dynamic_tiling *dynamic, uint32_t half);
 /* Set the first three of dynamic->lifted to the corners of a tile. There must be room for them. */
 static MW_INLINE void mw__lift_corners(mw_dynamic_tiling *dynamic, uint32_t t, mw_point q)
 {
-    for (int k = 0; k < 3; k++) dynamic->lifted[k] = mw__lift_vertex(dynamic->tiling, dynamic->tiling->tri[t].v[k], q);
+    for (int k = 0; k < 3; k++)
+        dynamic->lifted[k] = mw__lift_vertex(dynamic->tiling, dynamic->tiling->tri[t].v[k], q);
 }
 
 #endif

@@ -14,6 +14,7 @@ typedef struct mw_forced_edge {
 /* Make an edge from the vertex where the half-edge `begin` begins, straight towards `to`, up to the
  * first vertex on the way. Pushes edges between new tiles for mw__legalise. Changes nothing if a
  * fixed edge is in the way. False when out of memory. */
-bool mw__edge_force(mw_dynamic_tiling *dynamic, uint32_t begin, uint32_t to, mw_forced_edge *forced);
+bool mw__edge_force(mw_dynamic_tiling *dynamic, uint32_t begin, uint32_t to,
+                    mw_forced_edge *forced);
 
 #endif

@@ -17,8 +17,10 @@
 static bool edge_is_border(const mw_dynamic_tiling *dynamic, uint32_t half)
 {
     uint32_t other = mw__beyond(dynamic, half);
-    if (other == MW_NONE) return !dynamic->convex && mw__is_users_tile(dynamic, mw__link_triangle(half));
-    return mw__is_users_tile(dynamic, mw__link_triangle(half)) != mw__is_users_tile(dynamic, mw__link_triangle(other));
+    if (other == MW_NONE)
+        return !dynamic->convex && mw__is_users_tile(dynamic, mw__link_triangle(half));
+    return mw__is_users_tile(dynamic, mw__link_triangle(half)) !=
+           mw__is_users_tile(dynamic, mw__link_triangle(other));
 }
 
 /* --- where a segment leaves a vertex ---------------------------------------------------------- */
@@ -30,7 +32,8 @@ typedef struct star_exit {
     uint32_t half, vertex;
 } star_exit;
 
-static bool vertex_lies_ahead(const mw_dynamic_tiling *dynamic, uint32_t from, uint32_t to, uint32_t v)
+static bool vertex_lies_ahead(const mw_dynamic_tiling *dynamic, uint32_t from, uint32_t to,
+                              uint32_t v)
 {
     const mw_point *p = dynamic->tiling->point;
     return mw__orient2d(p[from], p[to], p[v]) == 0 && mw__dot2d(p[from], p[to], p[v]) > 0;
@@ -38,7 +41,8 @@ static bool vertex_lies_ahead(const mw_dynamic_tiling *dynamic, uint32_t from, u
 
 /* `begin`: an edge that begins at `from`. The search goes counter-clockwise from there; on the hull
  * it continues at the first tile. */
-static star_exit exit_after_edge(const mw_dynamic_tiling *dynamic, uint32_t begin, uint32_t from, uint32_t to)
+static star_exit exit_after_edge(const mw_dynamic_tiling *dynamic, uint32_t begin, uint32_t from,
+                                 uint32_t to)
 {
     const mw_point *p = dynamic->tiling->point;
     uint32_t at = begin;
@@ -51,7 +55,8 @@ static star_exit exit_after_edge(const mw_dynamic_tiling *dynamic, uint32_t begi
         if (mw__orient2d(p[from], p[to], p[a]) < 0 && mw__orient2d(p[from], p[to], p[b]) > 0)
             return (star_exit){across, MW_NONE};
         at = mw__beyond(dynamic, last);
-        if (at == MW_NONE) at = mw__vertex_star_first_from(dynamic, from, mw__link_triangle(begin), &open);
+        if (at == MW_NONE)
+            at = mw__vertex_star_first_from(dynamic, from, mw__link_triangle(begin), &open);
     } while (at != begin);
     return (star_exit){MW_NONE, MW_NONE}; /* it leaves the hull: impossible between two vertices */
 }
@@ -60,20 +65,23 @@ static star_exit exit_after_edge(const mw_dynamic_tiling *dynamic, uint32_t begi
 static star_exit exit_from_vertex(const mw_dynamic_tiling *dynamic, uint32_t from, uint32_t to)
 {
     bool open;
-    return exit_after_edge(dynamic, mw__vertex_star_first_from(dynamic, from, dynamic->last, &open), from, to);
+    return exit_after_edge(dynamic, mw__vertex_star_first_from(dynamic, from, dynamic->last, &open),
+                           from, to);
 }
 
 static mw_status refuse_crossing(const mw_dynamic_tiling *dynamic, uint32_t half, mw_error *error)
 {
     uint32_t a = dynamic->vertex_number[mw__corner(dynamic, half)],
              b = dynamic->vertex_number[mw__corner(dynamic, mw__half_next(half))];
-    return mw__fail_at(error, -1, a, "the constraint from vertex %" PRIu32 " to %" PRIu32 " or border is in the way", a,
-                       b);
+    return mw__fail_at(
+        error, -1, a,
+        "the constraint from vertex %" PRIu32 " to %" PRIu32 " or border is in the way", a, b);
 }
 
 static mw_status refuse_leaving(const mw_dynamic_tiling *dynamic, uint32_t from, mw_error *error)
 {
-    return mw__fail_at(error, -1, dynamic->vertex_number[from], "at vertex %" PRIu32 " the way leaves the mesh",
+    return mw__fail_at(error, -1, dynamic->vertex_number[from],
+                       "at vertex %" PRIu32 " the way leaves the mesh",
                        dynamic->vertex_number[from]);
 }
 
@@ -95,8 +103,8 @@ static mw_boundary_step boundary_step_at(const mw_dynamic_tiling *dynamic, uint3
 
 /* Count the tiles of the channel, beginning with the tile of `half`, which is crossed. Returns the
  * fixed edge in the way; MW_NONE if there is none. */
-static uint32_t channel_measure(const mw_dynamic_tiling *dynamic, uint32_t from, uint32_t to, uint32_t half,
-                                size_t *tiles)
+static uint32_t channel_measure(const mw_dynamic_tiling *dynamic, uint32_t from, uint32_t to,
+                                uint32_t half, size_t *tiles)
 {
     const mw_point *p = dynamic->tiling->point;
     for (*tiles = 1;; (*tiles)++) {
@@ -110,9 +118,10 @@ static uint32_t channel_measure(const mw_dynamic_tiling *dynamic, uint32_t from,
     return MW_NONE;
 }
 
-/* Collect both sides: dynamic->boundary has room for `tiles` + 2 steps each, dynamic->pool for the tiles. */
-static constraint_channel channel_gather(mw_dynamic_tiling *dynamic, uint32_t from, uint32_t to, uint32_t half,
-                                         size_t tiles)
+/* Collect both sides: dynamic->boundary has room for `tiles` + 2 steps each, dynamic->pool for the
+ * tiles. */
+static constraint_channel channel_gather(mw_dynamic_tiling *dynamic, uint32_t from, uint32_t to,
+                                         uint32_t half, size_t tiles)
 {
     const mw_point *p = dynamic->tiling->point;
     constraint_channel c = {.right = dynamic->boundary, .left = dynamic->boundary + 2 * tiles + 4};
@@ -122,11 +131,13 @@ static constraint_channel channel_gather(mw_dynamic_tiling *dynamic, uint32_t fr
     c.right[0] = boundary_step_at(dynamic, mw__half_prev(half));
     dynamic->pool[c.tiles++] = mw__link_triangle(half);
     for (;;) {
-        uint32_t other = mw__beyond(dynamic, half), onward = mw__half_next(other), back = mw__half_prev(other);
+        uint32_t other = mw__beyond(dynamic, half), onward = mw__half_next(other),
+                 back = mw__half_prev(other);
         c.end = mw__apex(dynamic, other);
         dynamic->pool[c.tiles++] = mw__link_triangle(other);
         double side = mw__orient2d(p[from], p[to], p[c.end]);
-        if (side <= 0) c.right[c.rights++] = boundary_step_at(dynamic, onward); /* from the right end to the apex */
+        /* from the right end to the apex */
+        if (side <= 0) c.right[c.rights++] = boundary_step_at(dynamic, onward);
         if (side >= 0) {
             *--c.left = boundary_step_at(dynamic, back);
             c.lefts++;
@@ -144,21 +155,24 @@ static void channel_find_slits(mw_dynamic_tiling *dynamic, mw_boundary_step *ste
 {
     for (size_t i = 0; i < n; i++) {
         uint32_t beyond = steps[i].beyond;
-        if (beyond == MW_NONE || !(dynamic->mark[mw__link_triangle(beyond)] & MW_JOURNALED)) continue;
+        if (beyond == MW_NONE || !(dynamic->mark[mw__link_triangle(beyond)] & MW_JOURNALED))
+            continue;
         for (size_t j = 0; j < n && !steps[i].slit; j++) steps[i].slit = steps[j].half == beyond;
     }
 }
 
 /* Replace the channel that begins with edge `half` by tiles on either side of a new edge, from
  * `from` to the end of the channel. False when out of memory. */
-static bool channel_fill(mw_dynamic_tiling *dynamic, uint32_t from, uint32_t to, uint32_t half, mw_forced_edge *forced)
+static bool channel_fill(mw_dynamic_tiling *dynamic, uint32_t from, uint32_t to, uint32_t half,
+                         mw_forced_edge *forced)
 {
     size_t tiles;
     *forced = (mw_forced_edge){MW_NONE, MW_NONE, channel_measure(dynamic, from, to, half, &tiles)};
     if (forced->blocked != MW_NONE) return true;
     if (!mw__boundary_room(dynamic, 4 * tiles + 8)) return false;
     constraint_channel c = channel_gather(dynamic, from, to, half, tiles);
-    mw_pool pool = {.tile = dynamic->pool, .count = c.tiles, .slit = dynamic->boundary + 2 * tiles + 4};
+    mw_pool pool = {
+        .tile = dynamic->pool, .count = c.tiles, .slit = dynamic->boundary + 2 * tiles + 4};
     if (!mw__pool_begin(dynamic, &pool)) return false;
     channel_find_slits(dynamic, c.right, c.rights);
     channel_find_slits(dynamic, c.left, c.lefts);
@@ -208,21 +222,23 @@ static mw_status release_edge(mw_dynamic_tiling *dynamic, uint32_t half, mw_erro
     uint32_t a = dynamic->vertex_number[mw__corner(dynamic, half)],
              b = dynamic->vertex_number[mw__corner(dynamic, mw__half_next(half))];
     if (edge_is_border(dynamic, half) || !mw__is_fixed(dynamic, half))
-        return mw__fail_at(error, -1, a, "the edge from vertex %" PRIu32 " to %" PRIu32 " is %s", a, b,
-                           edge_is_border(dynamic, half) ? "border" : "no constraint");
+        return mw__fail_at(error, -1, a, "the edge from vertex %" PRIu32 " to %" PRIu32 " is %s", a,
+                           b, edge_is_border(dynamic, half) ? "border" : "no constraint");
     return edge_set_fixed(dynamic, half, false) ? MW_OK : mw__fail_memory(error);
 }
 
-/* Constrain the next edge of the segment, from `from` to *end. dynamic->last becomes a tile of *end. */
-static mw_status constrain_next_edge(mw_dynamic_tiling *dynamic, uint32_t from, uint32_t to, uint32_t *end,
-                                     mw_error *error)
+/* Constrain the next edge of the segment, from `from` to *end. dynamic->last becomes a tile of
+ * *end. */
+static mw_status constrain_next_edge(mw_dynamic_tiling *dynamic, uint32_t from, uint32_t to,
+                                     uint32_t *end, mw_error *error)
 {
     star_exit exit = exit_from_vertex(dynamic, from, to);
     if (exit.half == MW_NONE) return refuse_leaving(dynamic, from, error);
     *end = exit.vertex;
     uint32_t half = exit.half;
     if (*end == MW_NONE) {
-        if (!mw__is_users_tile(dynamic, mw__link_triangle(half))) return refuse_leaving(dynamic, from, error);
+        if (!mw__is_users_tile(dynamic, mw__link_triangle(half)))
+            return refuse_leaving(dynamic, from, error);
         mw_forced_edge forced;
         if (!channel_fill(dynamic, from, to, exit.half, &forced)) return mw__fail_memory(error);
         if (forced.blocked != MW_NONE) return refuse_crossing(dynamic, forced.blocked, error);
@@ -234,8 +250,8 @@ static mw_status constrain_next_edge(mw_dynamic_tiling *dynamic, uint32_t from, 
 }
 
 /* Release the next edge of the segment. */
-static mw_status release_next_edge(mw_dynamic_tiling *dynamic, uint32_t from, uint32_t to, uint32_t *end,
-                                   mw_error *error)
+static mw_status release_next_edge(mw_dynamic_tiling *dynamic, uint32_t from, uint32_t to,
+                                   uint32_t *end, mw_error *error)
 {
     star_exit exit = exit_from_vertex(dynamic, from, to);
     *end = exit.vertex;
@@ -248,7 +264,8 @@ static mw_status release_next_edge(mw_dynamic_tiling *dynamic, uint32_t from, ui
 }
 
 /* Push the edges released: they may have to be flipped. */
-static mw_status push_released_edges(mw_dynamic_tiling *dynamic, uint32_t from, uint32_t to, mw_error *error)
+static mw_status push_released_edges(mw_dynamic_tiling *dynamic, uint32_t from, uint32_t to,
+                                     mw_error *error)
 {
     while (from != to) {
         star_exit exit = exit_from_vertex(dynamic, from, to);
@@ -261,8 +278,8 @@ static mw_status push_released_edges(mw_dynamic_tiling *dynamic, uint32_t from, 
 
 /* Flips come last, since a flip could move an edge off the segment. Channels share no tile, so the
  * half-edges on the stack remain valid. */
-mw_status mw__dynamic_constrain(mw_dynamic_tiling *dynamic, uint32_t from, uint32_t to, bool release,
-                                uint32_t *constrained_edges, mw_error *error)
+mw_status mw__dynamic_constrain(mw_dynamic_tiling *dynamic, uint32_t from, uint32_t to,
+                                bool release, uint32_t *constrained_edges, mw_error *error)
 {
     *constrained_edges = 0;
     dynamic->last = mw__dynamic_lowest_tile(dynamic, from);

@@ -129,8 +129,8 @@ static MW_INLINE bool mw__is_users_tile(const mw_dynamic_tiling *dynamic, uint32
 }
 
 /* The numbers of a tile's vertices, in the user's order. */
-static MW_INLINE void mw__dynamic_tile_vertices(const mw_dynamic_tiling *dynamic, const mw_triangle *tile,
-                                                uint32_t vertices[3])
+static MW_INLINE void mw__dynamic_tile_vertices(const mw_dynamic_tiling *dynamic,
+                                                const mw_triangle *tile, uint32_t vertices[3])
 {
     for (uint32_t k = 0; k < 3; k++)
         vertices[mw__user_local_vertex(tile->user, k)] = dynamic->vertex_number[tile->v[k]];

@@ -38,7 +38,8 @@ static bool tile_arrays_grow(mw_dynamic_tiling *dynamic, size_t least)
     uint8_t *mark = mw__realloc(dynamic->mark, room, sizeof *mark);
     if (!mark) return false;
     dynamic->mark = mark;
-    mw_triangle *tri = cache_lines_grow(tiling->tri, tiling->borrowed, tiling->tri_count, room, sizeof *tri);
+    mw_triangle *tri =
+        cache_lines_grow(tiling->tri, tiling->borrowed, tiling->tri_count, room, sizeof *tri);
     if (!tri) return false;
     tiling->tri = tri;
     memset(mark + dynamic->tile_room, 0, room - dynamic->tile_room);
@@ -66,7 +67,8 @@ static bool point_arrays_grow(mw_dynamic_tiling *dynamic, size_t least)
     uint32_t *tile_at = mw__realloc(tiling->tile_at, room, sizeof *tile_at);
     if (!tile_at) return false;
     tiling->tile_at = tile_at;
-    mw_point *point = cache_lines_grow(tiling->point, tiling->borrowed, tiling->point_count, room, sizeof *point);
+    mw_point *point =
+        cache_lines_grow(tiling->point, tiling->borrowed, tiling->point_count, room, sizeof *point);
     if (!point) return false;
     tiling->point = point;
     dynamic->point_room = room;
@@ -76,9 +78,12 @@ static bool point_arrays_grow(mw_dynamic_tiling *dynamic, size_t least)
 bool mw__tile_room_grow(mw_dynamic_tiling *dynamic, size_t n, bool users)
 {
     const mw_tiling *tiling = dynamic->tiling;
-    if (n > MW_MAX_TRIANGLES - tiling->tri_count || (users && n > MW_USER_MASK - tiling->number_count)) return false;
+    if (n > MW_MAX_TRIANGLES - tiling->tri_count ||
+        (users && n > MW_USER_MASK - tiling->number_count))
+        return false;
     const size_t tiles = tiling->tri_count + n, numbers = tiling->number_count + n;
-    if (users && numbers > dynamic->number_room && !tile_numbers_grow(dynamic, numbers)) return false;
+    if (users && numbers > dynamic->number_room && !tile_numbers_grow(dynamic, numbers))
+        return false;
     return tiles <= dynamic->tile_room || tile_arrays_grow(dynamic, tiles);
 }
 
@@ -96,7 +101,8 @@ bool mw__vertex_room_grow(mw_dynamic_tiling *dynamic, size_t n)
 {
     const size_t slots = dynamic->tiling->point_count + n, numbers = dynamic->vertex_count + n;
     if (numbers >= MW_GONE || slots >= MW_NONE) return false;
-    if (slots > dynamic->point_room + dynamic->free_count && !point_arrays_grow(dynamic, slots - dynamic->free_count))
+    if (slots > dynamic->point_room + dynamic->free_count &&
+        !point_arrays_grow(dynamic, slots - dynamic->free_count))
         return false;
     return numbers <= dynamic->vertex_room || vertex_slots_grow(dynamic, numbers);
 }
@@ -180,8 +186,8 @@ void mw__boundary_release(mw_dynamic_tiling *dynamic)
 
 size_t mw__boundary_bytes(const mw_dynamic_tiling *dynamic)
 {
-    return dynamic->boundary_room *
-           (sizeof *dynamic->boundary + sizeof *dynamic->pool + sizeof *dynamic->pending + 2 * sizeof *dynamic->lifted);
+    return dynamic->boundary_room * (sizeof *dynamic->boundary + sizeof *dynamic->pool +
+                                     sizeof *dynamic->pending + 2 * sizeof *dynamic->lifted);
 }
 
 /* --- from a tiling ---------------------------------------------------------------------------- */
@@ -210,8 +216,8 @@ static mw_status mesh_check_editable(const mw_tiling *tiling, const mw_mesh *mes
     if (mesh->flat_count > 0) {
         uint32_t t = 0;
         while (mw__has_area(mesh->point, &mesh->tri[t])) t++;
-        return mw__fail_at(error, mw__triangle_number(mesh, t), -1, "triangle %" PRIu32 " has no area",
-                           mw__triangle_number(mesh, t));
+        return mw__fail_at(error, mw__triangle_number(mesh, t), -1,
+                           "triangle %" PRIu32 " has no area", mw__triangle_number(mesh, t));
     }
     for (uint32_t t = 0; t < tiling->tri_count; t++) {
         const mw_triangle *tile = &tiling->tri[t];
@@ -219,9 +225,11 @@ static mw_status mesh_check_editable(const mw_tiling *tiling, const mw_mesh *mes
         const mw_triangle *own = &mesh->tri[mw__triangle_slot(mesh, tile->user & MW_USER_MASK)];
         for (int k = 0; k < 3; k++)
             if (own->v[k] != tile->v[k]) {
-                uint32_t v = mw__vertex_number(mesh, own->v[k]), other = mw__vertex_number(mesh, tile->v[k]);
+                uint32_t v = mw__vertex_number(mesh, own->v[k]),
+                         other = mw__vertex_number(mesh, tile->v[k]);
                 return mw__fail_at(error, tile->user & MW_USER_MASK, v,
-                                   "vertices %" PRIu32 " and %" PRIu32 " lie at one place", other, v);
+                                   "vertices %" PRIu32 " and %" PRIu32 " lie at one place", other,
+                                   v);
             }
     }
     return MW_OK;
@@ -237,7 +245,8 @@ static bool make_numbers(mw_dynamic_tiling *dynamic, const mw_mesh *mesh)
     tiling->number_count = mesh->tri_count;
     dynamic->vertex_count = tiling->point_count;
     for (uint32_t t = 0; t < tiling->tri_count; t++)
-        if (!(tiling->tri[t].user & MW_GHOST)) tiling->tile_of[tiling->tri[t].user & MW_USER_MASK] = t;
+        if (!(tiling->tri[t].user & MW_GHOST))
+            tiling->tile_of[tiling->tri[t].user & MW_USER_MASK] = t;
     for (uint32_t v = 0; v < dynamic->vertex_count; v++) {
         dynamic->vertex_number[v] = mw__vertex_number(mesh, v);
         dynamic->vertex_slot[dynamic->vertex_number[v]] = v;
@@ -260,15 +269,15 @@ static void fix_border(mw_dynamic_tiling *dynamic)
     for (uint32_t t = 0; t < tiling->tri_count; t++)
         for (uint32_t k = 0; k < 3; k++) {
             uint32_t link = tiling->tri[t].link[k];
-            bool border = link == MW_NONE
-                              ? !dynamic->convex && mw__is_users_tile(dynamic, t)
-                              : mw__is_users_tile(dynamic, t) != mw__is_users_tile(dynamic, mw__link_triangle(link));
+            bool border = link == MW_NONE ? !dynamic->convex && mw__is_users_tile(dynamic, t)
+                                          : mw__is_users_tile(dynamic, t) !=
+                                                mw__is_users_tile(dynamic, mw__link_triangle(link));
             if (border) dynamic->mark[t] |= (uint8_t)(1u << k);
         }
 }
 
-mw_status mw__dynamic_create(mw_dynamic_tiling *dynamic, mw_tiling *tiling, const mw_mesh *mesh, bool convex,
-                             mw_error *error)
+mw_status mw__dynamic_create(mw_dynamic_tiling *dynamic, mw_tiling *tiling, const mw_mesh *mesh,
+                             bool convex, mw_error *error)
 {
     *dynamic = (mw_dynamic_tiling){.tiling = tiling, .convex = convex};
     mw_status status = mesh_check_editable(tiling, mesh, error);
@@ -295,8 +304,11 @@ void mw__dynamic_release(mw_dynamic_tiling *dynamic)
 size_t mw__dynamic_bytes(const mw_dynamic_tiling *dynamic)
 {
     const mw_tiling *t = dynamic->tiling;
-    return t->tri_count * sizeof *dynamic->mark + dynamic->vertex_count * sizeof *dynamic->vertex_slot +
-           t->point_count * sizeof *dynamic->vertex_number + dynamic->free_room * sizeof *dynamic->free_slot +
-           dynamic->journal_room * sizeof *dynamic->journal + dynamic->step_room * sizeof *dynamic->step +
+    return t->tri_count * sizeof *dynamic->mark +
+           dynamic->vertex_count * sizeof *dynamic->vertex_slot +
+           t->point_count * sizeof *dynamic->vertex_number +
+           dynamic->free_room * sizeof *dynamic->free_slot +
+           dynamic->journal_room * sizeof *dynamic->journal +
+           dynamic->step_room * sizeof *dynamic->step +
            dynamic->stack_room * sizeof *dynamic->stack + mw__boundary_bytes(dynamic);
 }

@@ -99,17 +99,20 @@ mw_status mw__dynamic_flip(mw_dynamic_tiling *dynamic, uint32_t from, uint32_t t
 {
     uint32_t half = mw__dynamic_edge(dynamic, from, to),
              number[2] = {dynamic->vertex_number[from], dynamic->vertex_number[to]};
-    if (half == MW_NONE || (!mw__is_users_tile(dynamic, mw__link_triangle(half)) && !mw__is_fixed(dynamic, half)))
-        return mw__fail_at(error, -1, number[0], "vertices %" PRIu32 " and %" PRIu32 " are not joined by an edge",
+    if (half == MW_NONE ||
+        (!mw__is_users_tile(dynamic, mw__link_triangle(half)) && !mw__is_fixed(dynamic, half)))
+        return mw__fail_at(error, -1, number[0],
+                           "vertices %" PRIu32 " and %" PRIu32 " are not joined by an edge",
                            number[0], number[1]);
     uint32_t other = mw__beyond(dynamic, half);
     if (other == MW_NONE || mw__is_fixed(dynamic, half))
         return mw__fail_at(error, -1, number[0],
-                           "the edge from vertex %" PRIu32 " to %" PRIu32 " is border or a constraint", number[0],
-                           number[1]);
+                           "the edge from vertex %" PRIu32 " to %" PRIu32
+                           " is border or a constraint",
+                           number[0], number[1]);
     const mw_point *p = dynamic->tiling->point;
-    uint32_t a = mw__corner(dynamic, half), b = mw__corner(dynamic, other), c = mw__apex(dynamic, half),
-             d = mw__apex(dynamic, other);
+    uint32_t a = mw__corner(dynamic, half), b = mw__corner(dynamic, other),
+             c = mw__apex(dynamic, half), d = mw__apex(dynamic, other);
     if (!(mw__orient2d(p[d], p[c], p[a]) > 0 && mw__orient2d(p[c], p[d], p[b]) > 0))
         return mw__fail_at(error, -1, number[0],
                            "the triangles beside the edge from vertex %" PRIu32 " to %" PRIu32

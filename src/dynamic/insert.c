@@ -14,7 +14,8 @@
 
 static mw_status refuse_outside(mw_point q, mw_error *error)
 {
-    return mw__fail(error, MW_ERROR_INPUT, "the point %.17g, %.17g lies outside of the mesh", q.x, q.y);
+    return mw__fail(error, MW_ERROR_INPUT, "the point %.17g, %.17g lies outside of the mesh", q.x,
+                    q.y);
 }
 
 /* --- the star --------------------------------------------------------------------------------- */
@@ -27,12 +28,14 @@ static bool insertion_begin(mw_dynamic_tiling *dynamic, mw_point q)
 }
 
 /* Add a vertex at q, if *vertex is MW_NONE. */
-static mw_status insertion_make_vertex(mw_dynamic_tiling *dynamic, mw_point q, uint32_t *vertex, mw_error *error)
+static mw_status insertion_make_vertex(mw_dynamic_tiling *dynamic, mw_point q, uint32_t *vertex,
+                                       mw_error *error)
 {
     if (*vertex != MW_NONE) return MW_OK;
     if (!mw__vertex_room(dynamic, 1))
-        return dynamic->vertex_count >= MW_GONE - 1 ? mw__fail(error, MW_ERROR_LIMIT, "no more numbers for vertices")
-                                                    : mw__fail_memory(error);
+        return dynamic->vertex_count >= MW_GONE - 1
+                   ? mw__fail(error, MW_ERROR_LIMIT, "no more numbers for vertices")
+                   : mw__fail_memory(error);
     *vertex = mw__add_vertex(dynamic, q);
     if (dynamic->under_way) dynamic->step[dynamic->step_count - 1].vertex = *vertex;
     return MW_OK;
@@ -45,7 +48,8 @@ typedef struct vertex_fan {
 
 static mw_status insertion_tile_failure(const mw_dynamic_tiling *dynamic, size_t n, mw_error *error)
 {
-    if (dynamic->tiling->number_count > MW_USER_MASK - n || dynamic->tiling->tri_count > MW_MAX_TRIANGLES - n)
+    if (dynamic->tiling->number_count > MW_USER_MASK - n ||
+        dynamic->tiling->tri_count > MW_MAX_TRIANGLES - n)
         return mw__fail(error, MW_ERROR_LIMIT, "no more numbers for triangles");
     return mw__fail_memory(error);
 }
@@ -59,8 +63,8 @@ static MW_INLINE bool journal_cavity(mw_dynamic_tiling *dynamic, const mw_cavity
 
 /* Fill the cavity with tiles round the vertex: those of the cavity, and new ones like tile
  * `beside`. If this fails, it has changed nothing. */
-static mw_status cavity_fill(mw_dynamic_tiling *dynamic, const mw_cavity *cavity, uint32_t *vertex, uint32_t beside,
-                             vertex_fan *made, mw_error *error)
+static mw_status cavity_fill(mw_dynamic_tiling *dynamic, const mw_cavity *cavity, uint32_t *vertex,
+                             uint32_t beside, vertex_fan *made, mw_error *error)
 {
     const size_t more = cavity->steps - cavity->tiles;
     if (!mw__tile_room(dynamic, beside, more)) return insertion_tile_failure(dynamic, more, error);
@@ -70,16 +74,20 @@ static mw_status cavity_fill(mw_dynamic_tiling *dynamic, const mw_cavity *cavity
     const uint32_t v = *vertex;
     uint32_t *pool = dynamic->pool + cavity->pool;
     mw__add_tiles(dynamic, beside, (uint32_t)more, pool + cavity->tiles);
-    pool[cavity->steps] = pool[0];                                           /* as if the star were closed */
+    /* as if the star were closed */
+    pool[cavity->steps] = pool[0];
     const bool unconstrained = dynamic->fixed_count == 0 && dynamic->convex; /* no edge is fixed */
     mw_triangle *tri = dynamic->tiling->tri;
     uint32_t *tile_at = dynamic->tiling->tile_at, before = pool[cavity->steps - 1];
     const mw_boundary_step *step = dynamic->boundary + cavity->first;
     for (const uint32_t *at = pool, *end = pool + cavity->steps; at < end; at++, step++) {
-        const uint32_t t = at[0], after = at[1], from = step[0].vertex, to = step[1].vertex, beyond = step->beyond;
-        tri[t] = (mw_triangle){
-            {from, to, v, from}, {beyond, mw__link(after, 2), mw__link(before, 1)}, tri[t].user & ~MW_REVERSED};
-        if (beyond != MW_NONE) tri[mw__link_triangle(beyond)].link[mw__link_edge(beyond)] = mw__link(t, 0);
+        const uint32_t t = at[0], after = at[1], from = step[0].vertex, to = step[1].vertex,
+                       beyond = step->beyond;
+        tri[t] = (mw_triangle){{from, to, v, from},
+                               {beyond, mw__link(after, 2), mw__link(before, 1)},
+                               tri[t].user & ~MW_REVERSED};
+        if (beyond != MW_NONE)
+            tri[mw__link_triangle(beyond)].link[mw__link_edge(beyond)] = mw__link(t, 0);
         if (!unconstrained) mw__set_fixed(dynamic, t, step->fixed);
         tile_at[from] = before = t;
     }
@@ -96,7 +104,8 @@ static void insertion_open_fan(mw_dynamic_tiling *dynamic, const vertex_fan *mad
 }
 
 /* Insert in tile t. The first three lifted vertices are its corners. */
-static mw_status insert_in_tile(mw_dynamic_tiling *dynamic, uint32_t t, mw_point q, uint32_t *v, mw_error *error)
+static mw_status insert_in_tile(mw_dynamic_tiling *dynamic, uint32_t t, mw_point q, uint32_t *v,
+                                mw_error *error)
 {
     if (!mw__is_users_tile(dynamic, t)) return refuse_outside(q, error);
     mw_cavity cavity = {.q = q};
@@ -120,8 +129,8 @@ static uint32_t insertion_lower_side(const mw_dynamic_tiling *dynamic, uint32_t 
 
 /* Dig and fill the cavity on one side of an edge, that of `half`, in the lists from cavity->first
  * and cavity->pool on. */
-static mw_status insert_beside(mw_dynamic_tiling *dynamic, uint32_t half, mw_cavity *cavity, uint32_t *v,
-                               vertex_fan *made, mw_error *error)
+static mw_status insert_beside(mw_dynamic_tiling *dynamic, uint32_t half, mw_cavity *cavity,
+                               uint32_t *v, vertex_fan *made, mw_error *error)
 {
     bool fixed = mw__is_fixed(dynamic, half);
     if (!mw__cavity_dig_side(dynamic, cavity, half)) return mw__fail_memory(error);
@@ -134,7 +143,8 @@ static mw_status insert_beside(mw_dynamic_tiling *dynamic, uint32_t half, mw_cav
     return MW_OK;
 }
 
-static mw_status insert_on_edge(mw_dynamic_tiling *dynamic, uint32_t half, mw_point q, uint32_t *v, mw_error *error)
+static mw_status insert_on_edge(mw_dynamic_tiling *dynamic, uint32_t half, mw_point q, uint32_t *v,
+                                mw_error *error)
 {
     half = insertion_lower_side(dynamic, half);
     uint32_t other = mw__beyond(dynamic, half), t = mw__link_triangle(half);
@@ -159,7 +169,8 @@ static mw_status insert_on_edge(mw_dynamic_tiling *dynamic, uint32_t half, mw_po
 
 /* --- beyond the hull -------------------------------------------------------------------------- */
 
-static mw_status insert_outside(mw_dynamic_tiling *dynamic, uint32_t t, mw_point q, uint32_t *v, mw_error *error)
+static mw_status insert_outside(mw_dynamic_tiling *dynamic, uint32_t t, mw_point q, uint32_t *v,
+                                mw_error *error)
 {
     if (!dynamic->convex) return refuse_outside(q, error);
     if (!insertion_begin(dynamic, q)) return mw__fail_memory(error);
@@ -186,11 +197,14 @@ static uint32_t insertion_coinciding_corner(const mw_dynamic_tiling *dynamic)
 static uint32_t insertion_edge_through(const mw_dynamic_tiling *dynamic, uint32_t t, mw_point q)
 {
     uint32_t k = 0;
-    while (k < 2 && mw__lifted_side(dynamic->tiling, &dynamic->lifted[k], &dynamic->lifted[k + 1], q) != 0) k++;
+    while (k < 2 &&
+           mw__lifted_side(dynamic->tiling, &dynamic->lifted[k], &dynamic->lifted[k + 1], q) != 0)
+        k++;
     return mw__link(t, k);
 }
 
-mw_status mw__dynamic_insert(mw_dynamic_tiling *dynamic, mw_point q, uint32_t t, uint32_t *vertex, mw_error *error)
+mw_status mw__dynamic_insert(mw_dynamic_tiling *dynamic, mw_point q, uint32_t t, uint32_t *vertex,
+                             mw_error *error)
 {
     enum { LIFTED = 16 };
     if (!mw__boundary_room(dynamic, LIFTED)) return mw__fail_memory(error);
@@ -204,6 +218,7 @@ mw_status mw__dynamic_insert(mw_dynamic_tiling *dynamic, mw_point q, uint32_t t,
     }
     if (MW_UNLIKELY(!at.inside)) return insert_outside(dynamic, at.tile, q, vertex, error);
     if (MW_UNLIKELY(at.on_boundary))
-        return insert_on_edge(dynamic, insertion_edge_through(dynamic, at.tile, q), q, vertex, error);
+        return insert_on_edge(dynamic, insertion_edge_through(dynamic, at.tile, q), q, vertex,
+                              error);
     return insert_in_tile(dynamic, at.tile, q, vertex, error);
 }

@@ -43,7 +43,8 @@ static void journal_end(mw_dynamic_tiling *dynamic)
     dynamic->under_way = false;
 }
 
-static void journal_clear_marks(mw_dynamic_tiling *dynamic, const mw_journal_entry *first, size_t count)
+static void journal_clear_marks(mw_dynamic_tiling *dynamic, const mw_journal_entry *first,
+                                size_t count)
 {
     for (size_t i = 0; i < count; i++) dynamic->mark[first[i].slot] &= (uint8_t)MW_FIXED_EDGES;
 }
@@ -68,7 +69,8 @@ static void journal_exchange_tiles(mw_dynamic_tiling *dynamic, const mw_journal_
     for (size_t i = step->first_entry; i < dynamic->journal_count; i++) {
         mw_journal_entry *b = &dynamic->journal[i], now = {.slot = b->slot, .tile.v[0] = MW_NONE};
         if (b->slot < tiling->tri_count)
-            now = (mw_journal_entry){b->slot, dynamic->mark[b->slot] & MW_FIXED_EDGES, tiling->tri[b->slot]};
+            now = (mw_journal_entry){b->slot, dynamic->mark[b->slot] & MW_FIXED_EDGES,
+                                     tiling->tri[b->slot]};
         if (b->tile.v[0] != MW_NONE) {
             tiling->tri[b->slot] = b->tile;
             mw__set_fixed(dynamic, b->slot, b->mark);
@@ -104,7 +106,8 @@ static void journal_restore_vertices(mw_dynamic_tiling *dynamic, const mw_journa
         dynamic->vertex_slot[step->number] = v;
         tiling->point[v] = step->point;
     }
-    if (step->edit.kind == MW_EDIT_MOVE && step->vertex != MW_NONE) tiling->point[step->vertex] = step->point;
+    if (step->edit.kind == MW_EDIT_MOVE && step->vertex != MW_NONE)
+        tiling->point[step->vertex] = step->point;
     dynamic->fixed_count = step->fixed_count;
     dynamic->delaunay = step->delaunay;
     if (dynamic->last >= tiling->tri_count) dynamic->last = 0;
@@ -115,7 +118,8 @@ void mw__journal_rollback(mw_dynamic_tiling *dynamic)
     const mw_journal_step *step = &dynamic->step[dynamic->step_count - 1];
     journal_exchange_tiles(dynamic, step);
     journal_restore_vertices(dynamic, step);
-    journal_clear_marks(dynamic, dynamic->journal + step->first_entry, dynamic->journal_count - step->first_entry);
+    journal_clear_marks(dynamic, dynamic->journal + step->first_entry,
+                        dynamic->journal_count - step->first_entry);
     journal_end(dynamic);
     mw__journal_drop(dynamic);
 }
@@ -154,7 +158,9 @@ static void shrink_journal(mw_dynamic_tiling *dynamic)
 {
     enum { FEW = 4096 };
     size_t room = FEW + 2 * dynamic->journal_count;
-    if (dynamic->journal_room <= FEW + (size_t)dynamic->tiling->tri_count || room > dynamic->journal_room / 2) return;
+    if (dynamic->journal_room <= FEW + (size_t)dynamic->tiling->tri_count ||
+        room > dynamic->journal_room / 2)
+        return;
     mw_journal_entry *entries = mw__realloc(dynamic->journal, room, sizeof *entries);
     if (!entries) return;
     dynamic->journal = entries;
@@ -170,7 +176,8 @@ void mw__journal_forget(mw_dynamic_tiling *dynamic, size_t steps)
     dynamic->journal_count -= entries;
     dynamic->step_count = steps;
     if (steps > 0) {
-        memmove(dynamic->journal, dynamic->journal + entries, dynamic->journal_count * sizeof *dynamic->journal);
+        memmove(dynamic->journal, dynamic->journal + entries,
+                dynamic->journal_count * sizeof *dynamic->journal);
         memmove(dynamic->step, dynamic->step + gone, steps * sizeof *dynamic->step);
         for (size_t i = 0; i < steps; i++) dynamic->step[i].first_entry -= entries;
     }
@@ -219,8 +226,8 @@ static void sort_by_number(mw_changed_triangle *list, size_t n)
 }
 
 /* List the triangles of the entries, as they were before the edit, sorted; returns how many. */
-static size_t list_former(const mw_dynamic_tiling *dynamic, const mw_journal_entry *first, size_t count,
-                          mw_changed_triangle *list)
+static size_t list_former(const mw_dynamic_tiling *dynamic, const mw_journal_entry *first,
+                          size_t count, mw_changed_triangle *list)
 {
     size_t n = 0;
     for (size_t i = 0; i < count; i++) {
@@ -235,8 +242,8 @@ static size_t list_former(const mw_dynamic_tiling *dynamic, const mw_journal_ent
 /* Append the triangles that exist now and did not before, sorted; returns how many. They are in
  * slots of entries, and in slots at the end of the array. A triangle at the end with an older
  * number has only changed its slot. */
-static size_t list_made(const mw_dynamic_tiling *dynamic, const mw_journal_entry *first, size_t count,
-                        mw_changed_triangle *list, size_t known)
+static size_t list_made(const mw_dynamic_tiling *dynamic, const mw_journal_entry *first,
+                        size_t count, mw_changed_triangle *list, size_t known)
 {
     const mw_tiling *tiling = dynamic->tiling;
     const mw_journal_step *step = &dynamic->step[dynamic->step_count - 1];
@@ -245,11 +252,13 @@ static size_t list_made(const mw_dynamic_tiling *dynamic, const mw_journal_entry
         if (first[i].slot >= tiling->tri_count) continue;
         const mw_triangle *now = &tiling->tri[first[i].slot];
         mw_changed_triangle made = made_triangle(now);
-        if (is_users_triangle(now) && !bsearch(&made, list, known, sizeof *list, compare_by_number)) list[n++] = made;
+        if (is_users_triangle(now) && !bsearch(&made, list, known, sizeof *list, compare_by_number))
+            list[n++] = made;
     }
     for (uint32_t t = step->tiles; t < tiling->tri_count; t++) {
         const mw_triangle *now = &tiling->tri[t];
-        if (is_users_triangle(now) && (now->user & MW_USER_MASK) >= step->numbers) list[n++] = made_triangle(now);
+        if (is_users_triangle(now) && (now->user & MW_USER_MASK) >= step->numbers)
+            list[n++] = made_triangle(now);
     }
     sort_by_number(list + known, n - known);
     return n - known;
@@ -267,7 +276,8 @@ static bool triangle_is_changed(const mw_dynamic_tiling *dynamic, const mw_chang
     return memcmp(now, c->before, sizeof now) != 0;
 }
 
-void mw__journal_report(const mw_dynamic_tiling *dynamic, mw_changed_triangle *list, mw_change *change)
+void mw__journal_report(const mw_dynamic_tiling *dynamic, mw_changed_triangle *list,
+                        mw_change *change)
 {
     const mw_journal_entry *first;
     size_t count = mw__journal_entries(dynamic, &first);
@@ -278,7 +288,8 @@ void mw__journal_report(const mw_dynamic_tiling *dynamic, mw_changed_triangle *l
     memmove(list, list + were, change->made * sizeof *list);
     n = change->made;
     for (size_t i = 0; i < were; i++)
-        if (!triangle_is_gone(dynamic, &before[i]) && triangle_is_changed(dynamic, &before[i])) list[n++] = before[i];
+        if (!triangle_is_gone(dynamic, &before[i]) && triangle_is_changed(dynamic, &before[i]))
+            list[n++] = before[i];
     change->reused = n - change->made;
     for (size_t i = 0; i < were; i++)
         if (triangle_is_gone(dynamic, &before[i])) list[n++] = before[i];

@@ -47,7 +47,8 @@ void mw__journal_drop(mw_dynamic_tiling *dynamic);
 void mw__journal_forget(mw_dynamic_tiling *dynamic, size_t steps);
 
 /* The entries of the last step; returns how many. */
-static MW_INLINE size_t mw__journal_entries(const mw_dynamic_tiling *dynamic, const mw_journal_entry **first)
+static MW_INLINE size_t mw__journal_entries(const mw_dynamic_tiling *dynamic,
+                                            const mw_journal_entry **first)
 {
     size_t begin = dynamic->step[dynamic->step_count - 1].first_entry;
     *first = dynamic->journal + begin;
@@ -59,11 +60,13 @@ static MW_INLINE size_t mw__journal_extent(const mw_dynamic_tiling *dynamic)
 {
     const mw_journal_step *step = &dynamic->step[dynamic->step_count - 1];
     uint32_t tiles = dynamic->tiling->tri_count;
-    return dynamic->journal_count - step->first_entry + (tiles > step->tiles ? tiles - step->tiles : 0);
+    return dynamic->journal_count - step->first_entry +
+           (tiles > step->tiles ? tiles - step->tiles : 0);
 }
 
 /* List the triangles that the last step changed, which was recorded. `list` has room for three
  * times the extent. */
-void mw__journal_report(const mw_dynamic_tiling *dynamic, mw_changed_triangle *list, mw_change *change);
+void mw__journal_report(const mw_dynamic_tiling *dynamic, mw_changed_triangle *list,
+                        mw_change *change);
 
 #endif

@@ -11,16 +11,18 @@
  * tile. Sets *vertex to the vertex at q, which may have been there before. `t`: the tile where the
  * search for q begins. If no edit is under way, none needs to be recorded; the insertion begins one
  * if it might fail after it has changed a tile. */
-mw_status mw__dynamic_insert(mw_dynamic_tiling *dynamic, mw_point q, uint32_t t, uint32_t *vertex, mw_error *error);
+mw_status mw__dynamic_insert(mw_dynamic_tiling *dynamic, mw_point q, uint32_t t, uint32_t *vertex,
+                             mw_error *error);
 mw_status mw__dynamic_remove(mw_dynamic_tiling *dynamic, uint32_t vertex, mw_error *error);
 /* Remove a vertex that has no fixed edges from the tiles, given its star, which was collected last.
  * The vertex keeps its slot and its number. */
-mw_status mw__dynamic_take_out(mw_dynamic_tiling *dynamic, const mw_vertex_star *star, uint32_t v, mw_error *error);
+mw_status mw__dynamic_take_out(mw_dynamic_tiling *dynamic, const mw_vertex_star *star, uint32_t v,
+                               mw_error *error);
 mw_status mw__dynamic_flip(mw_dynamic_tiling *dynamic, uint32_t from, uint32_t to, mw_error *error);
 /* Constrain the segment between two vertices, or release its constraints. *constrained_edges: the
  * number of edges on the segment. */
-mw_status mw__dynamic_constrain(mw_dynamic_tiling *dynamic, uint32_t from, uint32_t to, bool release,
-                                uint32_t *constrained_edges, mw_error *error);
+mw_status mw__dynamic_constrain(mw_dynamic_tiling *dynamic, uint32_t from, uint32_t to,
+                                bool release, uint32_t *constrained_edges, mw_error *error);
 /* Flip edges that are not fixed until all are Delaunay. */
 mw_status mw__dynamic_make_delaunay(mw_dynamic_tiling *dynamic, mw_error *error);
 

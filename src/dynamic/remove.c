@@ -15,7 +15,8 @@
 
 static mw_status refuse_fixed(const mw_dynamic_tiling *dynamic, uint32_t v, mw_error *error)
 {
-    return mw__fail_at(error, -1, dynamic->vertex_number[v], "vertex %" PRIu32 " is on the border or on a constraint",
+    return mw__fail_at(error, -1, dynamic->vertex_number[v],
+                       "vertex %" PRIu32 " is on the border or on a constraint",
                        dynamic->vertex_number[v]);
 }
 
@@ -34,34 +35,43 @@ static uint32_t number_beside(const mw_dynamic_tiling *dynamic, size_t steps)
 
 /* The tiles around the star are still Delaunay without its vertex: only the edges within are
  * tested. */
-static mw_status ring_close(mw_dynamic_tiling *dynamic, const mw_vertex_star *star, mw_point q, mw_error *error)
+static mw_status ring_close(mw_dynamic_tiling *dynamic, const mw_vertex_star *star, mw_point q,
+                            mw_error *error)
 {
     enum { FEW = 16 }; /* filling takes time quadratic in the steps; flips seldom do */
     mw_pool pool = {.tile = dynamic->pool, .count = star->n};
     if (!mw__pool_begin_ring(dynamic, &pool)) return mw__fail_memory(error);
     if (dynamic->delaunay && star->n <= FEW)
         mw__ring_fill_delaunay(dynamic, dynamic->boundary, star->n, &pool);
-    else if (!mw__ring_cut_corners(dynamic, dynamic->boundary, star->n, q, &pool) || !mw__legalise_within(dynamic))
+    else if (!mw__ring_cut_corners(dynamic, dynamic->boundary, star->n, q, &pool) ||
+             !mw__legalise_within(dynamic))
         return mw__fail_memory(error);
     mw__pool_end(dynamic, &pool, MW_NONE);
-    return mw__drop_tiles(dynamic, pool.tile + pool.used, pool.count - pool.used) ? MW_OK : mw__fail_memory(error);
+    return mw__drop_tiles(dynamic, pool.tile + pool.used, pool.count - pool.used)
+               ? MW_OK
+               : mw__fail_memory(error);
 }
 
-static mw_status shrink_hull(mw_dynamic_tiling *dynamic, const mw_vertex_star *star, mw_error *error)
+static mw_status shrink_hull(mw_dynamic_tiling *dynamic, const mw_vertex_star *star,
+                             mw_error *error)
 {
     mw_pool pool = {.tile = dynamic->pool, .count = star->n};
     size_t left = star->n;
-    uint32_t heir = number_beside(dynamic, star->n), number = dynamic->step[dynamic->step_count - 1].edit.vertex;
-    if (!mw__pool_begin(dynamic, &pool) || !mw__chain_cut_corners(dynamic, dynamic->boundary, &left, &pool))
+    uint32_t heir = number_beside(dynamic, star->n),
+             number = dynamic->step[dynamic->step_count - 1].edit.vertex;
+    if (!mw__pool_begin(dynamic, &pool) ||
+        !mw__chain_cut_corners(dynamic, dynamic->boundary, &left, &pool))
         return mw__fail_memory(error);
     if (dynamic->tiling->tri_count == pool.count - pool.used)
-        return mw__fail_at(error, -1, number, "without vertex %" PRIu32 " no triangle would be left", number);
+        return mw__fail_at(error, -1, number,
+                           "without vertex %" PRIu32 " no triangle would be left", number);
     uint32_t *tile_at = dynamic->tiling->tile_at;
     for (size_t i = 0; i <= left; i++) tile_at[dynamic->boundary[i].vertex] = MW_NONE;
     for (size_t i = 0; i < left; i++) {
         uint32_t beyond = dynamic->boundary[i].beyond;
         if (beyond == MW_NONE) continue;
-        tile_at[dynamic->boundary[i].vertex] = tile_at[dynamic->boundary[i + 1].vertex] = mw__link_triangle(beyond);
+        tile_at[dynamic->boundary[i].vertex] = tile_at[dynamic->boundary[i + 1].vertex] =
+            mw__link_triangle(beyond);
         if (!mw__journal_tile(dynamic, mw__link_triangle(beyond)))
             return mw__fail_memory(error); /* its vertices may have no other tile left */
         mw__attach(dynamic, beyond, MW_NONE);
@@ -69,16 +79,20 @@ static mw_status shrink_hull(mw_dynamic_tiling *dynamic, const mw_vertex_star *s
     }
     if (!mw__legalise(dynamic)) return mw__fail_memory(error);
     mw__pool_end(dynamic, &pool, heir);
-    return mw__drop_tiles(dynamic, pool.tile + pool.used, pool.count - pool.used) ? MW_OK : mw__fail_memory(error);
+    return mw__drop_tiles(dynamic, pool.tile + pool.used, pool.count - pool.used)
+               ? MW_OK
+               : mw__fail_memory(error);
 }
 
 /* Fill one side of the line: steps[0 .. n - 1] become one. Sets *base to the half-edge of the line
  * on this side; MW_NONE if this side has no tile. */
-static bool close_side(mw_dynamic_tiling *dynamic, mw_boundary_step *steps, size_t n, mw_pool *pool, uint32_t *base)
+static bool close_side(mw_dynamic_tiling *dynamic, mw_boundary_step *steps, size_t n, mw_pool *pool,
+                       uint32_t *base)
 {
     *base = MW_NONE;
     if (n == 0) return true;
-    if (!mw__pool_begin(dynamic, pool) || !mw__chain_cut_corners(dynamic, steps, &n, pool)) return false;
+    if (!mw__pool_begin(dynamic, pool) || !mw__chain_cut_corners(dynamic, steps, &n, pool))
+        return false;
     *base = steps[0].beyond;
     dynamic->mark[mw__link_triangle(*base)] |= (uint8_t)(1u << mw__link_edge(*base));
     return true;
@@ -101,7 +115,8 @@ static mw_status close_line(mw_dynamic_tiling *dynamic, const mw_vertex_star *st
     mw_pool one = {.tile = tiles, .count = middle}, two = {.tile = tiles + middle, .count = rest};
     uint32_t left, right;
     bool border = star->open ? !dynamic->convex
-                             : mw__is_users_tile(dynamic, tiles[0]) != mw__is_users_tile(dynamic, tiles[middle]);
+                             : mw__is_users_tile(dynamic, tiles[0]) !=
+                                   mw__is_users_tile(dynamic, tiles[middle]);
     if (!close_side(dynamic, steps, middle, &one, &left) ||
         !close_side(dynamic, steps + middle + 1, rest, &two, &right) ||
         left == MW_NONE) /* the first side has at least one tile */
@@ -121,18 +136,23 @@ static mw_status close_line(mw_dynamic_tiling *dynamic, const mw_vertex_star *st
 static bool spokes_in_line(const mw_dynamic_tiling *dynamic, const mw_vertex_star *star, uint32_t v)
 {
     const mw_point *p = dynamic->tiling->point;
-    mw_point a = p[dynamic->boundary[star->spoke[0]].vertex], b = p[dynamic->boundary[star->spoke[1]].vertex];
+    mw_point a = p[dynamic->boundary[star->spoke[0]].vertex],
+             b = p[dynamic->boundary[star->spoke[1]].vertex];
     return mw__orient2d(a, b, p[v]) == 0 && mw__dot2d(p[v], a, b) < 0;
 }
 
-mw_status mw__dynamic_take_out(mw_dynamic_tiling *dynamic, const mw_vertex_star *star, uint32_t v, mw_error *error)
+mw_status mw__dynamic_take_out(mw_dynamic_tiling *dynamic, const mw_vertex_star *star, uint32_t v,
+                               mw_error *error)
 {
-    return star->open ? shrink_hull(dynamic, star, error) : ring_close(dynamic, star, dynamic->tiling->point[v], error);
+    return star->open ? shrink_hull(dynamic, star, error)
+                      : ring_close(dynamic, star, dynamic->tiling->point[v], error);
 }
 
-static mw_status vertex_take_out(mw_dynamic_tiling *dynamic, const mw_vertex_star *star, uint32_t v, mw_error *error)
+static mw_status vertex_take_out(mw_dynamic_tiling *dynamic, const mw_vertex_star *star, uint32_t v,
+                                 mw_error *error)
 {
-    if (star->spokes == 2 && spokes_in_line(dynamic, star, v)) return close_line(dynamic, star, error);
+    if (star->spokes == 2 && spokes_in_line(dynamic, star, v))
+        return close_line(dynamic, star, error);
     if (star->spokes > 0) return refuse_fixed(dynamic, v, error);
     return mw__dynamic_take_out(dynamic, star, v, error);
 }

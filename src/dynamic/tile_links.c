@@ -54,7 +54,8 @@ bool mw__drop_tiles(mw_dynamic_tiling *dynamic, uint32_t *tiles, size_t count)
                 if (tiling->tile_at[v] == last) tiling->tile_at[v] = t;
                 mw__attach(dynamic, mw__link(t, k), tiling->tri[t].link[k]);
             }
-            if (mw__is_users_tile(dynamic, t)) tiling->tile_of[tiling->tri[t].user & MW_USER_MASK] = t;
+            if (mw__is_users_tile(dynamic, t))
+                tiling->tile_of[tiling->tri[t].user & MW_USER_MASK] = t;
             if (dynamic->last == last) dynamic->last = t;
         }
         tiling->tri_count--;

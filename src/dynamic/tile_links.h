@@ -13,7 +13,9 @@
 static MW_INLINE bool mw__journal_tile(mw_dynamic_tiling *dynamic, uint32_t t)
 {
     if (t >= dynamic->journal_below || dynamic->mark[t] & MW_JOURNALED) return true;
-    if (MW_UNLIKELY(dynamic->journal_count == dynamic->journal_room) && !mw__journal_room(dynamic, 1)) return false;
+    if (MW_UNLIKELY(dynamic->journal_count == dynamic->journal_room) &&
+        !mw__journal_room(dynamic, 1))
+        return false;
     mw_journal_entry *entry = &dynamic->journal[dynamic->journal_count++];
     entry->slot = t;
     entry->mark = dynamic->mark[t] & MW_FIXED_EDGES;
@@ -27,7 +29,8 @@ void mw__add_ghosts(mw_dynamic_tiling *dynamic, uint32_t like, uint32_t n, uint3
 
 /* Add n tiles at the end of the array, which has room for them: user tiles with new numbers, or, if
  * `beside` is a ghost, ghosts with its number. The caller sets corners, links and fixed edges. */
-static MW_INLINE void mw__add_tiles(mw_dynamic_tiling *dynamic, uint32_t beside, uint32_t n, uint32_t *tiles)
+static MW_INLINE void mw__add_tiles(mw_dynamic_tiling *dynamic, uint32_t beside, uint32_t n,
+                                    uint32_t *tiles)
 {
     mw_tiling *tiling = dynamic->tiling;
     if (MW_UNLIKELY(!mw__is_users_tile(dynamic, beside))) {
@@ -56,7 +59,8 @@ bool mw__drop_tiles(mw_dynamic_tiling *dynamic, uint32_t *tiles, size_t count);
 static MW_INLINE uint32_t mw__add_vertex(mw_dynamic_tiling *dynamic, mw_point q)
 {
     mw_tiling *tiling = dynamic->tiling;
-    uint32_t v = dynamic->free_count > 0 ? dynamic->free_slot[--dynamic->free_count] : tiling->point_count++;
+    uint32_t v =
+        dynamic->free_count > 0 ? dynamic->free_slot[--dynamic->free_count] : tiling->point_count++;
     tiling->point[v] = q;
     tiling->tile_at[v] = MW_NONE;
     dynamic->vertex_number[v] = dynamic->vertex_count;
@@ -75,7 +79,8 @@ static MW_INLINE void mw__attach(mw_dynamic_tiling *dynamic, uint32_t half, uint
     if (beyond != MW_NONE) tri[mw__link_triangle(beyond)].link[mw__link_edge(beyond)] = half;
 }
 
-static MW_INLINE void mw__set_corners(mw_dynamic_tiling *dynamic, uint32_t t, uint32_t a, uint32_t b, uint32_t c)
+static MW_INLINE void mw__set_corners(mw_dynamic_tiling *dynamic, uint32_t t, uint32_t a,
+                                      uint32_t b, uint32_t c)
 {
     mw_triangle *tile = &dynamic->tiling->tri[t];
     uint32_t *tile_at = dynamic->tiling->tile_at;

@@ -8,7 +8,8 @@ uint32_t mw__vertex_star_first(const mw_dynamic_tiling *dynamic, uint32_t v, boo
     return mw__vertex_star_first_from(dynamic, v, mw__dynamic_lowest_tile(dynamic, v), open);
 }
 
-uint32_t mw__vertex_star_first_from(const mw_dynamic_tiling *dynamic, uint32_t v, uint32_t first, bool *open)
+uint32_t mw__vertex_star_first_from(const mw_dynamic_tiling *dynamic, uint32_t v, uint32_t first,
+                                    bool *open)
 {
     const mw_tiling *tiling = dynamic->tiling;
     uint32_t at = mw__link(first, mw__corner_of(&tiling->tri[first], v));
@@ -23,7 +24,8 @@ uint32_t mw__vertex_star_first_from(const mw_dynamic_tiling *dynamic, uint32_t v
 
 /* Push the edges round v from `first` on, until they close or end at the hull. *lowest: which of
  * them is an edge of the lowest tile. */
-static bool star_push_edges(mw_dynamic_tiling *dynamic, uint32_t first, mw_vertex_star *star, size_t *lowest)
+static bool star_push_edges(mw_dynamic_tiling *dynamic, uint32_t first, mw_vertex_star *star,
+                            size_t *lowest)
 {
     const mw_triangle *tri = dynamic->tiling->tri;
     uint32_t at = first, best = MW_NONE;
@@ -52,7 +54,8 @@ static void star_set_steps(mw_dynamic_tiling *dynamic, mw_vertex_star *star, siz
     const mw_triangle *tri = dynamic->tiling->tri;
     size_t from = first;
     for (size_t i = 0; i < star->n; i++) {
-        uint32_t at = dynamic->stack[from], t = mw__link_triangle(at), k = mw__link_edge(at), next = mw__next(k);
+        uint32_t at = dynamic->stack[from], t = mw__link_triangle(at), k = mw__link_edge(at),
+                 next = mw__next(k);
         uint32_t marks = dynamic->mark[t];
         mw_boundary_step *step = &dynamic->boundary[i];
         step->vertex = tri[t].v[next];
@@ -78,10 +81,13 @@ bool mw__vertex_star_collect(mw_dynamic_tiling *dynamic, uint32_t v, mw_vertex_s
     uint32_t tile = dynamic->tiling->tile_at[v];
     size_t first = 0;
     bool open;
-    if (!star_push_edges(dynamic, mw__link(tile, mw__corner_of(&dynamic->tiling->tri[tile], v)), star, &first))
+    if (!star_push_edges(dynamic, mw__link(tile, mw__corner_of(&dynamic->tiling->tri[tile], v)),
+                         star, &first))
         return false;
     if (star->open) {
-        if (!star_push_edges(dynamic, mw__vertex_star_first_from(dynamic, v, tile, &open), star, &first)) return false;
+        if (!star_push_edges(dynamic, mw__vertex_star_first_from(dynamic, v, tile, &open), star,
+                             &first))
+            return false;
         first = 0;
     }
     star_set_steps(dynamic, star, first);

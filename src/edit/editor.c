@@ -31,16 +31,19 @@ void mw__editor_update_view(mw_editor *editor)
     view->tri_count = tiling->tri_count;
 }
 
-mw_status mw__fix_edges(mw_dynamic_tiling *dynamic, const uint32_t *ends, size_t count, mw_error *error)
+mw_status mw__fix_edges(mw_dynamic_tiling *dynamic, const uint32_t *ends, size_t count,
+                        mw_error *error)
 {
-    if (!mw__journal_begin(dynamic, &(mw_edit){.kind = MW_EDIT_CONSTRAIN}, true)) return mw__fail_memory(error);
+    if (!mw__journal_begin(dynamic, &(mw_edit){.kind = MW_EDIT_CONSTRAIN}, true))
+        return mw__fail_memory(error);
     mw_status status = MW_OK;
     for (size_t i = 0; i < count && !status; i++) {
-        uint32_t a = mw__used_vertex_slot(dynamic, ends[2 * i]), b = mw__used_vertex_slot(dynamic, ends[2 * i + 1]),
-                 constrained_edges;
+        uint32_t a = mw__used_vertex_slot(dynamic, ends[2 * i]),
+                 b = mw__used_vertex_slot(dynamic, ends[2 * i + 1]), constrained_edges;
         if (a == MW_NONE || b == MW_NONE || a == b || mw__dynamic_edge(dynamic, a, b) == MW_NONE)
             status = mw__fail_at(error, -1, ends[2 * i],
-                                 "the constraint from vertex %" PRIu32 " to %" PRIu32 " is no edge of the mesh",
+                                 "the constraint from vertex %" PRIu32 " to %" PRIu32
+                                 " is no edge of the mesh",
                                  ends[2 * i], ends[2 * i + 1]);
         else
             status = mw__dynamic_constrain(dynamic, a, b, false, &constrained_edges, error);
@@ -59,13 +62,15 @@ static bool dynamic_is_delaunay(const mw_dynamic_tiling *dynamic)
     for (uint32_t t = 0; t < dynamic->tiling->tri_count; t++)
         for (uint32_t k = 0; k < 3; k++) {
             uint32_t half = mw__link(t, k), other = mw__beyond(dynamic, half);
-            if (other != MW_NONE && other > half && mw__is_users_tile(dynamic, t) && mw__edge_is_illegal(dynamic, half))
+            if (other != MW_NONE && other > half && mw__is_users_tile(dynamic, t) &&
+                mw__edge_is_illegal(dynamic, half))
                 return false;
         }
     return true;
 }
 
-static mw_status editor_choose_delaunay(mw_dynamic_tiling *dynamic, mw_delaunay_mode wanted, mw_error *error)
+static mw_status editor_choose_delaunay(mw_dynamic_tiling *dynamic, mw_delaunay_mode wanted,
+                                        mw_error *error)
 {
     dynamic->delaunay = wanted != MW_DELAUNAY_NEVER && dynamic_is_delaunay(dynamic);
     if (wanted != MW_DELAUNAY_MAKE || dynamic->delaunay) return MW_OK;
@@ -101,18 +106,23 @@ static bool copy_fields(mw_editor *editor, const mw_mesh *mesh)
     return true;
 }
 
-static mw_status editor_make(mw_editor *editor, const mw_mesh *mesh, const mw_editor_options *options, mw_job *job,
-                             mw_error *error)
+static mw_status editor_make(mw_editor *editor, const mw_mesh *mesh,
+                             const mw_editor_options *options, mw_job *job, mw_error *error)
 {
     mw_locator *locator = &editor->locator;
     mw_dynamic_tiling *dynamic = &editor->dynamic;
     locator->mesh = &editor->view;
     mw_job_span outer = mw__job_part(job, 0.6);
-    mw_status status = mw__tiling_create(mesh, (mw_tiling_options){0}, job, &locator->tiling, error);
+    mw_status status =
+        mw__tiling_create(mesh, (mw_tiling_options){0}, job, &locator->tiling, error);
     mw__job_part_end(job, outer);
     mw__job_stage(job, "preparing edits", 0.3);
-    if (!status) status = mw__dynamic_create(dynamic, &locator->tiling, mesh, locator->tiling.ghost_count == 0, error);
-    if (!status) status = mw__fix_edges(dynamic, options->constrained_edges, options->constrained_edge_count, error);
+    if (!status)
+        status = mw__dynamic_create(dynamic, &locator->tiling, mesh,
+                                    locator->tiling.ghost_count == 0, error);
+    if (!status)
+        status = mw__fix_edges(dynamic, options->constrained_edges, options->constrained_edge_count,
+                               error);
     if (!status) status = editor_choose_delaunay(dynamic, options->delaunay, error);
     if (!status && !copy_fields(editor, mesh)) status = mw__fail_memory(error);
     if (status) return status;
@@ -123,7 +133,8 @@ static mw_status editor_make(mw_editor *editor, const mw_mesh *mesh, const mw_ed
     return status ? status : mw_cursor_init(locator, NULL, &editor->cursor, error);
 }
 
-mw_status mw_editor_create(const mw_mesh *mesh, const mw_editor_options *options, mw_editor **out, mw_error *error)
+mw_status mw_editor_create(const mw_mesh *mesh, const mw_editor_options *options, mw_editor **out,
+                           mw_error *error)
 {
     static const mw_editor_options defaults;
     if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "no place for the editor");
@@ -187,7 +198,8 @@ bool mw__field_room(mw_editor *editor, size_t more)
 
 /* Set the values of the next vertex, interpolated in the mesh without it. *borrows: the point lies
  * outside of the mesh. The search begins at tile `from`; returns the tile where it ends. */
-static uint32_t editor_set_values(mw_editor *editor, const mw_edit *edit, uint32_t from, bool *borrows)
+static uint32_t editor_set_values(mw_editor *editor, const mw_edit *edit, uint32_t from,
+                                  bool *borrows)
 {
     const mw_dynamic_tiling *dynamic = &editor->dynamic;
     mw_mesh *view = &editor->view;
@@ -210,8 +222,10 @@ static uint32_t editor_set_values(mw_editor *editor, const mw_edit *edit, uint32
 static uint32_t nearer_vertex(const mw_dynamic_tiling *dynamic, mw_point p, uint32_t v, uint32_t w)
 {
     if (v == MW_NONE) return w;
-    double one = mw__square_length(dynamic->tiling->point[v], p), two = mw__square_length(dynamic->tiling->point[w], p);
-    return two < one || (two == one && dynamic->vertex_number[w] < dynamic->vertex_number[v]) ? w : v;
+    double one = mw__square_length(dynamic->tiling->point[v], p),
+           two = mw__square_length(dynamic->tiling->point[w], p);
+    return two < one || (two == one && dynamic->vertex_number[w] < dynamic->vertex_number[v]) ? w
+                                                                                              : v;
 }
 
 /* A vertex outside of the former hull takes the values of the nearest vertex that it is joined
@@ -223,12 +237,15 @@ static void borrow_values(mw_editor *editor, const mw_edit *edit, uint32_t v)
     uint32_t best = MW_NONE, vertex = dynamic->vertex_number[v];
     for (uint32_t at = mw__vertex_star_first(dynamic, v, &open); at != MW_NONE;
          at = mw__beyond(dynamic, mw__half_prev(at))) {
-        best = nearer_vertex(dynamic, dynamic->tiling->point[v], best, mw__corner(dynamic, mw__half_next(at)));
-        best = nearer_vertex(dynamic, dynamic->tiling->point[v], best, mw__corner(dynamic, mw__half_prev(at)));
+        best = nearer_vertex(dynamic, dynamic->tiling->point[v], best,
+                             mw__corner(dynamic, mw__half_next(at)));
+        best = nearer_vertex(dynamic, dynamic->tiling->point[v], best,
+                             mw__corner(dynamic, mw__half_prev(at)));
     }
     for (uint32_t i = 0; i < editor->view.field_count; i++)
         if (i != edit->field || isnan(edit->value))
-            editor->view.field[i].values[vertex] = editor->view.field[i].values[dynamic->vertex_number[best]];
+            editor->view.field[i].values[vertex] =
+                editor->view.field[i].values[dynamic->vertex_number[best]];
 }
 
 /* --- edits ------------------------------------------------------------------------------------ */
@@ -236,7 +253,8 @@ static void borrow_values(mw_editor *editor, const mw_edit *edit, uint32_t v)
 static mw_status refuse_vertex(const mw_dynamic_tiling *dynamic, uint32_t number, mw_error *error)
 {
     bool gone = number >= dynamic->vertex_count || dynamic->vertex_slot[number] == MW_NONE;
-    return mw__fail_at(error, -1, number, "vertex %" PRIu32 " %s", number, gone ? "is not there" : "is in no triangle");
+    return mw__fail_at(error, -1, number, "vertex %" PRIu32 " %s", number,
+                       gone ? "is not there" : "is in no triangle");
 }
 
 /* The tile where the search for q begins: what the guide names, which is near as a rule. To test
@@ -247,11 +265,14 @@ static uint32_t insertion_first_tile(mw_editor *editor, mw_point q)
     const mw_locator *locator = &editor->locator;
     const uint32_t last = editor->dynamic.last;
     editor->guide_led_far = editor->guide_led_far && mw__locator_is_close(locator, last, q);
-    return MW_UNLIKELY(editor->guide_led_far) ? last : mw__index_tile(&locator->tiling, &locator->guide, q);
+    return MW_UNLIKELY(editor->guide_led_far)
+               ? last
+               : mw__index_tile(&locator->tiling, &locator->guide, q);
 }
 
 /* Insert a vertex at q in a mesh without fields. */
-static mw_status editor_insert_at(mw_editor *editor, mw_point q, uint32_t t, uint32_t *slot, mw_error *error)
+static mw_status editor_insert_at(mw_editor *editor, mw_point q, uint32_t t, uint32_t *slot,
+                                  mw_error *error)
 {
     enum { FAR = 8 };
     mw_dynamic_tiling *dynamic = &editor->dynamic;
@@ -266,8 +287,10 @@ static mw_status editor_insert_at(mw_editor *editor, mw_point q, uint32_t t, uin
     return status;
 }
 
-static __attribute__((noinline)) mw_status editor_insert_with_values(mw_editor *editor, const mw_edit *edit, uint32_t t,
-                                                                     uint32_t *vertex, mw_error *error)
+static __attribute__((noinline)) mw_status editor_insert_with_values(mw_editor *editor,
+                                                                     const mw_edit *edit,
+                                                                     uint32_t t, uint32_t *vertex,
+                                                                     mw_error *error)
 {
     mw_dynamic_tiling *dynamic = &editor->dynamic;
     const uint32_t before = dynamic->vertex_count;
@@ -284,19 +307,23 @@ static __attribute__((noinline)) mw_status editor_insert_with_values(mw_editor *
     return MW_OK;
 }
 
-mw_status mw__editor_insert(mw_editor *editor, const mw_edit *edit, uint32_t t, uint32_t *vertex, mw_error *error)
+mw_status mw__editor_insert(mw_editor *editor, const mw_edit *edit, uint32_t t, uint32_t *vertex,
+                            mw_error *error)
 {
     mw_dynamic_tiling *dynamic = &editor->dynamic;
     const mw_point q = {edit->x, edit->y};
-    if (!isfinite(q.x) || !isfinite(q.y)) return mw__fail(error, MW_ERROR_INPUT, "the point is not finite");
-    if (editor->view.field_count > 0) return editor_insert_with_values(editor, edit, t, vertex, error);
+    if (!isfinite(q.x) || !isfinite(q.y))
+        return mw__fail(error, MW_ERROR_INPUT, "the point is not finite");
+    if (editor->view.field_count > 0)
+        return editor_insert_with_values(editor, edit, t, vertex, error);
     uint32_t slot = MW_NONE;
     mw_status status = editor_insert_at(editor, q, t, &slot, error);
     if (!status) *vertex = dynamic->vertex_number[slot];
     return status;
 }
 
-static mw_status edit_insert(mw_editor *editor, const mw_edit *edit, mw_change *change, mw_error *error)
+static mw_status edit_insert(mw_editor *editor, const mw_edit *edit, mw_change *change,
+                             mw_error *error)
 {
     const uint32_t before = editor->dynamic.vertex_count;
     mw_status status = mw__editor_insert(editor, edit, MW_NONE, &change->vertex, error);
@@ -304,7 +331,8 @@ static mw_status edit_insert(mw_editor *editor, const mw_edit *edit, mw_change *
     return status;
 }
 
-static mw_status change_vertex(mw_editor *editor, const mw_edit *edit, mw_change *change, mw_error *error)
+static mw_status change_vertex(mw_editor *editor, const mw_edit *edit, mw_change *change,
+                               mw_error *error)
 {
     mw_dynamic_tiling *dynamic = &editor->dynamic;
     uint32_t v = mw__used_vertex_slot(dynamic, edit->vertex);
@@ -318,33 +346,42 @@ static mw_status change_vertex(mw_editor *editor, const mw_edit *edit, mw_change
         change->vertices_freed = 1;
         return mw__dynamic_remove(dynamic, v, error);
     }
-    if (!isfinite(edit->x) || !isfinite(edit->y)) return mw__fail(error, MW_ERROR_INPUT, "the point is not finite");
+    if (!isfinite(edit->x) || !isfinite(edit->y))
+        return mw__fail(error, MW_ERROR_INPUT, "the point is not finite");
     mw_point q = {edit->x, edit->y};
-    return mw__dynamic_move(dynamic, v, q, mw__locator_guided_tile(&editor->locator, dynamic->tiling->tile_at[v], q),
-                            error);
+    return mw__dynamic_move(
+        dynamic, v, q, mw__locator_guided_tile(&editor->locator, dynamic->tiling->tile_at[v], q),
+        error);
 }
 
-static mw_status change_edge(mw_dynamic_tiling *dynamic, const mw_edit *edit, mw_change *change, mw_error *error)
+static mw_status change_edge(mw_dynamic_tiling *dynamic, const mw_edit *edit, mw_change *change,
+                             mw_error *error)
 {
-    uint32_t v = mw__used_vertex_slot(dynamic, edit->vertex), w = mw__used_vertex_slot(dynamic, edit->other);
+    uint32_t v = mw__used_vertex_slot(dynamic, edit->vertex),
+             w = mw__used_vertex_slot(dynamic, edit->other);
     if (v == MW_NONE) return refuse_vertex(dynamic, edit->vertex, error);
     if (w == MW_NONE) return refuse_vertex(dynamic, edit->other, error);
-    if (v == w) return mw__fail_at(error, -1, edit->vertex, "both ends are vertex %" PRIu32, edit->vertex);
+    if (v == w)
+        return mw__fail_at(error, -1, edit->vertex, "both ends are vertex %" PRIu32, edit->vertex);
     if (edit->kind == MW_EDIT_FLIP) return mw__dynamic_flip(dynamic, v, w, error);
-    return mw__dynamic_constrain(dynamic, v, w, edit->kind == MW_EDIT_RELEASE, &change->constrained_edges, error);
+    return mw__dynamic_constrain(dynamic, v, w, edit->kind == MW_EDIT_RELEASE,
+                                 &change->constrained_edges, error);
 }
 
 static mw_status change_value(mw_editor *editor, const mw_edit *edit, mw_error *error)
 {
     const mw_dynamic_tiling *dynamic = &editor->dynamic;
-    if (edit->field >= editor->view.field_count) return mw__fail(error, MW_ERROR_ARGUMENT, "no such field");
+    if (edit->field >= editor->view.field_count)
+        return mw__fail(error, MW_ERROR_ARGUMENT, "no such field");
     if (edit->vertex >= dynamic->vertex_count || dynamic->vertex_slot[edit->vertex] == MW_NONE)
         return refuse_vertex(dynamic, edit->vertex, error);
-    dynamic->step[dynamic->step_count - 1].value = editor->view.field[edit->field].values[edit->vertex];
+    dynamic->step[dynamic->step_count - 1].value =
+        editor->view.field[edit->field].values[edit->vertex];
     return MW_OK; /* mw_edit_apply writes the new value, when nothing can fail any more */
 }
 
-static mw_status edit_carry_out(mw_editor *editor, const mw_edit *edit, mw_change *change, mw_error *error)
+static mw_status edit_carry_out(mw_editor *editor, const mw_edit *edit, mw_change *change,
+                                mw_error *error)
 {
     switch (edit->kind) {
     case MW_EDIT_INSERT: return edit_insert(editor, edit, change, error);
@@ -382,8 +419,8 @@ static bool report_room(mw_editor *editor)
     return true;
 }
 
-mw_status mw__editor_conclude(mw_editor *editor, mw_status status, const mw_change *own, mw_change *change,
-                              mw_error *error)
+mw_status mw__editor_conclude(mw_editor *editor, mw_status status, const mw_change *own,
+                              mw_change *change, mw_error *error)
 {
     mw_dynamic_tiling *dynamic = &editor->dynamic;
     if (!status && change && !report_room(editor)) status = mw__fail_memory(error);
@@ -419,19 +456,23 @@ static mw_status editor_insert_unreported(mw_editor *editor, const mw_edit *edit
     }
     mw__editor_update_view(editor);
     editor->edits++;
-    mw__upkeep_insertion(&editor->upkeep, dynamic->vertex_count > before ? dynamic->vertex_slot[vertex] : MW_NONE);
+    mw__upkeep_insertion(&editor->upkeep,
+                         dynamic->vertex_count > before ? dynamic->vertex_slot[vertex] : MW_NONE);
     return MW_OK;
 }
 
 mw_status mw_edit_apply(mw_editor *editor, const mw_edit *edit, mw_change *change, mw_error *error)
 {
     if (!editor || !edit) return mw__fail(error, MW_ERROR_ARGUMENT, "an edit needs an editor");
-    if (edit->kind == MW_EDIT_INSERT && !editor->keeps_log && !mw__editor_needs_report(editor, change))
+    if (edit->kind == MW_EDIT_INSERT && !editor->keeps_log &&
+        !mw__editor_needs_report(editor, change))
         return editor_insert_unreported(editor, edit, error);
     const mw_edit copy = *edit; /* the caller may pass an entry of the log, which may move */
     mw_change own = {.vertex = MW_NONE};
-    if (!mw__log_room(editor, 1) || !mw__journal_begin(&editor->dynamic, &copy, true)) return mw__fail_memory(error);
-    mw_status status = mw__editor_conclude(editor, edit_carry_out(editor, &copy, &own, error), &own, change, error);
+    if (!mw__log_room(editor, 1) || !mw__journal_begin(&editor->dynamic, &copy, true))
+        return mw__fail_memory(error);
+    mw_status status = mw__editor_conclude(editor, edit_carry_out(editor, &copy, &own, error), &own,
+                                           change, error);
     if (status) return status;
     if (editor->keeps_log) editor->log[editor->log_count++] = copy;
     if (copy.kind == MW_EDIT_VALUE) editor->view.field[copy.field].values[copy.vertex] = copy.value;
@@ -442,12 +483,14 @@ mw_status mw_edit_apply(mw_editor *editor, const mw_edit *edit, mw_change *chang
 
 static void undo_value(mw_editor *editor, const mw_journal_step *step)
 {
-    if (step->edit.kind == MW_EDIT_VALUE) editor->view.field[step->edit.field].values[step->edit.vertex] = step->value;
+    if (step->edit.kind == MW_EDIT_VALUE)
+        editor->view.field[step->edit.field].values[step->edit.vertex] = step->value;
 }
 
 /* What undoing an edit did to a vertex. `vertices`: how many numbers of vertices were given out
  * before. */
-static mw_change undone_change(const mw_dynamic_tiling *dynamic, const mw_journal_step *step, uint32_t vertices)
+static mw_change undone_change(const mw_dynamic_tiling *dynamic, const mw_journal_step *step,
+                               uint32_t vertices)
 {
     mw_change change = {.vertex = MW_NONE};
     if (step->vertex == MW_NONE) return change;
@@ -460,7 +503,8 @@ static mw_change undone_change(const mw_dynamic_tiling *dynamic, const mw_journa
 mw_status mw_edit_undo(mw_editor *editor, mw_change *change, mw_error *error)
 {
     if (!editor) return mw__fail(error, MW_ERROR_ARGUMENT, "an edit needs an editor");
-    if (editor->undoable == 0) return mw__fail(error, MW_ERROR_INPUT, "there is no edit to take back");
+    if (editor->undoable == 0)
+        return mw__fail(error, MW_ERROR_INPUT, "there is no edit to take back");
     if (change && !report_room(editor)) return mw__fail_memory(error);
     mw_dynamic_tiling *dynamic = &editor->dynamic;
     uint32_t vertices = dynamic->vertex_count;
@@ -500,31 +544,36 @@ mw_status mw_edit_remove(mw_editor *editor, uint32_t vertex, mw_change *change, 
     return mw_edit_apply(editor, &edit, change, error);
 }
 
-mw_status mw_edit_move(mw_editor *editor, uint32_t vertex, double x, double y, mw_change *change, mw_error *error)
+mw_status mw_edit_move(mw_editor *editor, uint32_t vertex, double x, double y, mw_change *change,
+                       mw_error *error)
 {
     mw_edit edit = {.kind = MW_EDIT_MOVE, .vertex = vertex, .x = x, .y = y};
     return mw_edit_apply(editor, &edit, change, error);
 }
 
-mw_status mw_edit_flip(mw_editor *editor, uint32_t from, uint32_t to, mw_change *change, mw_error *error)
+mw_status mw_edit_flip(mw_editor *editor, uint32_t from, uint32_t to, mw_change *change,
+                       mw_error *error)
 {
     mw_edit edit = {.kind = MW_EDIT_FLIP, .vertex = from, .other = to};
     return mw_edit_apply(editor, &edit, change, error);
 }
 
-mw_status mw_edit_constrain(mw_editor *editor, uint32_t from, uint32_t to, mw_change *change, mw_error *error)
+mw_status mw_edit_constrain(mw_editor *editor, uint32_t from, uint32_t to, mw_change *change,
+                            mw_error *error)
 {
     mw_edit edit = {.kind = MW_EDIT_CONSTRAIN, .vertex = from, .other = to};
     return mw_edit_apply(editor, &edit, change, error);
 }
 
-mw_status mw_edit_release(mw_editor *editor, uint32_t from, uint32_t to, mw_change *change, mw_error *error)
+mw_status mw_edit_release(mw_editor *editor, uint32_t from, uint32_t to, mw_change *change,
+                          mw_error *error)
 {
     mw_edit edit = {.kind = MW_EDIT_RELEASE, .vertex = from, .other = to};
     return mw_edit_apply(editor, &edit, change, error);
 }
 
-mw_status mw_edit_value(mw_editor *editor, uint32_t field, uint32_t vertex, double value, mw_error *error)
+mw_status mw_edit_value(mw_editor *editor, uint32_t field, uint32_t vertex, double value,
+                        mw_error *error)
 {
     mw_edit edit = {.kind = MW_EDIT_VALUE, .vertex = vertex, .field = field, .value = value};
     return mw_edit_apply(editor, &edit, NULL, error);

@@ -39,13 +39,14 @@ static MW_INLINE bool mw__editor_needs_report(const mw_editor *editor, const mw_
 /* Insert one vertex, within the step under way if there is one. Sets *vertex to the number of the
  * vertex there. `t`: the tile where the search begins; MW_NONE: choose one. Errors as
  * mw_edit_apply; the caller then rolls the step back. */
-mw_status mw__editor_insert(mw_editor *editor, const mw_edit *edit, uint32_t t, uint32_t *vertex, mw_error *error);
+mw_status mw__editor_insert(mw_editor *editor, const mw_edit *edit, uint32_t t, uint32_t *vertex,
+                            mw_error *error);
 
 /* End the step under way, whose operations had this outcome: commit it, or roll it back. `change`:
  * NULL, or filled with `own` and the triangles changed. Also for an insertion that failed before it
  * began a step: then there is nothing to roll back. */
-mw_status mw__editor_conclude(mw_editor *editor, mw_status status, const mw_change *own, mw_change *change,
-                              mw_error *error);
+mw_status mw__editor_conclude(mw_editor *editor, mw_status status, const mw_change *own,
+                              mw_change *change, mw_error *error);
 
 /* Room for so many more entries of the log, if the editor keeps one. */
 bool mw__log_room(mw_editor *editor, size_t more);
@@ -54,7 +55,8 @@ bool mw__log_room(mw_editor *editor, size_t more);
 bool mw__field_room(mw_editor *editor, size_t more);
 
 /* Fix the edges that join pairs of vertices. MW_ERROR_INPUT: no such edge, or no such vertex. */
-mw_status mw__fix_edges(mw_dynamic_tiling *dynamic, const uint32_t *ends, size_t count, mw_error *error);
+mw_status mw__fix_edges(mw_dynamic_tiling *dynamic, const uint32_t *ends, size_t count,
+                        mw_error *error);
 
 /* The slot of a vertex that has a tile, by its number; MW_NONE if there is none. */
 static MW_INLINE uint32_t mw__used_vertex_slot(const mw_dynamic_tiling *dynamic, uint32_t number)

@@ -35,8 +35,8 @@ static bool renumbering_create(const mw_dynamic_tiling *dynamic, renumbering *r)
     return true;
 }
 
-static mw_status renumbered_mesh(const mw_editor *editor, const renumbering *r, mw_job *job, mw_mesh **out,
-                                 mw_error *error)
+static mw_status renumbered_mesh(const mw_editor *editor, const renumbering *r, mw_job *job,
+                                 mw_mesh **out, mw_error *error)
 {
     const mw_dynamic_tiling *dynamic = &editor->dynamic;
     mw__job_stage(job, "numbering triangles", 0.3);
@@ -45,15 +45,19 @@ static mw_status renumbered_mesh(const mw_editor *editor, const renumbering *r, 
     mw_status status = MW_OK;
     if (point && triangle) {
         for (uint32_t v = 0; v < dynamic->vertex_count; v++)
-            if (r->vertex[v] != MW_NONE) point[r->vertex[v]] = dynamic->tiling->point[dynamic->vertex_slot[v]];
+            if (r->vertex[v] != MW_NONE)
+                point[r->vertex[v]] = dynamic->tiling->point[dynamic->vertex_slot[v]];
         for (uint32_t t = 0; t < dynamic->tiling->number_count; t++) {
             if (r->triangle[t] == MW_NONE) continue;
             uint32_t *v = triangle[r->triangle[t]];
-            mw__dynamic_tile_vertices(dynamic, &dynamic->tiling->tri[dynamic->tiling->tile_of[t]], v);
+            mw__dynamic_tile_vertices(dynamic, &dynamic->tiling->tri[dynamic->tiling->tile_of[t]],
+                                      v);
             for (int k = 0; k < 3; k++) v[k] = r->vertex[v[k]];
         }
-        mw_arrays arrays = {
-            .points = &point->x, .point_count = r->vertices, .triangles = triangle, .triangle_count = r->triangles};
+        mw_arrays arrays = {.points = &point->x,
+                            .point_count = r->vertices,
+                            .triangles = triangle,
+                            .triangle_count = r->triangles};
         static const mw_mesh_options plain;
         mw_job_span outer = mw__job_part(job, 0.7);
         status = mw__mesh_create(&arrays, &plain, job, out, error);
@@ -66,7 +70,8 @@ static mw_status renumbered_mesh(const mw_editor *editor, const renumbering *r, 
     return status;
 }
 
-static double *renumbered_values(const mw_editor *editor, const renumbering *r, const double *values)
+static double *renumbered_values(const mw_editor *editor, const renumbering *r,
+                                 const double *values)
 {
     double *result = mw__alloc(r->vertices, sizeof *result);
     for (uint32_t v = 0; result && v < editor->dynamic.vertex_count; v++)
@@ -74,26 +79,29 @@ static double *renumbered_values(const mw_editor *editor, const renumbering *r, 
     return result;
 }
 
-static mw_status add_renumbered_fields(const mw_editor *editor, const renumbering *r, mw_mesh *mesh, mw_error *error)
+static mw_status add_renumbered_fields(const mw_editor *editor, const renumbering *r, mw_mesh *mesh,
+                                       mw_error *error)
 {
     mw_status status = MW_OK;
     for (size_t i = 0; i < editor->view.field_count && !status; i++) {
         double *values = renumbered_values(editor, r, editor->view.field[i].values);
-        status =
-            values ? mw_mesh_set_field(mesh, editor->view.field[i].name, values, 0, error) : mw__fail_memory(error);
+        status = values ? mw_mesh_set_field(mesh, editor->view.field[i].name, values, 0, error)
+                        : mw__fail_memory(error);
         free(values);
     }
     return status;
 }
 
-static void renumbering_copy(const mw_dynamic_tiling *dynamic, const renumbering *r, uint32_t *triangles,
-                             uint32_t *vertices)
+static void renumbering_copy(const mw_dynamic_tiling *dynamic, const renumbering *r,
+                             uint32_t *triangles, uint32_t *vertices)
 {
-    if (triangles) memcpy(triangles, r->triangle, dynamic->tiling->number_count * sizeof *triangles);
+    if (triangles)
+        memcpy(triangles, r->triangle, dynamic->tiling->number_count * sizeof *triangles);
     if (vertices) memcpy(vertices, r->vertex, dynamic->vertex_count * sizeof *vertices);
 }
 
-static mw_status editor_make_mesh(const mw_editor *editor, renumbering *r, mw_job *job, mw_mesh **out, mw_error *error)
+static mw_status editor_make_mesh(const mw_editor *editor, renumbering *r, mw_job *job,
+                                  mw_mesh **out, mw_error *error)
 {
     if (!renumbering_create(&editor->dynamic, r)) return mw__fail_memory(error);
     mw_status status = renumbered_mesh(editor, r, job, out, error);
@@ -105,8 +113,8 @@ static mw_status editor_make_mesh(const mw_editor *editor, renumbering *r, mw_jo
     return status;
 }
 
-mw_status mw_editor_mesh(const mw_editor *editor, uint32_t *triangles, uint32_t *vertices, mw_mesh **out,
-                         mw_error *error)
+mw_status mw_editor_mesh(const mw_editor *editor, uint32_t *triangles, uint32_t *vertices,
+                         mw_mesh **out, mw_error *error)
 {
     if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "no place for the mesh");
     *out = NULL;
@@ -136,9 +144,12 @@ uint32_t *mw_editor_constrained_edges(const mw_editor *editor, size_t *count)
             if (!mw__is_fixed(dynamic, half) || !mw__is_users_tile(dynamic, t) ||
                 (other == MW_NONE && !dynamic->convex))
                 continue;
-            if (other != MW_NONE && (other < half || !mw__is_users_tile(dynamic, mw__link_triangle(other)))) continue;
+            if (other != MW_NONE &&
+                (other < half || !mw__is_users_tile(dynamic, mw__link_triangle(other))))
+                continue;
             ends[2 * *count] = dynamic->vertex_number[mw__corner(dynamic, half)];
-            ends[2 * (*count)++ + 1] = dynamic->vertex_number[mw__corner(dynamic, mw__half_next(half))];
+            ends[2 * (*count)++ + 1] =
+                dynamic->vertex_number[mw__corner(dynamic, mw__half_next(half))];
         }
     return ends;
 }
@@ -164,16 +175,20 @@ static mw_status compaction_fix_edges(const mw_editor *editor, compaction *c, mw
     return status;
 }
 
-static mw_status compaction_create(const mw_editor *editor, compaction *c, mw_job *job, mw_error *error)
+static mw_status compaction_create(const mw_editor *editor, compaction *c, mw_job *job,
+                                   mw_error *error)
 {
     mw_job_span outer = mw__job_part(job, 0.4);
     mw_status status = editor_make_mesh(editor, &c->numbers, job, &c->mesh, error);
     mw__job_part_end(job, outer);
     outer = mw__job_part(job, 0.4);
-    if (!status) status = mw__tiling_create(c->mesh, (mw_tiling_options){0}, job, &c->tiling, error);
+    if (!status)
+        status = mw__tiling_create(c->mesh, (mw_tiling_options){0}, job, &c->tiling, error);
     mw__job_part_end(job, outer);
     mw__job_stage(job, "preparing edits", 0.2);
-    if (!status) status = mw__dynamic_create(&c->dynamic, &c->tiling, c->mesh, editor->dynamic.convex, error);
+    if (!status)
+        status =
+            mw__dynamic_create(&c->dynamic, &c->tiling, c->mesh, editor->dynamic.convex, error);
     if (!status) status = compaction_fix_edges(editor, c, error);
     c->dynamic.delaunay = editor->dynamic.delaunay;
     return status;
@@ -189,7 +204,8 @@ static void exchange_fields(mw_editor *editor, mw_mesh *mesh)
     editor->field_room = mesh->point_count;
 }
 
-mw_status mw_editor_compact(mw_editor *editor, uint32_t *triangles, uint32_t *vertices, mw_error *error)
+mw_status mw_editor_compact(mw_editor *editor, uint32_t *triangles, uint32_t *vertices,
+                            mw_error *error)
 {
     if (!editor) return mw__fail(error, MW_ERROR_ARGUMENT, "no editor");
     compaction c = {.mesh = NULL};

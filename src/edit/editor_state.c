@@ -8,15 +8,16 @@
 static size_t undo_bytes(const mw_editor *editor)
 {
     const mw_dynamic_tiling *dynamic = &editor->dynamic;
-    return dynamic->journal_room * sizeof *dynamic->journal + dynamic->step_room * sizeof *dynamic->step +
-           editor->log_room * sizeof *editor->log;
+    return dynamic->journal_room * sizeof *dynamic->journal +
+           dynamic->step_room * sizeof *dynamic->step + editor->log_room * sizeof *editor->log;
 }
 
 void mw_editor_describe(const mw_editor *editor, mw_editor_info *info)
 {
     const mw_dynamic_tiling *dynamic = &editor->dynamic;
     const mw_tiling *tiling = dynamic->tiling;
-    size_t index_bytes = mw__upkeep_bytes(&editor->upkeep), fields = editor->view.field_count * editor->field_room;
+    size_t index_bytes = mw__upkeep_bytes(&editor->upkeep),
+           fields = editor->view.field_count * editor->field_room;
     *info = (mw_editor_info){
         .vertices = tiling->point_count - dynamic->free_count,
         .triangles = tiling->tri_count - tiling->ghost_count,
@@ -26,8 +27,8 @@ void mw_editor_describe(const mw_editor *editor, mw_editor_info *info)
         .delaunay = dynamic->delaunay,
         .convex = dynamic->convex,
         .undoable = editor->undoable,
-        .bytes = sizeof *editor + mw__dynamic_bytes(dynamic) + mw__tiling_bytes(tiling) + index_bytes +
-                 fields * sizeof(double) + editor->log_room * sizeof *editor->log +
+        .bytes = sizeof *editor + mw__dynamic_bytes(dynamic) + mw__tiling_bytes(tiling) +
+                 index_bytes + fields * sizeof(double) + editor->log_room * sizeof *editor->log +
                  editor->changed_room * sizeof *editor->changed,
         .undo_bytes = undo_bytes(editor),
         .index_bytes = index_bytes,
@@ -76,7 +77,8 @@ static bool edge_is_of_mesh(const mw_dynamic_tiling *dynamic, uint32_t half)
            (other != MW_NONE && mw__is_users_tile(dynamic, mw__link_triangle(other)));
 }
 
-size_t mw_editor_adjacent_vertices(const mw_editor *editor, uint32_t vertex, uint32_t *neighbours, size_t capacity)
+size_t mw_editor_adjacent_vertices(const mw_editor *editor, uint32_t vertex, uint32_t *neighbours,
+                                   size_t capacity)
 {
     const mw_dynamic_tiling *dynamic = &editor->dynamic;
     uint32_t v = mw__used_vertex_slot(dynamic, vertex);
@@ -89,7 +91,8 @@ size_t mw_editor_adjacent_vertices(const mw_editor *editor, uint32_t vertex, uin
             at = mw__half_next(mw__beyond(dynamic, at));
             if (at == begin) break;
         }
-    if (!mw__is_users_tile(dynamic, mw__link_triangle(at))) at = mw__beyond(dynamic, mw__half_prev(at));
+    if (!mw__is_users_tile(dynamic, mw__link_triangle(at)))
+        at = mw__beyond(dynamic, mw__half_prev(at));
     begin = at;
     do {
         uint32_t last = mw__half_prev(at);
@@ -106,7 +109,8 @@ mw_edge_kind mw_editor_edge(const mw_editor *editor, uint32_t from, uint32_t to)
 {
     const mw_dynamic_tiling *dynamic = &editor->dynamic;
     uint32_t v = mw__used_vertex_slot(dynamic, from), w = mw__used_vertex_slot(dynamic, to);
-    uint32_t half = v == MW_NONE || w == MW_NONE || v == w ? MW_NONE : mw__dynamic_edge(dynamic, v, w);
+    uint32_t half =
+        v == MW_NONE || w == MW_NONE || v == w ? MW_NONE : mw__dynamic_edge(dynamic, v, w);
     if (half == MW_NONE || !edge_is_of_mesh(dynamic, half)) return MW_EDGE_NONE;
     uint32_t other = mw__beyond(dynamic, half);
     bool border = other == MW_NONE || mw__is_users_tile(dynamic, mw__link_triangle(half)) !=
@@ -126,19 +130,21 @@ uint32_t mw_editor_field_by_name(const mw_editor *editor, const char *name)
 double mw_editor_value(const mw_editor *editor, uint32_t field, uint32_t vertex)
 {
     const mw_dynamic_tiling *dynamic = &editor->dynamic;
-    bool there =
-        field < editor->view.field_count && vertex < dynamic->vertex_count && dynamic->vertex_slot[vertex] != MW_NONE;
+    bool there = field < editor->view.field_count && vertex < dynamic->vertex_count &&
+                 dynamic->vertex_slot[vertex] != MW_NONE;
     return there ? editor->view.field[field].values[vertex] : NAN;
 }
 
-void mw_editor_interpolate(const mw_editor *editor, uint32_t field, const mw_location *locations, size_t n,
-                           double *result)
+void mw_editor_interpolate(const mw_editor *editor, uint32_t field, const mw_location *locations,
+                           size_t n, double *result)
 {
     for (size_t i = 0; i < n; i++) {
         result[i] = NAN; /* also if the triangle has been deleted since */
-        if (field >= editor->view.field_count || !triangle_tile(editor->dynamic.tiling, locations[i].triangle))
+        if (field >= editor->view.field_count ||
+            !triangle_tile(editor->dynamic.tiling, locations[i].triangle))
             continue;
-        mw_interpolate(&editor->view, editor->view.field[field].values, &locations[i], 1, &result[i]);
+        mw_interpolate(&editor->view, editor->view.field[field].values, &locations[i], 1,
+                       &result[i]);
     }
 }
 
@@ -150,7 +156,8 @@ const mw_locator *mw_editor_locator(const mw_editor *editor)
 mw_status mw_editor_index(mw_editor *editor, mw_start_kind start, const mw_index_options *options,
                           const mw_index **index, mw_error *error)
 {
-    if (!editor || !index) return mw__fail(error, MW_ERROR_ARGUMENT, "an index needs an editor and a place");
+    if (!editor || !index)
+        return mw__fail(error, MW_ERROR_ARGUMENT, "an index needs an editor and a place");
     *index = NULL;
     mw_job job = mw__job(editor->threads, options ? options->progress : NULL);
     mw_status status = mw__upkeep_build(&editor->upkeep, start, options, &job, error);

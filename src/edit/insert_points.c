@@ -153,10 +153,12 @@ static MW_INLINE uint32_t lookahead_next_tile(lookahead *look, size_t i)
     const mw_tiling *tiling = &look->editor->locator.tiling;
     const size_t n = look->points->n;
     if (!look->used) return look->editor->dynamic.last;
-    if (i + AHEAD < n) __builtin_prefetch(&look->points->point[point_batch_index(look->points, i + AHEAD)]);
+    if (i + AHEAD < n)
+        __builtin_prefetch(&look->points->point[point_batch_index(look->points, i + AHEAD)]);
     if (i + NAMED < n) lookahead_name_first(look, i + NAMED);
     prefetch_corners(tiling, &look->upcoming[(i + CORNERS) % AHEAD]);
-    for (size_t k = NEARER; k > BEYOND; k -= EVERY) lookahead_step_nearer(tiling, &look->upcoming[(i + k) % AHEAD]);
+    for (size_t k = NEARER; k > BEYOND; k -= EVERY)
+        lookahead_step_nearer(tiling, &look->upcoming[(i + k) % AHEAD]);
     if (look->editor->upkeep.large) prefetch_far(look, i);
     return look->upcoming[i % AHEAD].tile;
 }
@@ -168,8 +170,8 @@ static mw_edit insertion_edit(mw_point p)
     return (mw_edit){.kind = MW_EDIT_INSERT, .x = p.x, .y = p.y, .value = NAN};
 }
 
-static mw_status points_insert_all(mw_editor *editor, const point_batch *b, mw_job *job, uint32_t *vertices,
-                                   mw_change *own, mw_error *error)
+static mw_status points_insert_all(mw_editor *editor, const point_batch *b, mw_job *job,
+                                   uint32_t *vertices, mw_change *own, mw_error *error)
 {
     enum { SOME = 64 }; /* insertions between two steps of the job */
     const mw_dynamic_tiling *dynamic = &editor->dynamic;
@@ -182,7 +184,8 @@ static mw_status points_insert_all(mw_editor *editor, const point_batch *b, mw_j
         const size_t at = point_batch_index(b, i);
         const mw_edit edit = insertion_edit(b->point[at]);
         uint32_t vertex;
-        mw_status status = mw__editor_insert(editor, &edit, lookahead_next_tile(&look, i), &vertex, &why);
+        mw_status status =
+            mw__editor_insert(editor, &edit, lookahead_next_tile(&look, i), &vertex, &why);
         if (status == MW_ERROR_MEMORY) return mw__fail_memory(error);
         if (status) return mw__fail(error, status, "point %zu: %s", at, why.message);
         if (vertices) vertices[at] = vertex;
@@ -208,28 +211,32 @@ static bool reserve_insertions(mw_dynamic_tiling *dynamic, size_t n)
     mw_tiling *tiling = dynamic->tiling;
     /* a triangulation of so many points has fewer tiles */
     const size_t tiles = 2 * (tiling->point_count + n);
-    if (!dynamic->convex || tiles > MW_MAX_TRIANGLES || n >= MW_GONE - dynamic->vertex_count) return false;
-    return mw__tile_room_grow(dynamic, tiles - tiling->tri_count, true) && mw__vertex_room(dynamic, n) &&
-           mw__cavity_room(dynamic, tiles);
+    if (!dynamic->convex || tiles > MW_MAX_TRIANGLES || n >= MW_GONE - dynamic->vertex_count)
+        return false;
+    return mw__tile_room_grow(dynamic, tiles - tiling->tri_count, true) &&
+           mw__vertex_room(dynamic, n) && mw__cavity_room(dynamic, tiles);
 }
 
 /* Begin the step. If nobody needs to know what changed, nobody can cancel, and there is room for
- * everything, nothing can fail, and nothing has to be recorded. Unused room takes addresses only, but to reserve it
- * takes time: for a few points, more than their records do. */
+ * everything, nothing can fail, and nothing has to be recorded. Unused room takes addresses only,
+ * but to reserve it takes time: for a few points, more than their records do. */
 enum { FEW = 100 };
 static bool points_begin_step(mw_editor *editor, const point_batch *b, const mw_change *change)
 {
     enum { TILES_PER_POINT = 4 }; /* changed by an insertion */
     mw_dynamic_tiling *dynamic = &editor->dynamic;
     const mw_edit first = insertion_edit(b->point[point_batch_index(b, 0)]);
-    bool sure = b->n >= FEW && !editor->progress && !mw__editor_needs_report(editor, change) && points_are_finite(b) &&
-                mw__field_room(editor, b->n) && reserve_insertions(dynamic, b->n);
-    if (!mw__log_room(editor, b->n) || (!sure && !mw__journal_room(dynamic, TILES_PER_POINT * b->n))) return false;
+    bool sure = b->n >= FEW && !editor->progress && !mw__editor_needs_report(editor, change) &&
+                points_are_finite(b) && mw__field_room(editor, b->n) &&
+                reserve_insertions(dynamic, b->n);
+    if (!mw__log_room(editor, b->n) ||
+        (!sure && !mw__journal_room(dynamic, TILES_PER_POINT * b->n)))
+        return false;
     return mw__journal_begin(dynamic, &first, !sure);
 }
 
-static mw_status points_insert(mw_editor *editor, const point_batch *b, mw_job *job, uint32_t *vertices,
-                               mw_change *change, mw_error *error)
+static mw_status points_insert(mw_editor *editor, const point_batch *b, mw_job *job,
+                               uint32_t *vertices, mw_change *change, mw_error *error)
 {
     mw_dynamic_tiling *dynamic = &editor->dynamic;
     mw_change own = {.vertex = MW_NONE};
@@ -250,15 +257,18 @@ static mw_status points_insert(mw_editor *editor, const point_batch *b, mw_job *
 static mw_point *copy_points(const double *points, size_t n, size_t stride)
 {
     mw_point *copy = mw__alloc(n, sizeof *copy);
-    for (size_t i = 0; i < n && copy; i++) copy[i] = (mw_point){points[i * stride], points[i * stride + 1]};
+    for (size_t i = 0; i < n && copy; i++)
+        copy[i] = (mw_point){points[i * stride], points[i * stride + 1]};
     return copy;
 }
 
-mw_status mw_edit_insert_points(mw_editor *editor, const double *points, size_t n, size_t stride, uint32_t *vertices,
-                                mw_change *change, mw_error *error)
+mw_status mw_edit_insert_points(mw_editor *editor, const double *points, size_t n, size_t stride,
+                                uint32_t *vertices, mw_change *change, mw_error *error)
 {
-    if (!editor || (!points && n > 0)) return mw__fail(error, MW_ERROR_ARGUMENT, "an edit needs an editor and points");
-    if (stride == 1) return mw__fail(error, MW_ERROR_ARGUMENT, "points are two doubles apart, or more");
+    if (!editor || (!points && n > 0))
+        return mw__fail(error, MW_ERROR_ARGUMENT, "an edit needs an editor and points");
+    if (stride == 1)
+        return mw__fail(error, MW_ERROR_ARGUMENT, "points are two doubles apart, or more");
     if (n >= MW_NONE) return mw__fail(error, MW_ERROR_LIMIT, "too many points");
     if (change) *change = (mw_change){.vertex = MW_NONE};
     if (n == 0) return MW_OK;
@@ -269,7 +279,8 @@ mw_status mw_edit_insert_points(mw_editor *editor, const double *points, size_t 
     bool ordered = own && points_choose_order(own, n, &job, &b.order);
     mw__job_part_end(&job, outer);
     mw__job_stage(&job, "inserting points", 0.9);
-    mw_status status = ordered ? points_insert(editor, &b, &job, vertices, change, error) : mw__fail_memory(error);
+    mw_status status =
+        ordered ? points_insert(editor, &b, &job, vertices, change, error) : mw__fail_memory(error);
     status = mw__job_end(&job, status, error);
     free(b.order);
     free(own);

@@ -54,8 +54,10 @@ static bool link_layers(mw_live_layers *live, uint32_t i)
 static mw_status layer_make_dynamic(mw_live_layers *live, uint32_t i, mw_error *error)
 {
     mw_tiling *tiling = &live->layers->layer[i].tiling;
-    const mw_mesh numbers = {
-        .point = tiling->point, .tri = tiling->tri, .point_count = tiling->point_count, .tri_count = tiling->tri_count};
+    const mw_mesh numbers = {.point = tiling->point,
+                             .tri = tiling->tri,
+                             .point_count = tiling->point_count,
+                             .tri_count = tiling->tri_count};
     free(tiling->area);
     tiling->area = NULL;
     mw_status status = mw__dynamic_create(&live->dynamic[i], tiling, &numbers, true, error);
@@ -63,8 +65,9 @@ static mw_status layer_make_dynamic(mw_live_layers *live, uint32_t i, mw_error *
     return status;
 }
 
-mw_status mw__live_layers_create(mw_live_layers *live, mw_layers *layers, const mw_dynamic_tiling *mesh,
-                                 const mw_layers_options *options, mw_job *job, mw_error *error)
+mw_status mw__live_layers_create(mw_live_layers *live, mw_layers *layers,
+                                 const mw_dynamic_tiling *mesh, const mw_layers_options *options,
+                                 mw_job *job, mw_error *error)
 {
     *live = (mw_live_layers){.layers = layers,
                              .mesh = mesh,
@@ -83,7 +86,8 @@ mw_status mw__live_layers_create(mw_live_layers *live, mw_layers *layers, const 
 void mw__live_layers_attach(mw_live_layers *live, mw_layers *layers)
 {
     live->layers = layers;
-    for (uint32_t i = 0; i + 1 < layers->count; i++) live->dynamic[i].tiling = &layers->layer[i].tiling;
+    for (uint32_t i = 0; i + 1 < layers->count; i++)
+        live->dynamic[i].tiling = &layers->layer[i].tiling;
 }
 
 /* Release layer i and those above it; the lowest above the mesh is layer 0. Returns false. */
@@ -130,7 +134,8 @@ static uint32_t vertices_in_layer(const mw_live_layers *live, uint32_t i)
 bool mw__live_layers_even(const mw_live_layers *live)
 {
     for (uint32_t i = 1; i < live->layers->count; i++) {
-        double expected = fmax(3, live->ratio * vertices_in_layer(live, i - 1)), size = vertices_in_layer(live, i);
+        double expected = fmax(3, live->ratio * vertices_in_layer(live, i - 1)),
+               size = vertices_in_layer(live, i);
         if (size > 2 * expected || 2 * size < expected) return false;
     }
     return true;
@@ -157,10 +162,12 @@ static uint32_t copy_above(const mw_live_layers *live, uint32_t i, uint32_t v)
 }
 
 /* Carry out one edit of layer i as a step of its own. */
-static bool layer_edit(mw_live_layers *live, uint32_t i, mw_edit_kind what, uint32_t *v, mw_point p, uint32_t tile)
+static bool layer_edit(mw_live_layers *live, uint32_t i, mw_edit_kind what, uint32_t *v, mw_point p,
+                       uint32_t tile)
 {
     mw_dynamic_tiling *dynamic = &live->dynamic[i];
-    if (!mw__journal_begin(dynamic, &(mw_edit){.kind = what, .x = p.x, .y = p.y}, true)) return false;
+    if (!mw__journal_begin(dynamic, &(mw_edit){.kind = what, .x = p.x, .y = p.y}, true))
+        return false;
     mw_status status = what == MW_EDIT_INSERT   ? mw__dynamic_insert(dynamic, p, tile, v, NULL)
                        : what == MW_EDIT_REMOVE ? mw__dynamic_remove(dynamic, *v, NULL)
                                                 : mw__dynamic_move(dynamic, *v, p, MW_NONE, NULL);
@@ -176,13 +183,16 @@ static bool layer_edit(mw_live_layers *live, uint32_t i, mw_edit_kind what, uint
 
 /* Copy vertex *v of the layer beneath into layer i; the search begins at a tile. *v becomes the
  * copy. */
-static bool layer_insert_copy(mw_live_layers *live, uint32_t i, uint32_t *v, mw_point p, uint32_t tile)
+static bool layer_insert_copy(mw_live_layers *live, uint32_t i, uint32_t *v, mw_point p,
+                              uint32_t tile)
 {
     mw_layer *layer = &live->layers->layer[i];
     uint32_t copy = MW_NONE, numbers = live->dynamic[i].vertex_count;
     if (!entry_room(&live->up[i], &live->up_room[i], *v)) return false;
     if (!entry_room(&layer->below, &live->below_room[i], layer->tiling.point_count)) return false;
-    if (!layer_edit(live, i, MW_EDIT_INSERT, &copy, p, tile) || live->dynamic[i].vertex_count == numbers) return false;
+    if (!layer_edit(live, i, MW_EDIT_INSERT, &copy, p, tile) ||
+        live->dynamic[i].vertex_count == numbers)
+        return false;
     layer->below[copy] = *v;
     live->up[i][*v] = copy;
     *v = copy;
@@ -193,13 +203,15 @@ static bool layer_insert_copy(mw_live_layers *live, uint32_t i, uint32_t *v, mw_
 static uint32_t random_height(mw_live_layers *live)
 {
     uint32_t height = 0, most = live->layers->count - 1;
-    while (height < most && (double)(mw__random(&live->random) >> 11) * 0x1p-53 < live->ratio) height++;
+    while (height < most && (double)(mw__random(&live->random) >> 11) * 0x1p-53 < live->ratio)
+        height++;
     return height;
 }
 
 bool mw__live_layers_insert(mw_live_layers *live, uint32_t v, mw_point p)
 {
-    const mw_layer_walk how = {MW_WALK_REMEMBERING, MW_WALK_REMEMBERING, true, false, live->mesh->tiling};
+    const mw_layer_walk how = {MW_WALK_REMEMBERING, MW_WALK_REMEMBERING, true, false,
+                               live->mesh->tiling};
     uint32_t tile[MW_MAX_LAYERS - 1], height = random_height(live);
     live->layers->vertices++;
     if (height == 0) return true;
@@ -216,7 +228,8 @@ bool mw__live_layers_remove(mw_live_layers *live, uint32_t v)
         uint32_t copy = copy_above(live, i, v);
         if (copy == MW_NONE) break;
         live->up[i][v] = MW_NONE;
-        if (!layer_edit(live, i, MW_EDIT_REMOVE, &copy, (mw_point){0, 0}, 0)) return live_layers_cut(live, i);
+        if (!layer_edit(live, i, MW_EDIT_REMOVE, &copy, (mw_point){0, 0}, 0))
+            return live_layers_cut(live, i);
         v = copy;
     }
     return true;

@@ -23,8 +23,9 @@ typedef struct mw_live_layers {
 } mw_live_layers;
 
 /* Build layers above a dynamic tiling. Errors as mw__layers_create; release in either case. */
-mw_status mw__live_layers_create(mw_live_layers *live, mw_layers *layers, const mw_dynamic_tiling *mesh,
-                                 const mw_layers_options *options, mw_job *job, mw_error *error);
+mw_status mw__live_layers_create(mw_live_layers *live, mw_layers *layers,
+                                 const mw_dynamic_tiling *mesh, const mw_layers_options *options,
+                                 mw_job *job, mw_error *error);
 /* The layers were copied to this address. */
 void mw__live_layers_attach(mw_live_layers *live, mw_layers *layers);
 /* Release all layers above the mesh. */

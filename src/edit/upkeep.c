@@ -44,9 +44,12 @@ static mw_status upkeep_build_index(mw_upkeep *u, mw_index *fresh, mw_live_layer
 {
     const mw_locator *locator = u->locator;
     if (fresh->start != MW_START_LAYERS)
-        return mw__index_build(fresh, &locator->tiling, locator->low, locator->high, options, job, error);
-    const mw_layers_options own = {
-        .layers = options->layers, .ratio = options->ratio, .descent = options->descent, .seed = options->seed};
+        return mw__index_build(fresh, &locator->tiling, locator->low, locator->high, options, job,
+                               error);
+    const mw_layers_options own = {.layers = options->layers,
+                                   .ratio = options->ratio,
+                                   .descent = options->descent,
+                                   .seed = options->seed};
     return mw__live_layers_create(live, &fresh->layers, u->dynamic, &own, job, error);
 }
 
@@ -58,11 +61,12 @@ static void upkeep_index_release(mw_index *index, mw_live_layers *live)
         mw__index_release(index);
 }
 
-mw_status mw__upkeep_build(mw_upkeep *u, mw_start_kind start, const mw_index_options *options, mw_job *job,
-                           mw_error *error)
+mw_status mw__upkeep_build(mw_upkeep *u, mw_start_kind start, const mw_index_options *options,
+                           mw_job *job, mw_error *error)
 {
     static const mw_index_options defaults;
-    if (!mw_start_has_index(start)) return mw__fail(error, MW_ERROR_ARGUMENT, "this start has no index");
+    if (!mw_start_has_index(start))
+        return mw__fail(error, MW_ERROR_ARGUMENT, "this start has no index");
     if (!options) options = &defaults;
     mw_index fresh = {.start = start};
     mw_live_layers live = {0};
@@ -106,8 +110,8 @@ static bool build_guide(mw_upkeep *u, mw_job *job)
     return done;
 }
 
-mw_status mw__upkeep_create(mw_upkeep *u, mw_locator *locator, const mw_dynamic_tiling *dynamic, mw_job *job,
-                            mw_error *error)
+mw_status mw__upkeep_create(mw_upkeep *u, mw_locator *locator, const mw_dynamic_tiling *dynamic,
+                            mw_job *job, mw_error *error)
 {
     *u = (mw_upkeep){.locator = locator, .dynamic = dynamic};
     return build_guide(u, job) ? MW_OK : mw__fail_memory(error);
@@ -115,7 +119,8 @@ mw_status mw__upkeep_create(mw_upkeep *u, mw_locator *locator, const mw_dynamic_
 
 void mw__upkeep_release(mw_upkeep *u)
 {
-    for (int start = 0; start < MW_START_COUNT; start++) upkeep_index_release(&u->index[start], &u->live);
+    for (int start = 0; start < MW_START_COUNT; start++)
+        upkeep_index_release(&u->index[start], &u->live);
     if (u->locator) mw__index_release(&u->locator->guide);
     *u = (mw_upkeep){0};
 }
@@ -131,7 +136,8 @@ size_t mw__upkeep_bytes(const mw_upkeep *u)
 
 static bool staleness_is_due(const mw_staleness *s, uint32_t vertices)
 {
-    return s->edits > s->most_edits || s->outsiders > s->most_outsiders || vertices > s->most || vertices < s->fewest;
+    return s->edits > s->most_edits || s->outsiders > s->most_outsiders || vertices > s->most ||
+           vertices < s->fewest;
 }
 
 /* Rebuild an index, or the guide, if there is one. When out of memory the old one stays until it is
@@ -141,8 +147,9 @@ static void upkeep_refresh(mw_upkeep *u, mw_start_kind start)
     if (!index_is_built(u, start)) return;
     const mw_index_options options = u->options[start];
     staleness_reset(u, start);
-    bool done = start == MW_START_AUTO ? build_guide(u, MW_ALONE)
-                                       : mw__upkeep_build(u, start, &options, MW_ALONE, NULL) == MW_OK;
+    bool done = start == MW_START_AUTO
+                    ? build_guide(u, MW_ALONE)
+                    : mw__upkeep_build(u, start, &options, MW_ALONE, NULL) == MW_OK;
     u->refreshes += done;
 }
 
@@ -168,12 +175,14 @@ bool mw__upkeep_needs_report(const mw_upkeep *u)
 static void note_tile(mw_upkeep *u, uint32_t t)
 {
     const mw_tiling *tiling = u->dynamic->tiling;
-    grids_put(u, &(mw_cell_entry){.p = mw__tile_middle(tiling, t), .name = mw__tile_name(tiling, t)});
+    grids_put(u,
+              &(mw_cell_entry){.p = mw__tile_middle(tiling, t), .name = mw__tile_name(tiling, t)});
 }
 
 /* Put the tiles that an edit changed, as they are now, into the grids. The guide keeps the names it
  * was built from: finding the cells of six tiles would take a fifth of the time of an insertion. */
-static void note_tiles(mw_upkeep *u, const mw_journal_step *step, const mw_journal_entry *first, size_t count)
+static void note_tiles(mw_upkeep *u, const mw_journal_step *step, const mw_journal_entry *first,
+                       size_t count)
 {
     const mw_tiling *tiling = u->dynamic->tiling;
     if (!index_is_built(u, MW_START_GRID) && !index_is_built(u, MW_START_TWO_LEVEL_GRID)) return;
@@ -185,7 +194,8 @@ static void note_tiles(mw_upkeep *u, const mw_journal_step *step, const mw_journ
 static bool index_covers(const mw_index *index, mw_point p)
 {
     if (index->start == MW_START_GRID) return mw__lattice_covers(&index->grid.lattice, p);
-    return index->start != MW_START_TWO_LEVEL_GRID || mw__two_level_grid_covers(&index->two_level_grid, p);
+    return index->start != MW_START_TWO_LEVEL_GRID ||
+           mw__two_level_grid_covers(&index->two_level_grid, p);
 }
 
 static const mw_index *kept_index(const mw_upkeep *u, mw_start_kind start)
@@ -215,7 +225,8 @@ static void note_vertices(mw_upkeep *u, const uint32_t *vertices, uint32_t n)
     for (uint32_t i = 0; i < n; i++) {
         if (!vertex_is_used(u->dynamic, vertices[i])) continue;
         for (uint32_t k = 0; k < u->kept_count; k++)
-            u->staleness[u->kept[k]].outsiders += !index_covers(kept_index(u, u->kept[k]), p[vertices[i]]);
+            u->staleness[u->kept[k]].outsiders +=
+                !index_covers(kept_index(u, u->kept[k]), p[vertices[i]]);
         extent_include(u, p[vertices[i]]);
     }
 }
@@ -231,13 +242,15 @@ static uint32_t tile_beside(const mw_tiling *tiling, const mw_triangle *gone)
 
 /* Redirect the numbers that an undone edit had given out to triangles beside those that had them.
  * These numbers will be given out again, to triangles anywhere, so the cells must not keep them. */
-static void redirect_names(mw_upkeep *u, const mw_journal_step *step, const mw_journal_entry *first, size_t count)
+static void redirect_names(mw_upkeep *u, const mw_journal_step *step, const mw_journal_entry *first,
+                           size_t count)
 {
     mw_tiling *tiling = u->dynamic->tiling;
     for (size_t i = 0; i < count; i++) {
         const mw_triangle *gone = &first[i].tile;
         uint32_t number = gone->user & MW_USER_MASK;
-        if (gone->v[0] == MW_NONE || gone->user & MW_GHOST || number < tiling->number_count) continue;
+        if (gone->v[0] == MW_NONE || gone->user & MW_GHOST || number < tiling->number_count)
+            continue;
         uint32_t heir = mw__tile_name(tiling, tile_beside(tiling, gone));
         tiling->tile_of[number] = MW_GONE | heir;
         mw_point p[3];
@@ -297,7 +310,8 @@ static MW_INLINE void count_edits(mw_upkeep *u, mw_start_kind start, uint64_t ed
 {
     mw_staleness *staleness = &u->staleness[start];
     staleness->edits += edits;
-    if (MW_UNLIKELY(staleness_is_due(staleness, vertices_in_use(u->dynamic)))) upkeep_refresh(u, start);
+    if (MW_UNLIKELY(staleness_is_due(staleness, vertices_in_use(u->dynamic))))
+        upkeep_refresh(u, start);
 }
 
 void mw__upkeep_edit(mw_upkeep *u, bool undone)
@@ -331,7 +345,8 @@ void mw__upkeep_insertion(mw_upkeep *u, uint32_t v)
 
 void mw__upkeep_grow(mw_upkeep *u)
 {
-    if (vertices_in_use(u->dynamic) > u->staleness[MW_START_AUTO].most) upkeep_refresh(u, MW_START_AUTO);
+    if (vertices_in_use(u->dynamic) > u->staleness[MW_START_AUTO].most)
+        upkeep_refresh(u, MW_START_AUTO);
 }
 
 void mw__upkeep_rolled_back(mw_upkeep *u)

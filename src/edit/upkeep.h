@@ -54,15 +54,15 @@ typedef struct mw_upkeep {
  * and default walks, and build its guide. None of the three may move in memory afterwards, but the
  * contents of `dynamic` may be exchanged (mw__upkeep_compact). MW_ERROR_MEMORY; release in either
  * case. */
-mw_status mw__upkeep_create(mw_upkeep *upkeep, mw_locator *locator, const mw_dynamic_tiling *dynamic, mw_job *job,
-                            mw_error *error);
+mw_status mw__upkeep_create(mw_upkeep *upkeep, mw_locator *locator,
+                            const mw_dynamic_tiling *dynamic, mw_job *job, mw_error *error);
 void mw__upkeep_release(mw_upkeep *upkeep);       /* the guide, too */
 size_t mw__upkeep_bytes(const mw_upkeep *upkeep); /* of indices and guide */
 
 /* Build or rebuild the index of a start, &upkeep->index[start]. options: NULL = all zero. Errors as
  * mw_index_create; then nothing has changed. */
-mw_status mw__upkeep_build(mw_upkeep *upkeep, mw_start_kind start, const mw_index_options *options, mw_job *job,
-                           mw_error *error);
+mw_status mw__upkeep_build(mw_upkeep *upkeep, mw_start_kind start, const mw_index_options *options,
+                           mw_job *job, mw_error *error);
 
 /* Does mw__upkeep_edit need the journal of an insertion? */
 bool mw__upkeep_needs_report(const mw_upkeep *upkeep);

@@ -12,7 +12,7 @@ enum {
     SAMPLE = 64, /* queries looked at: */
     LEAST = 512, /* of no fewer than these */
     TILES = 8,   /* of so many the tiles are looked at, too */
-    OFTEN = 4    /* tiles for each query: where there are more most are not met again, and need not be in a cache */
+    OFTEN = 4    /* tiles for each query: of more most are met once, and need not be in a cache */
 };
 
 static mw_cache_level cache_level_of(double bytes, const mw_caches *caches)
@@ -23,7 +23,8 @@ static mw_cache_level cache_level_of(double bytes, const mw_caches *caches)
 
 static double mesh_bytes(const mw_tiling *tiling)
 {
-    return (double)tiling->tri_count * sizeof(mw_triangle) + (double)tiling->point_count * sizeof(mw_point);
+    return (double)tiling->tri_count * sizeof(mw_triangle) +
+           (double)tiling->point_count * sizeof(mw_point);
 }
 
 static const double *query_sampled(const mw_queries *queries, size_t i, size_t count)
@@ -76,16 +77,20 @@ mw_cache_level mw__cache_level_of_mesh(const mw_locator *locator, const mw_cache
     return cache_level_of(mesh_bytes(&locator->tiling), caches);
 }
 
-mw_cache_level mw__cache_level_of_queries(const mw_locator *locator, const mw_caches *caches, const mw_queries *queries)
+mw_cache_level mw__cache_level_of_queries(const mw_locator *locator, const mw_caches *caches,
+                                          const mw_queries *queries)
 {
     mw_cache_level level = mw__cache_level_of_mesh(locator, caches);
-    if (level == MW_CACHE_OWN || queries->n < LEAST || locator->guide.start == MW_START_AUTO) return level;
+    if (level == MW_CACHE_OWN || queries->n < LEAST || locator->guide.start == MW_START_AUTO)
+        return level;
     double x = queries_part(locator, queries, 0), y = queries_part(locator, queries, 1),
            all = mesh_bytes(&locator->tiling);
     mw_cache_level even = cache_level_of(x * y * all, caches);
-    if (even == level || x * y * locator->tiling.tri_count > (double)queries->n * OFTEN) return level;
+    if (even == level || x * y * locator->tiling.tri_count > (double)queries->n * OFTEN)
+        return level;
     /* Where the mesh is refined a small part of the extent may hold most of it. */
-    double width = x * (locator->high[0] - locator->low[0]), height = y * (locator->high[1] - locator->low[1]);
+    double width = x * (locator->high[0] - locator->low[0]),
+           height = y * (locator->high[1] - locator->low[1]);
     double tiles = width * queries_tile_density(locator, queries) * height;
     if (!(tiles <= (double)queries->n * OFTEN)) return level;
     mw_cache_level dense = cache_level_of(tiles / locator->tiling.tri_count * all, caches);
@@ -140,12 +145,14 @@ static way_measure way_measure_at(const mw_locator *locator, const double *at)
                    mw__grid_first(&guide->curve.sparse, p) == MW_NONE;
     double edge = shortest_edge(&locator->tiling, mw__index_tile(&locator->tiling, guide, p));
     double longest = sqrt(locator->cell2);
-    return (way_measure){.length = edge < longest ? edge : longest, .worth = crowded ? CURVE : GRID};
+    return (way_measure){.length = edge < longest ? edge : longest,
+                         .worth = crowded ? CURVE : GRID};
 }
 
 /* The length of the way through a run of queries. Infinite, if it is more than `left` and what the
  * run can be worth, whatever the tiles are. */
-static double queries_short_way(const mw_locator *locator, const double *at, size_t count, size_t stride, double left)
+static double queries_short_way(const mw_locator *locator, const double *at, size_t count,
+                                size_t stride, double left)
 {
     double way = queries_way(at, count, stride);
     return way <= (left + CURVE * (double)count) * sqrt(locator->cell2) ? way : INFINITY;
@@ -153,13 +160,16 @@ static double queries_short_way(const mw_locator *locator, const double *at, siz
 
 /* What a run of queries gains by walking from one to the next: what the guide would take, less what
  * the way takes. */
-static double queries_gain(const mw_locator *locator, const double *at, size_t count, size_t stride, double left)
+static double queries_gain(const mw_locator *locator, const double *at, size_t count, size_t stride,
+                           double left)
 {
     enum { FEW = 8 }; /* are enough for nearly all that are not near */
-    if (isinf(queries_short_way(locator, at, count < FEW ? count : FEW, stride, left))) return -INFINITY;
+    if (isinf(queries_short_way(locator, at, count < FEW ? count : FEW, stride, left)))
+        return -INFINITY;
     double way = queries_short_way(locator, at, count, stride, left);
     if (isinf(way)) return -INFINITY;
-    way_measure from = way_measure_at(locator, at), to = way_measure_at(locator, at + count * stride);
+    way_measure from = way_measure_at(locator, at),
+                to = way_measure_at(locator, at + count * stride);
     return from.worth * (double)count - way / (from.length < to.length ? from.length : to.length);
 }
 
@@ -173,7 +183,8 @@ bool mw__queries_are_dense(const mw_locator *locator, const mw_queries *queries)
     for (size_t lap = 0; lap < LAPS; lap++)
         for (size_t i = lap * RUN; i + 1 < queries->n; i += LAPS * RUN) {
             size_t count = queries->n - 1 - i < RUN ? queries->n - 1 - i : RUN;
-            left += queries_gain(locator, &queries->points[i * queries->stride], count, queries->stride, left);
+            left += queries_gain(locator, &queries->points[i * queries->stride], count,
+                                 queries->stride, left);
             if (!(left >= 0)) return false;
         }
     return true;
@@ -184,7 +195,8 @@ bool mw__queries_are_dense(const mw_locator *locator, const mw_queries *queries)
  * extent that one stray query makes large nothing follows: ways are short, too. */
 bool mw__queries_are_in_order(const mw_locator *locator, const mw_queries *queries)
 {
-    static const double SORT = 0.4, SHORT = 4, SUM = 1.27; /* common edges; |dx| + |dy| for a distance */
+    /* common edges; |dx| + |dy| for a distance */
+    static const double SORT = 0.4, SHORT = 4, SUM = 1.27;
     double n = (double)queries->n, edge = sqrt(locator->cell2) / 2;
     double width = queries_part(locator, queries, 0) * (locator->high[0] - locator->low[0]);
     double height = queries_part(locator, queries, 1) * (locator->high[1] - locator->low[1]);

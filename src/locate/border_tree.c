@@ -19,14 +19,16 @@ static bool link_is_covered(const mw_tiling *tiling, uint32_t link)
 
 /* The user's edge that edge k of a tile is, or, where the tile is one part of a triangle that was
  * cut, lies along. */
-static uint32_t edge_of_user(const mw_mesh *mesh, const mw_tiling *tiling, const mw_triangle *tile, uint32_t k)
+static uint32_t edge_of_user(const mw_mesh *mesh, const mw_tiling *tiling, const mw_triangle *tile,
+                             uint32_t k)
 {
     if (!tiling->cut) return mw__user_local_edge(tile->user, k);
     const mw_triangle *t = &mesh->tri[mw__triangle_slot(mesh, tile->user & MW_USER_MASK)];
     mw_point a = tiling->point[tile->v[k]], b = tiling->point[tile->v[k + 1]];
     for (uint32_t e = 0; e < 2; e++) {
         mw_point from = mesh->point[t->v[e]], to = mesh->point[t->v[e + 1]];
-        if (mw__orient2d(from, to, a) == 0 && mw__orient2d(from, to, b) == 0) return mw__user_local_edge(t->user, e);
+        if (mw__orient2d(from, to, a) == 0 && mw__orient2d(from, to, b) == 0)
+            return mw__user_local_edge(t->user, e);
     }
     return mw__user_local_edge(t->user, 2);
 }
@@ -37,12 +39,14 @@ static uint32_t border_collect(const mw_mesh *mesh, const mw_tiling *tiling, mw_
     uint32_t n = 0;
     for (uint32_t t = 0; t < tiling->tri_count; t++) {
         const mw_triangle *tile = &tiling->tri[t];
-        if (tile->user & MW_GHOST || (!tiling->embedding && !mw__has_area(tiling->point, tile))) continue;
+        if (tile->user & MW_GHOST || (!tiling->embedding && !mw__has_area(tiling->point, tile)))
+            continue;
         for (uint32_t k = 0; k < 3; k++) {
             if (link_is_covered(tiling, tile->link[k])) continue;
             if (edge)
                 edge[n] = (mw_border_edge){tiling->point[tile->v[k]], tiling->point[tile->v[k + 1]],
-                                           tile->user & MW_USER_MASK, edge_of_user(mesh, tiling, tile, k)};
+                                           tile->user & MW_USER_MASK,
+                                           edge_of_user(mesh, tiling, tile, k)};
             n++;
         }
     }
@@ -60,7 +64,8 @@ static bool border_sort(mw_border_tree *border, const mw_tiling *tiling)
         mw_hilbert hilbert = mw__hilbert(low, high);
         for (uint32_t i = 0; i < n; i++) {
             const mw_border_edge *e = &border->edge[i];
-            key[i] = (mw_key){mw__hilbert_key(&hilbert, e->a.x / 2 + e->b.x / 2, e->a.y / 2 + e->b.y / 2), i};
+            key[i] = (mw_key){
+                mw__hilbert_key(&hilbert, e->a.x / 2 + e->b.x / 2, e->a.y / 2 + e->b.y / 2), i};
         }
         mw__sort_keys(key, key + n, n);
         for (uint32_t i = 0; i < n; i++) sorted[i] = border->edge[key[i].item];
@@ -76,7 +81,8 @@ static bool border_sort(mw_border_tree *border, const mw_tiling *tiling)
 static mw_box border_edge_box(const void *edges, uint32_t i)
 {
     const mw_border_edge *e = (const mw_border_edge *)edges + i;
-    return (mw_box){{fmin(e->a.x, e->b.x), fmin(e->a.y, e->b.y)}, {fmax(e->a.x, e->b.x), fmax(e->a.y, e->b.y)}};
+    return (mw_box){{fmin(e->a.x, e->b.x), fmin(e->a.y, e->b.y)},
+                    {fmax(e->a.x, e->b.x), fmax(e->a.y, e->b.y)}};
 }
 
 bool mw__border_tree_create(mw_border_tree *border, const mw_mesh *mesh, const mw_tiling *tiling)
@@ -203,11 +209,13 @@ static double segment_rounded_distance(mw_point a, mw_point b)
 static distance_range edge_scaled_bounds(const mw_border_edge *e, mw_point q)
 {
     scaled_vector a = scaled_vector_to(q, e->a), b = scaled_vector_to(q, e->b);
-    int k = a.exponent > b.exponent ? a.exponent : b.exponent, i = a.exponent - k, j = b.exponent - k;
-    double d =
-        segment_rounded_distance((mw_point){ldexp(a.x, i), ldexp(a.y, i)}, (mw_point){ldexp(b.x, j), ldexp(b.y, j)});
+    int k = a.exponent > b.exponent ? a.exponent : b.exponent, i = a.exponent - k,
+        j = b.exponent - k;
+    double d = segment_rounded_distance((mw_point){ldexp(a.x, i), ldexp(a.y, i)},
+                                        (mw_point){ldexp(b.x, j), ldexp(b.y, j)});
     double low = ldexp(d - 4 * ROUNDING, k), high = ldexp(d + 4 * ROUNDING, k);
-    return (distance_range){fmin(low, DBL_MAX) - DBL_TRUE_MIN, high + DBL_TRUE_MIN}; /* what ldexp may have lost */
+    /* what ldexp may have lost */
+    return (distance_range){fmin(low, DBL_MAX) - DBL_TRUE_MIN, high + DBL_TRUE_MIN};
 }
 
 static distance_range edge_bounds(const mw_border_edge *e, mw_point q)
@@ -225,7 +233,8 @@ static void search_consider(border_search *s, const mw_border_edge *e)
     if (d.low > s->most) return;
     if (s->best) {
         int order = mw__compare_distance(s->q, s->best->a, s->best->b, e->a, e->b);
-        bool lower = e->triangle != s->best->triangle ? e->triangle < s->best->triangle : e->edge < s->best->edge;
+        bool lower = e->triangle != s->best->triangle ? e->triangle < s->best->triangle
+                                                      : e->edge < s->best->edge;
         if (order < 0 || (order == 0 && !lower)) return;
     }
     s->best = e;
@@ -264,7 +273,8 @@ static void search_descend(border_search *s, uint32_t level, uint32_t index)
         least[k] = d;
         child[k] = first + i;
     }
-    for (uint32_t i = 0; i < n && !(least[i] > s->most); i++) search_descend(s, level - 1, child[i]);
+    for (uint32_t i = 0; i < n && !(least[i] > s->most); i++)
+        search_descend(s, level - 1, child[i]);
 }
 
 static const mw_border_edge *border_edge_nearest(const mw_border_tree *border, mw_point q)
@@ -306,8 +316,8 @@ static void edge_weights(const mw_mesh *mesh, const mw_border_edge *e, mw_point 
 {
     uint32_t v[3], next = mw__next(e->edge);
     mw_mesh_triangle(mesh, e->triangle, v);
-    mw_border_edge whole = {mesh->point[mw__vertex_slot(mesh, v[e->edge])], mesh->point[mw__vertex_slot(mesh, v[next])],
-                            e->triangle, e->edge};
+    mw_border_edge whole = {mesh->point[mw__vertex_slot(mesh, v[e->edge])],
+                            mesh->point[mw__vertex_slot(mesh, v[next])], e->triangle, e->edge};
     double one = edge_share(&whole, e->a), two = edge_share(&whole, e->b);
     double s = fmin(fmax(edge_share(&whole, q), fmin(one, two)), fmax(one, two));
     weight[e->edge] = 1 - s;
@@ -326,8 +336,8 @@ bool mw__border_tree_nearest(const mw_border_tree *border, const mw_mesh *mesh, 
     return true;
 }
 
-void mw__border_tree_apply_tolerance(const mw_border_tree *border, const mw_mesh *mesh, mw_point q, double tolerance,
-                                     mw_location *location)
+void mw__border_tree_apply_tolerance(const mw_border_tree *border, const mw_mesh *mesh, mw_point q,
+                                     double tolerance, mw_location *location)
 {
     const mw_border_edge *e = border_edge_nearest(border, q);
     if (!e || mw__compare_distance_to(q, e->a, e->b, tolerance) > 0) return;

@@ -31,7 +31,7 @@ bool mw__border_tree_nearest(const mw_border_tree *border, const mw_mesh *mesh, 
                              mw_nearest_border_point *hit);
 
 /* Turn a location outside into MW_NEAR if the border is within the tolerance of q. */
-void mw__border_tree_apply_tolerance(const mw_border_tree *border, const mw_mesh *mesh, mw_point q, double tolerance,
-                                     mw_location *location);
+void mw__border_tree_apply_tolerance(const mw_border_tree *border, const mw_mesh *mesh, mw_point q,
+                                     double tolerance, mw_location *location);
 
 #endif

@@ -45,8 +45,8 @@ typedef struct component_face {
 
 static bool box_is_inside(const mw_box *box, const mw_box *other)
 {
-    return box->low[0] >= other->low[0] && box->low[1] >= other->low[1] && box->high[0] <= other->high[0] &&
-           box->high[1] <= other->high[1];
+    return box->low[0] >= other->low[0] && box->low[1] >= other->low[1] &&
+           box->high[0] <= other->high[0] && box->high[1] <= other->high[1];
 }
 
 /* q lies beyond the border round which the walk went last. Components of which a face holds q lie
@@ -54,10 +54,12 @@ static bool box_is_inside(const mw_box *box, const mw_box *other)
 static void face_note(component_face *f, const mw_border_loops *loops, uint32_t lowest, mw_box box)
 {
     uint32_t hole = mw__border_loops_hole(loops, lowest);
-    if (hole != MW_NONE && (f->hole == MW_NONE || box_is_inside(&box, &f->box))) *f = (component_face){hole, box};
+    if (hole != MW_NONE && (f->hole == MW_NONE || box_is_inside(&box, &f->box)))
+        *f = (component_face){hole, box};
 }
 
-static mw_verdict component_walk(const mw_tiling *tiling, const mw_component *component, mw_walk *walk, bool counted)
+static mw_verdict component_walk(const mw_tiling *tiling, const mw_component *component,
+                                 mw_walk *walk, bool counted)
 {
     uint32_t fuel = mw__walk_fuel(MW_WALK_BORDER, MW_EXACT, tiling);
     mw_work *work = counted ? walk->work : NULL;
@@ -69,7 +71,8 @@ static mw_verdict component_walk(const mw_tiling *tiling, const mw_component *co
     return mw__walk_surely(walk, counted);
 }
 
-mw_verdict mw__components_search(const mw_tiling *tiling, mw_walk *walk, bool counted, uint32_t *hole)
+mw_verdict mw__components_search(const mw_tiling *tiling, mw_walk *walk, bool counted,
+                                 uint32_t *hole)
 {
     const mw_border_loops *loops = tiling->border_loops;
     *hole = mw__border_loops_hole(loops, walk->lowest);
@@ -78,8 +81,9 @@ mw_verdict mw__components_search(const mw_tiling *tiling, mw_walk *walk, bool co
     component_face f = {.hole = MW_NONE};
     face_note(&f, loops, walk->lowest, loops->component[here].box);
     mw_verdict verdict = MW_VERDICT_LEFT;
-    for (uint32_t i = 0;
-         (i = component_next(loops, i, walk->q)) < loops->component_count && verdict != MW_VERDICT_FOUND; i++) {
+    for (uint32_t i = 0; (i = component_next(loops, i, walk->q)) < loops->component_count &&
+                         verdict != MW_VERDICT_FOUND;
+         i++) {
         if (i == here) continue;
         verdict = component_walk(tiling, &loops->component[i], walk, counted);
         if (verdict == MW_VERDICT_LEFT) face_note(&f, loops, walk->lowest, loops->component[i].box);

@@ -12,6 +12,7 @@ void mw__components_begin(const mw_locator *locator, mw_walk *walk);
 /* q is not in the component where the walk ended: look in the other ones whose boxes hold it, in
  * the order of the box tree, small ones first. Leaves in *walk where it ended. *hole: where q lies
  * if it is in none; MW_NONE: outside. */
-mw_verdict mw__components_search(const mw_tiling *tiling, mw_walk *walk, bool counted, uint32_t *hole);
+mw_verdict mw__components_search(const mw_tiling *tiling, mw_walk *walk, bool counted,
+                                 uint32_t *hole);
 
 #endif

@@ -17,15 +17,17 @@
  * tried, whatever the walk of the cursor. */
 static MW_INLINE bool mw__has_fast_path(const mw_tiling *tiling, const mw_query_options *options)
 {
-    return (options->walk == MW_WALK_AUTO || options->walk == MW_WALK_REMEMBERING) && !options->counters &&
-           options->arithmetic == MW_EXACT && !tiling->border_loops && !tiling->cut;
+    return (options->walk == MW_WALK_AUTO || options->walk == MW_WALK_REMEMBERING) &&
+           !options->counters && options->arithmetic == MW_EXACT && !tiling->border_loops &&
+           !tiling->cut;
 }
 
 /* Write the answer of a fast walk that has ended in no triangle of the user's: inside the ghost
  * `tile` or, if it left, beyond an edge of it that is on the hull. False: it needs the exact
  * conclusion, or the border nearby. */
-static MW_INLINE bool mw__fast_path_outside(const mw_tiling *tiling, const mw_cursor *cursor, const mw_triangle *tile,
-                                            bool inside, bool left, mw_location *location)
+static MW_INLINE bool mw__fast_path_outside(const mw_tiling *tiling, const mw_cursor *cursor,
+                                            const mw_triangle *tile, bool inside, bool left,
+                                            mw_location *location)
 {
     if (cursor->tolerance > 0 || !tiling->embedding || !(inside || left)) return false;
     mw__location_write_outside(location, inside ? tile->user : 0);

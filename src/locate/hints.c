@@ -10,8 +10,10 @@ enum { AHEAD = 8 }; /* hints whose slots are asked for */
 /* Where the slot of a triangle stands, if anywhere. */
 static MW_INLINE void hint_prefetch_slot(const mw_locator *locator, uint32_t hint)
 {
-    const uint32_t *slot = locator->tiling.tile_of ? locator->tiling.tile_of : locator->mesh->triangle_slot;
-    const uint32_t count = locator->tiling.tile_of ? locator->tiling.number_count : locator->mesh->tri_count;
+    const uint32_t *slot =
+        locator->tiling.tile_of ? locator->tiling.tile_of : locator->mesh->triangle_slot;
+    const uint32_t count =
+        locator->tiling.tile_of ? locator->tiling.number_count : locator->mesh->tri_count;
     if (slot && hint < count) __builtin_prefetch(&slot[hint]);
 }
 

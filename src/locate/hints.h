@@ -16,7 +16,8 @@ static MW_INLINE bool hint_is_name(const mw_tiling *tiling, uint32_t hint)
 static MW_INLINE uint32_t mw__hint_tile(const mw_locator *locator, uint32_t hint)
 {
     const mw_tiling *tiling = &locator->tiling;
-    if (MW_UNLIKELY(tiling->tile_of)) return hint_is_name(tiling, hint) ? mw__tile_named(tiling, hint) : MW_NONE;
+    if (MW_UNLIKELY(tiling->tile_of))
+        return hint_is_name(tiling, hint) ? mw__tile_named(tiling, hint) : MW_NONE;
     if (hint >= locator->mesh->tri_count) return MW_NONE;
     uint32_t slot = mw__triangle_slot(locator->mesh, hint);
     return MW_LIKELY(slot < tiling->tri_count) ? slot : slot % tiling->tri_count;
@@ -32,10 +33,12 @@ static MW_INLINE bool mw__hint_is_near(const mw_locator *locator, uint32_t t, mw
 
 /* The same for one query. MW_NONE also where the query has left its hint behind: where nothing was
  * said of the start, the locator's guide leads nearer then. */
-static MW_INLINE uint32_t mw__hint_first(const mw_locator *locator, const mw_cursor *cursor, uint32_t hint, mw_point q)
+static MW_INLINE uint32_t mw__hint_first(const mw_locator *locator, const mw_cursor *cursor,
+                                         uint32_t hint, mw_point q)
 {
     uint32_t t = mw__hint_tile(locator, hint);
-    bool stays = t == MW_NONE || cursor->index != &locator->guide || mw__hint_is_near(locator, t, q);
+    bool stays =
+        t == MW_NONE || cursor->index != &locator->guide || mw__hint_is_near(locator, t, q);
     return stays ? t : MW_NONE;
 }
 

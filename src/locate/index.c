@@ -6,29 +6,33 @@
 
 /* The starts that have no index. Every switch below lists all starts and has no default, so that
  * the compiler names the places where a new one is missing. */
-#define WITHOUT_INDEX                                                                                                  \
-    MW_START_AUTO:                                                                                                     \
-    case MW_START_RANDOM:                                                                                              \
-    case MW_START_SAMPLE:                                                                                              \
-    case MW_START_CENTRE:                                                                                              \
-    case MW_START_LAST:                                                                                                \
-    case MW_START_SORTED:                                                                                              \
+#define WITHOUT_INDEX                                                                              \
+    MW_START_AUTO:                                                                                 \
+    case MW_START_RANDOM:                                                                          \
+    case MW_START_SAMPLE:                                                                          \
+    case MW_START_CENTRE:                                                                          \
+    case MW_START_LAST:                                                                            \
+    case MW_START_SORTED:                                                                          \
     case MW_START_COUNT
 
-static mw_status index_build_layers(mw_layers *layers, const mw_tiling *tiling, const mw_index_options *options,
-                                    mw_job *job, mw_error *error)
+static mw_status index_build_layers(mw_layers *layers, const mw_tiling *tiling,
+                                    const mw_index_options *options, mw_job *job, mw_error *error)
 {
-    mw_layers_options own = {
-        .layers = options->layers, .ratio = options->ratio, .descent = options->descent, .seed = options->seed};
+    mw_layers_options own = {.layers = options->layers,
+                             .ratio = options->ratio,
+                             .descent = options->descent,
+                             .seed = options->seed};
     return mw__layers_create(tiling, &own, job, layers, error);
 }
 
-mw_status mw__index_build(mw_index *index, const mw_tiling *tiling, const double low[2], const double high[2],
-                          const mw_index_options *options, mw_job *job, mw_error *error)
+mw_status mw__index_build(mw_index *index, const mw_tiling *tiling, const double low[2],
+                          const double high[2], const mw_index_options *options, mw_job *job,
+                          mw_error *error)
 {
     mw_status status = MW_RESERVED_CHECK(mw_index_options, options, error);
     if (status) return status;
-    if (options->cells > MW_MAX_CELLS) return mw__fail(error, MW_ERROR_LIMIT, "a grid has at most 2^30 cells");
+    if (options->cells > MW_MAX_CELLS)
+        return mw__fail(error, MW_ERROR_LIMIT, "a grid has at most 2^30 cells");
     uint32_t cells = mw__cells_bound(options->cells, tiling->tri_count);
     bool done = false;
     switch (index->start) {
@@ -36,7 +40,9 @@ mw_status mw__index_build(mw_index *index, const mw_tiling *tiling, const double
     case MW_START_TWO_LEVEL_GRID:
         done = mw__two_level_grid_create(&index->two_level_grid, tiling, low, high, cells, job);
         break;
-    case MW_START_CURVE: done = mw__curve_create(&index->curve, tiling, low, high, cells, job); break;
+    case MW_START_CURVE:
+        done = mw__curve_create(&index->curve, tiling, low, high, cells, job);
+        break;
     case MW_START_BUCKETS:
         done = mw__vertex_buckets_create(&index->vertex_buckets, tiling, low, high, cells, job);
         break;
@@ -88,18 +94,22 @@ size_t mw__index_bytes(const mw_index *index)
 
 void mw_index_describe(const mw_index *index, mw_index_info *info)
 {
-    *info = (mw_index_info){
-        .start = index->start, .bytes = sizeof *index + mw__index_bytes(index), .seconds = index->seconds};
+    *info = (mw_index_info){.start = index->start,
+                            .bytes = sizeof *index + mw__index_bytes(index),
+                            .seconds = index->seconds};
     switch (index->start) {
     case MW_START_GRID: info->cells = mw__lattice_cells(&index->grid.lattice); break;
     case MW_START_TWO_LEVEL_GRID:
-        info->cells = mw__lattice_cells(&index->two_level_grid.lattice) + index->two_level_grid.fine_count;
+        info->cells =
+            mw__lattice_cells(&index->two_level_grid.lattice) + index->two_level_grid.fine_count;
         break;
     case MW_START_CURVE:
         info->cells = index->curve.count - 2; /* the ends are no tiles */
         break;
     case MW_START_BUCKETS: info->cells = mw__lattice_cells(&index->vertex_buckets.lattice); break;
-    case MW_START_TRIANGLE_BUCKETS: info->cells = mw__lattice_cells(&index->triangle_buckets.lattice); break;
+    case MW_START_TRIANGLE_BUCKETS:
+        info->cells = mw__lattice_cells(&index->triangle_buckets.lattice);
+        break;
     case MW_START_KD_TREE: info->vertices[0] = index->kd_tree.count; break;
     case MW_START_LAYERS:
         info->layers = index->layers.count;
@@ -120,7 +130,8 @@ static MW_INLINE uint32_t tile_within(const mw_tiling *tiling, uint32_t t)
  * carry it along. */
 static __attribute__((noinline)) uint32_t index_first_compared(const mw_index *index, mw_point q)
 {
-    if (index->start == MW_START_BUCKETS) return mw__vertex_buckets_first(&index->vertex_buckets, q);
+    if (index->start == MW_START_BUCKETS)
+        return mw__vertex_buckets_first(&index->vertex_buckets, q);
     return index->start == MW_START_KD_TREE ? mw__kd_tree_first(&index->kd_tree, q) : 0;
 }
 
@@ -138,7 +149,8 @@ static MW_INLINE uint32_t index_first_name(const mw_index *index, mw_point q)
 uint32_t mw__index_tile_ahead(const mw_tiling *tiling, const mw_index *index, mw_point q)
 {
     const uint32_t name = index_first_name(index, q);
-    return index->start == MW_START_CURVE ? tile_within(tiling, name) : mw__tile_named(tiling, name);
+    return index->start == MW_START_CURVE ? tile_within(tiling, name)
+                                          : mw__tile_named(tiling, name);
 }
 
 /* In most tilings a tile's slot is its number. The tile itself shows whether it is, and is needed
@@ -151,15 +163,16 @@ uint32_t mw__index_tile(const mw_tiling *tiling, const mw_index *index, mw_point
     return mw__tile_named(tiling, name);
 }
 
-uint32_t mw__index_first(const mw_tiling *tiling, const mw_cursor *cursor, mw_point q, uint64_t *random, mw_work *work)
+uint32_t mw__index_first(const mw_tiling *tiling, const mw_cursor *cursor, mw_point q,
+                         uint64_t *random, mw_work *work)
 {
     const mw_index *index = cursor->index;
     if (MW_LIKELY(!mw__index_counts(index))) return mw__index_tile(tiling, index, q);
     if (index->start == MW_START_TRIANGLE_BUCKETS)
-        return mw__tile_named(
-            tiling, mw__triangle_buckets_first(&index->triangle_buckets, tiling, q, cursor->count ? work : NULL));
-    mw_layer_walk how = {(mw_walk_kind)cursor->walk, (mw_walk_kind)cursor->finish, cursor->arithmetic == MW_EXACT,
-                         cursor->count, tiling};
+        return mw__tile_named(tiling, mw__triangle_buckets_first(&index->triangle_buckets, tiling,
+                                                                 q, cursor->count ? work : NULL));
+    mw_layer_walk how = {(mw_walk_kind)cursor->walk, (mw_walk_kind)cursor->finish,
+                         cursor->arithmetic == MW_EXACT, cursor->count, tiling};
     return mw__tile_named(tiling, mw__layers_first(&index->layers, q, &how, random, work));
 }
 
@@ -172,9 +185,11 @@ static void grid_first_many(const mw_grid *grid, const mw_point *q, uint32_t n, 
     for (uint32_t i = 0; i < n; i++) t[i] = grid->tile[t[i]];
 }
 
-static void two_level_grid_first_many(const mw_two_level_grid *grid, const mw_point *q, uint32_t n, uint32_t *t)
+static void two_level_grid_first_many(const mw_two_level_grid *grid, const mw_point *q, uint32_t n,
+                                      uint32_t *t)
 {
-    for (uint32_t i = 0; i < n; i++) __builtin_prefetch(&grid->coarse[mw__lattice_cell(&grid->lattice, q[i])]);
+    for (uint32_t i = 0; i < n; i++)
+        __builtin_prefetch(&grid->coarse[mw__lattice_cell(&grid->lattice, q[i])]);
     for (uint32_t i = 0; i < n; i++) t[i] = mw__two_level_grid_first(grid, q[i]);
 }
 
@@ -190,7 +205,8 @@ static void curve_first_many(const mw_curve *curve, const mw_point *q, uint32_t 
         key[i] = mw__hilbert_key(&curve->hilbert, q[left[i]].x, q[left[i]].y);
         __builtin_prefetch(&curve->from[key[i] >> curve->shift]);
     }
-    for (uint32_t i = 0; i < count; i++) __builtin_prefetch(&curve->sample[curve->from[key[i] >> curve->shift] - 1]);
+    for (uint32_t i = 0; i < count; i++)
+        __builtin_prefetch(&curve->sample[curve->from[key[i] >> curve->shift] - 1]);
     for (uint32_t i = 0; i < count; i++) t[left[i]] = mw__curve_at(curve, key[i]);
 }
 
@@ -202,7 +218,8 @@ static void names_resolve_many(const mw_tiling *tiling, uint32_t n, uint32_t *t)
     for (uint32_t i = 0; i < n; i++) t[i] = mw__tile_named(tiling, t[i]);
 }
 
-void mw__index_first_many(const mw_tiling *tiling, const mw_index *index, const mw_point *q, uint32_t n, uint32_t *t)
+void mw__index_first_many(const mw_tiling *tiling, const mw_index *index, const mw_point *q,
+                          uint32_t n, uint32_t *t)
 {
     switch (index->start) {
     case MW_START_GRID: grid_first_many(&index->grid, q, n, t); break;
@@ -216,7 +233,8 @@ void mw__index_first_many(const mw_tiling *tiling, const mw_index *index, const 
         for (uint32_t i = 0; i < n; i++) t[i] = index_first_name(index, q[i]);
         break;
     }
-    if (MW_UNLIKELY(tiling->tile_of && index->start != MW_START_CURVE)) names_resolve_many(tiling, n, t);
+    if (MW_UNLIKELY(tiling->tile_of && index->start != MW_START_CURVE))
+        names_resolve_many(tiling, n, t);
     for (uint32_t i = 0; i < n; i++) {
         t[i] = tile_within(tiling, t[i]);
         __builtin_prefetch(&tiling->tri[t[i]]);

@@ -29,8 +29,9 @@ struct mw_index {
 
 /* Build what the start of an index, which is set, is made of, for a tiling of this extent; on
  * failure it may be released. Stages of the present part of the job. */
-mw_status mw__index_build(mw_index *index, const mw_tiling *tiling, const double low[2], const double high[2],
-                          const mw_index_options *options, mw_job *job, mw_error *error);
+mw_status mw__index_build(mw_index *index, const mw_tiling *tiling, const double low[2],
+                          const double high[2], const mw_index_options *options, mw_job *job,
+                          mw_error *error);
 
 /* Release what an index holds; how much that is. */
 void mw__index_release(mw_index *index);
@@ -51,12 +52,14 @@ uint32_t mw__index_tile_ahead(const mw_tiling *tiling, const mw_index *index, mw
 
 /* The first tile for q by the cursor's index: a tile of this tiling, whatever mesh the index was
  * made from. What walking through the index did is added to *work, if the cursor counts. */
-uint32_t mw__index_first(const mw_tiling *tiling, const mw_cursor *cursor, mw_point q, uint64_t *random, mw_work *work);
+uint32_t mw__index_first(const mw_tiling *tiling, const mw_cursor *cursor, mw_point q,
+                         uint64_t *random, mw_work *work);
 
 #define MW_INDEX_MANY 64
 
 /* The first tiles for n points, at most MW_INDEX_MANY. The look-ups wait for memory together, not
  * one after the other. Not for indices that count. */
-void mw__index_first_many(const mw_tiling *tiling, const mw_index *index, const mw_point *q, uint32_t n, uint32_t *t);
+void mw__index_first_many(const mw_tiling *tiling, const mw_index *index, const mw_point *q,
+                          uint32_t n, uint32_t *t);
 
 #endif

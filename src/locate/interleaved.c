@@ -31,9 +31,11 @@ typedef struct lane_group {
 /* What all lanes share. */
 typedef struct lane_schedule {
     const mw_interleaved *of;
-    uint32_t next, end;                 /* not chained: what has no first tile yet */
-    uint32_t lap, most_laps;            /* so far; a walk of so many is long: looked for every MW_FAST_STEPS laps */
-    uint32_t ready_next, ready_count;   /* queries that have their first tile: the next, and how many there are */
+    uint32_t next, end; /* not chained: what has no first tile yet */
+    /* so far; a walk of so many is long: looked for every MW_FAST_STEPS laps */
+    uint32_t lap, most_laps;
+    /* queries that have their first tile: the next, and how many there are */
+    uint32_t ready_next, ready_count;
     uint32_t query[READY], tile[READY]; /* these queries */
     mw_point q[READY];
 } lane_schedule;
@@ -43,7 +45,8 @@ typedef struct lane_schedule {
 static uint32_t query_tile(const mw_interleaved *of, mw_point q, uint32_t query)
 {
     uint64_t random = mw__random_seed(of->queries->seed, query);
-    return mw__query_first_tile(of->locator, of->cursor, of->chained ? MW_NONE : of->cursor->last, q, &random, NULL);
+    return mw__query_first_tile(of->locator, of->cursor, of->chained ? MW_NONE : of->cursor->last,
+                                q, &random, NULL);
 }
 
 /* Point of a query; one that is no point is answered at once, and false returned. */
@@ -57,8 +60,8 @@ static MW_INLINE bool query_point(const mw_interleaved *of, uint32_t query, mw_p
 }
 
 /* The first tiles of n queries, at most READY. */
-static void queries_first_tiles(const mw_interleaved *of, const uint32_t *query, const mw_point *q, uint32_t n,
-                                uint32_t *t)
+static void queries_first_tiles(const mw_interleaved *of, const uint32_t *query, const mw_point *q,
+                                uint32_t n, uint32_t *t)
 {
     const mw_index *index = of->cursor->index;
     if (index && !mw__index_counts(index))
@@ -74,7 +77,8 @@ static void schedule_take_hints(lane_schedule *s)
     uint32_t which[READY], query[READY], tile[READY], count = 0;
     mw_point q[READY];
     const uint32_t *hints = of->queries->hints, later = s->end - s->next;
-    mw__hints_first_many(&(mw_hinted){of->locator, of->cursor, hints, s->query, s->q, s->ready_count, &hints[s->next],
+    mw__hints_first_many(&(mw_hinted){of->locator, of->cursor, hints, s->query, s->q,
+                                      s->ready_count, &hints[s->next],
                                       later < READY ? later : READY},
                          s->tile);
     for (uint32_t i = 0; i < s->ready_count; i++) {
@@ -105,8 +109,8 @@ static void schedule_refill(lane_schedule *s)
         queries_first_tiles(of, s->query, s->q, n, s->tile);
 }
 
-static MW_INLINE void lane_set(const lane_schedule *s, lane_group *g, uint32_t k, mw_point q, uint32_t query,
-                               uint32_t t)
+static MW_INLINE void lane_set(const lane_schedule *s, lane_group *g, uint32_t k, mw_point q,
+                               uint32_t query, uint32_t t)
 {
     g->walk.x[k] = q.x;
     g->walk.y[k] = q.y;
@@ -128,7 +132,8 @@ static MW_INLINE void lane_prefetch_query(const mw_batch *b, uint32_t i, uint32_
 }
 
 /* The next query of the lane's range, beginning in tile `last`; MW_NONE: there was none before. */
-static MW_INLINE bool lane_next_chained(const lane_schedule *s, lane_group *g, uint32_t k, uint32_t last)
+static MW_INLINE bool lane_next_chained(const lane_schedule *s, lane_group *g, uint32_t k,
+                                        uint32_t last)
 {
     const mw_interleaved *of = s->of;
     const mw_batch *queries = of->queries;
@@ -159,7 +164,8 @@ static MW_INLINE bool lane_next_ready(lane_schedule *s, lane_group *g, uint32_t 
 }
 
 /* The next query in lane k of a group; without one the lane stays empty. */
-static MW_INLINE void lane_next(lane_schedule *s, lane_group *g, uint32_t k, uint32_t last, bool chained)
+static MW_INLINE void lane_next(lane_schedule *s, lane_group *g, uint32_t k, uint32_t last,
+                                bool chained)
 {
     if (MW_LIKELY(chained ? lane_next_chained(s, g, k, last) : lane_next_ready(s, g, k))) return;
     lane_set(s, g, k, (mw_point){NAN, NAN}, MW_NONE, 0);
@@ -170,7 +176,8 @@ static MW_INLINE void lane_next(lane_schedule *s, lane_group *g, uint32_t k, uin
 
 /* Go on by the walk of the cursor from the lane's tile, and answer. Returns the tile where it
  * ended. */
-static __attribute__((noinline)) uint32_t lane_finish(const mw_interleaved *of, mw_point q, uint32_t query, uint32_t t)
+static __attribute__((noinline)) uint32_t lane_finish(const mw_interleaved *of, mw_point q,
+                                                      uint32_t query, uint32_t t)
 {
     const mw_locator *locator = of->locator;
     const mw_kernels *kernels = mw__walk_kernels((mw_walk_kind)of->cursor->walk, &locator->tiling);
@@ -181,8 +188,8 @@ static __attribute__((noinline)) uint32_t lane_finish(const mw_interleaved *of, 
 }
 
 /* Answer a walk that has ended in `tile`: inside it, or, if it left, beyond an edge of the hull. */
-static MW_INLINE bool lane_answer(const mw_interleaved *of, const mw_triangle *tile, uint32_t query, bool left,
-                                  bool inside, double weight[3][LANES], uint32_t k)
+static MW_INLINE bool lane_answer(const mw_interleaved *of, const mw_triangle *tile, uint32_t query,
+                                  bool left, bool inside, double weight[3][LANES], uint32_t k)
 {
     mw_location *location = &of->queries->locations[query];
     if (MW_LIKELY(inside && !(tile->user & MW_GHOST))) {
@@ -192,8 +199,8 @@ static MW_INLINE bool lane_answer(const mw_interleaved *of, const mw_triangle *t
     return mw__fast_path_outside(&of->locator->tiling, of->cursor, tile, inside, left, location);
 }
 
-static MW_INLINE void group_step(lane_schedule *s, lane_group *g, const mw_triangle *tri, const mw_point *point,
-                                 bool chained, mw_vector_bits bits)
+static MW_INLINE void group_step(lane_schedule *s, lane_group *g, const mw_triangle *tri,
+                                 const mw_point *point, bool chained, mw_vector_bits bits)
 {
     mw_vector_areas areas;
     mw__vector_areas(&areas, &g->walk, tri, point);
@@ -206,7 +213,8 @@ static MW_INLINE void group_step(lane_schedule *s, lane_group *g, const mw_trian
             g->walk.t[k] = 0;
             continue;
         }
-        if (MW_UNLIKELY(!lane_answer(s->of, areas.tile[k], g->query[k], left >> k & 1, inside >> k & 1, weight, k)))
+        if (MW_UNLIKELY(!lane_answer(s->of, areas.tile[k], g->query[k], left >> k & 1,
+                                     inside >> k & 1, weight, k)))
             t = lane_finish(s->of, (mw_point){g->walk.x[k], g->walk.y[k]}, g->query[k], t);
         lane_next(s, g, k, t, chained);
     }
@@ -215,7 +223,8 @@ static MW_INLINE void group_step(lane_schedule *s, lane_group *g, const mw_trian
 /* --- laps --- */
 
 /* Let the walks that are on a long way, or in a cycle, be ended by the cursor's walk. */
-static void groups_end_long_walks(lane_schedule *s, lane_group *groups, uint32_t count, bool chained)
+static void groups_end_long_walks(lane_schedule *s, lane_group *groups, uint32_t count,
+                                  bool chained)
 {
     for (uint32_t i = 0; i < count; i++)
         for (uint32_t k = 0; k < LANES; k++) {
@@ -244,13 +253,15 @@ static MW_INLINE void group_prefetch_tiles(const lane_group *g, const mw_triangl
     for (uint32_t k = 0; k < LANES; k++) __builtin_prefetch(&tri[g->walk.t[k]]);
 }
 
-static MW_INLINE void group_prefetch_corners(const lane_group *g, const mw_triangle *tri, const mw_point *point)
+static MW_INLINE void group_prefetch_corners(const lane_group *g, const mw_triangle *tri,
+                                             const mw_point *point)
 {
     for (uint32_t k = 0; k < LANES; k++)
         for (uint32_t v = 0; v < 3; v++) __builtin_prefetch(&point[tri[g->walk.t[k]].v[v]]);
 }
 
-static MW_INLINE void groups_run(lane_schedule *s, uint32_t count, bool chained, mw_vector_bits bits)
+static MW_INLINE void groups_run(lane_schedule *s, uint32_t count, bool chained,
+                                 mw_vector_bits bits)
 {
     const mw_triangle *tri = s->of->locator->tiling.tri;
     const mw_point *point = s->of->locator->tiling.point;
@@ -268,7 +279,8 @@ static MW_INLINE void groups_run(lane_schedule *s, uint32_t count, bool chained,
         }
         if (i < count) continue;
         i = 0;
-        if (MW_UNLIKELY(++s->lap % MW_FAST_STEPS == 0)) groups_end_long_walks(s, groups, count, chained);
+        if (MW_UNLIKELY(++s->lap % MW_FAST_STEPS == 0))
+            groups_end_long_walks(s, groups, count, chained);
     }
 }
 
@@ -282,7 +294,8 @@ static void groups_run_portable(lane_schedule *s, uint32_t groups, bool chained)
 
 #ifdef __x86_64__
 
-__attribute__((target("avx2"))) static void groups_run_avx2(lane_schedule *s, uint32_t groups, bool chained)
+__attribute__((target("avx2"))) static void groups_run_avx2(lane_schedule *s, uint32_t groups,
+                                                            bool chained)
 {
     if (chained)
         groups_run(s, groups, true, mw__vector_bits_avx2);
@@ -292,13 +305,15 @@ __attribute__((target("avx2"))) static void groups_run_avx2(lane_schedule *s, ui
 
 #endif
 
-void mw__locate_interleaved(const mw_interleaved *of, uint32_t first, uint32_t count, uint32_t lanes)
+void mw__locate_interleaved(const mw_interleaved *of, uint32_t first, uint32_t count,
+                            uint32_t lanes)
 {
     const mw_cursor *cursor = of->cursor;
     lane_schedule s = {.of = of,
                        .next = first,
                        .end = first + count,
-                       .most_laps = cursor->walk == MW_WALK_REMEMBERING ? cursor->fuel : MW_FAST_STEPS};
+                       .most_laps =
+                           cursor->walk == MW_WALK_REMEMBERING ? cursor->fuel : MW_FAST_STEPS};
 #ifdef __x86_64__
     if (!of->portable && __builtin_cpu_supports("avx2")) {
         groups_run_avx2(&s, lanes / LANES, of->chained);

@@ -10,7 +10,8 @@ typedef struct mw_interleaved {
     const mw_batch *queries;
     const mw_locator *locator;
     const mw_cursor *cursor;
-    bool chained;  /* each query begins where the one before it in its lane ended, whatever the cursor's start */
+    /* each query begins where the one before it in its lane ended, whatever the cursor's start */
+    bool chained;
     bool portable; /* only with instructions that every processor of the kind has */
 } mw_interleaved;
 
@@ -20,6 +21,7 @@ typedef struct mw_interleaved {
 /* Answers the queries first .. first + count - 1 of the order in so many lanes (a multiple of
  * MW_GROUP_LANES, at most MW_MAX_LANES). Each chained lane answers a range of the order of its own;
  * other lanes take the query that comes next. */
-void mw__locate_interleaved(const mw_interleaved *of, uint32_t first, uint32_t count, uint32_t lanes);
+void mw__locate_interleaved(const mw_interleaved *of, uint32_t first, uint32_t count,
+                            uint32_t lanes);
 
 #endif

@@ -3,7 +3,8 @@
 
 #include <meshwalk/locate.h>
 
-void mw_interpolate(const mw_mesh *mesh, const double *values, const mw_location *locations, size_t n, double *result)
+void mw_interpolate(const mw_mesh *mesh, const double *values, const mw_location *locations,
+                    size_t n, double *result)
 {
     for (size_t i = 0; i < n; i++) {
         const mw_location *at = &locations[i];
@@ -12,8 +13,8 @@ void mw_interpolate(const mw_mesh *mesh, const double *values, const mw_location
         uint32_t v[3];
         mw_mesh_triangle(mesh, at->triangle, v);
         double sum = 0;
-        for (int k = 0; k < 3; k++)
-            if (at->weight[k] != 0) sum += at->weight[k] * values[v[k]]; /* a weight of 0 ignores even NaN */
+        for (int k = 0; k < 3; k++) /* a weight of 0 ignores even NaN */
+            if (at->weight[k] != 0) sum += at->weight[k] * values[v[k]];
         result[i] = sum;
     }
 }

@@ -51,8 +51,9 @@ static mw_walk chunk_begin_walk(batch_chunk *c, uint32_t lane, uint32_t query, m
     uint64_t random = mw__random_seed(b->queries.seed, query);
     const uint32_t *hints = b->queries.hints;
     uint32_t t = hints ? mw__hint_first(b->locator, &b->cursor, hints[query], q) : MW_NONE;
-    return t == MW_NONE ? mw__query_begin(b->locator, &b->cursor, c->last[lane], q, &random, &c->work[lane])
-                        : mw__query_begin_at(b->locator, &b->cursor, t, q, &random, &c->work[lane]);
+    return t == MW_NONE
+               ? mw__query_begin(b->locator, &b->cursor, c->last[lane], q, &random, &c->work[lane])
+               : mw__query_begin_at(b->locator, &b->cursor, t, q, &random, &c->work[lane]);
 }
 
 /* Put the next query of a lane into *walk; queries that are no points are answered on the way. */
@@ -66,7 +67,8 @@ static bool chunk_next_query(batch_chunk *c, uint32_t lane, mw_walk *walk)
             chunk_prefetch_query(queries, query, c->end[lane]);
             query = queries->order[query].item;
         }
-        mw_point q = {queries->points[query * queries->stride], queries->points[query * queries->stride + 1]};
+        mw_point q = {queries->points[query * queries->stride],
+                      queries->points[query * queries->stride + 1]};
         if (MW_UNLIKELY(!isfinite(q.x) || !isfinite(q.y))) {
             queries->locations[query] = mw__location_nowhere(MW_BAD);
             continue;
@@ -83,7 +85,8 @@ static bool chunk_deliver(mw_feed *feed, uint32_t lane, mw_walk *walk, mw_verdic
     batch_chunk *c = (batch_chunk *)feed; /* the feed is its first member */
     const locate_batch *b = c->batch;
     if (verdict != MW_VERDICT_GO_ON) {
-        b->queries.locations[c->query[lane]] = mw__query_conclude(b->locator, &b->cursor, walk, verdict, &c->counters);
+        b->queries.locations[c->query[lane]] =
+            mw__query_conclude(b->locator, &b->cursor, walk, verdict, &c->counters);
         if (b->chained) c->last[lane] = walk->t;
     }
     return chunk_next_query(c, lane, walk);
@@ -95,8 +98,9 @@ static bool chunk_is_dense(const locate_batch *b, uint32_t first, uint32_t count
     enum { FEW = 2 * MW_GROUP_LANES };
     const mw_batch *queries = &b->queries;
     if (!b->guided || queries->hints || count < FEW) return false;
-    return mw__queries_are_dense(b->locator,
-                                 &(mw_queries){queries->points + first * queries->stride, count, queries->stride});
+    return mw__queries_are_dense(
+        b->locator,
+        &(mw_queries){queries->points + first * queries->stride, count, queries->stride});
 }
 
 /* On the fast path. Where each query is close to the one before it, few wait for memory: then there
@@ -104,13 +108,15 @@ static bool chunk_is_dense(const locate_batch *b, uint32_t first, uint32_t count
 static void chunk_answer_fast(const locate_batch *b, uint32_t first, uint32_t count, bool dense)
 {
     uint32_t lanes = dense && !b->asked ? MW_GROUP_LANES : b->lanes;
-    mw__locate_interleaved(&(mw_interleaved){&b->queries, b->locator, &b->cursor, b->chained || dense, false}, first,
-                           count, lanes);
+    mw__locate_interleaved(
+        &(mw_interleaved){&b->queries, b->locator, &b->cursor, b->chained || dense, false}, first,
+        count, lanes);
 }
 
 /* Share the queries of a chunk out to the lanes, and walk. Where each query is close to the one
  * before it, one walk after the other finds everything in the cache. */
-static mw_counters chunk_answer_by_walks(const locate_batch *b, uint32_t first, uint32_t count, bool dense)
+static mw_counters chunk_answer_by_walks(const locate_batch *b, uint32_t first, uint32_t count,
+                                         bool dense)
 {
     batch_chunk c;
     c.feed.deliver = chunk_deliver;
@@ -127,7 +133,8 @@ static mw_counters chunk_answer_by_walks(const locate_batch *b, uint32_t first, 
     if (lanes == 1) {
         mw_walk walk;
         mw_verdict verdict = MW_VERDICT_GO_ON;
-        while (chunk_deliver(&c.feed, 0, &walk, verdict)) verdict = kernels->run[exact][b->cursor.count](&walk);
+        while (chunk_deliver(&c.feed, 0, &walk, verdict))
+            verdict = kernels->run[exact][b->cursor.count](&walk);
     } else {
         kernels->ring[exact][b->cursor.count](&c.feed, lanes);
     }
@@ -151,7 +158,8 @@ static mw_counters chunk_answer(const mw_batch *queries, uint32_t first, uint32_
 static void batch_sort(const mw_batch *queries, size_t n, mw_key *keys, mw_key *scratch)
 {
     const mw_locator *locator = ((const locate_batch *)queries)->locator;
-    mw__sort_queries(queries->points, n, queries->stride, locator->low, locator->high, keys, scratch);
+    mw__sort_queries(queries->points, n, queries->stride, locator->low, locator->high, keys,
+                     scratch);
 }
 
 /* Do walks begin near their queries, so that they touch the mesh there only? */
@@ -172,8 +180,9 @@ static uint32_t batch_choose_lanes(const locate_batch *b, size_t n)
     if (b->chained) return lanes[b->fast][MW_CACHE_OWN];
     mw_caches caches = mw__caches();
     mw_queries queries = {b->queries.points, n, b->queries.stride};
-    mw_cache_level level = batch_begins_near(b) ? mw__cache_level_of_queries(b->locator, &caches, &queries)
-                                                : mw__cache_level_of_mesh(b->locator, &caches);
+    mw_cache_level level = batch_begins_near(b)
+                               ? mw__cache_level_of_queries(b->locator, &caches, &queries)
+                               : mw__cache_level_of_mesh(b->locator, &caches);
     return lanes[b->fast][level];
 }
 
@@ -197,7 +206,8 @@ static bool batch_is_fast(const locate_batch *b, const mw_query_options *options
 static void batch_choose_start_beside_hints(locate_batch *b)
 {
     mw_start_kind start = (mw_start_kind)b->cursor.start;
-    if (start == MW_START_AUTO || start == MW_START_SORTED || start == MW_START_LAST) b->cursor.start = MW_START_SAMPLE;
+    if (start == MW_START_AUTO || start == MW_START_SORTED || start == MW_START_LAST)
+        b->cursor.start = MW_START_SAMPLE;
 }
 
 /* How queries begin where nothing is said: by the locator's guide, else sorted, unless they come in
@@ -212,26 +222,28 @@ static void batch_choose_start(locate_batch *b, size_t n)
         b->cursor.index = guide;
     } else if (n >= MW_SORT_WORTHWHILE && !b->queries.hints) {
         mw_queries queries = {b->queries.points, n, b->queries.stride};
-        b->cursor.start = mw__queries_are_in_order(b->locator, &queries) ? MW_START_LAST : MW_START_SORTED;
+        b->cursor.start =
+            mw__queries_are_in_order(b->locator, &queries) ? MW_START_LAST : MW_START_SORTED;
     }
 }
 
-static mw_status batch_run(locate_batch *b, size_t n, const mw_query_options *options, mw_counters *counters,
-                           mw_error *error)
+static mw_status batch_run(locate_batch *b, size_t n, const mw_query_options *options,
+                           mw_counters *counters, mw_error *error)
 {
     mw_start_kind start = (mw_start_kind)b->cursor.start;
     b->chained = start == MW_START_SORTED || start == MW_START_LAST || start == MW_START_AUTO;
     b->fast = batch_is_fast(b, options);
     b->asked = options->lanes < MW_MAX_LANES ? options->lanes : MW_MAX_LANES;
     b->lanes = b->asked ? b->asked : batch_choose_lanes(b, n);
-    if (b->fast) b->lanes = b->asked ? b->asked - b->asked % MW_GROUP_LANES : batch_limit_lanes(b->lanes, n);
+    if (b->fast)
+        b->lanes = b->asked ? b->asked - b->asked % MW_GROUP_LANES : batch_limit_lanes(b->lanes, n);
     b->queries.sort = start == MW_START_SORTED ? batch_sort : NULL;
     return mw__batch_run(&b->queries, n, options->threads, options->progress, counters, error);
 }
 
 mw_status mw_locate_batch(const mw_locator *locator, const double *points, size_t n, size_t stride,
-                          const mw_query_options *options, mw_location *locations, mw_counters *counters,
-                          mw_error *error)
+                          const mw_query_options *options, mw_location *locations,
+                          mw_counters *counters, mw_error *error)
 {
     static const mw_query_options defaults;
     if (!options) options = &defaults;
@@ -244,8 +256,10 @@ mw_status mw_locate_batch(const mw_locator *locator, const double *points, size_
                       .locator = locator};
     mw_status status = mw_cursor_init(locator, options, &b.cursor, error);
     if (status) return status;
-    if (n && (!points || !locations)) return mw__fail(error, MW_ERROR_ARGUMENT, "no points, or no place for results");
-    if (b.queries.stride == 1) return mw__fail(error, MW_ERROR_ARGUMENT, "a stride of 1 holds no y");
+    if (n && (!points || !locations))
+        return mw__fail(error, MW_ERROR_ARGUMENT, "no points, or no place for results");
+    if (b.queries.stride == 1)
+        return mw__fail(error, MW_ERROR_ARGUMENT, "a stride of 1 holds no y");
     batch_choose_start(&b, n);
     if (options->hints) batch_choose_start_beside_hints(&b);
     return batch_run(&b, n, options, counters, error);

@@ -23,7 +23,8 @@ void mw__location_areas(const mw_point corner[3], mw_point q, double area[3])
     double off = bound[0] + bound[1] + bound[2], sum = area[0] + area[1] + area[2];
     if (MW_LIKELY(sure && off < 0x1p-42 * sum)) return;
     /* On an edge, or the triangle is so thin that rounded areas would spoil the weights. */
-    for (uint32_t k = 0; k < 3; k++) area[k] = mw__orient2d_exact(corner[mw__next(k)], corner[mw__prev(k)], q);
+    for (uint32_t k = 0; k < 3; k++)
+        area[k] = mw__orient2d_exact(corner[mw__next(k)], corner[mw__prev(k)], q);
 }
 
 /* Areas up to a common factor, where they would leave the range of doubles: the largest becomes
@@ -46,7 +47,8 @@ mw_location mw__location_of(const mw_point corner[3], uint32_t user, mw_point q,
         location_rescale_areas(corner, q, area);
         sum = area[0] + area[1] + area[2];
     }
-    mw_location location = {.triangle = user & MW_USER_MASK, .hole = MW_NONE, .where = MW_INSIDE, .local = 255};
+    mw_location location = {
+        .triangle = user & MW_USER_MASK, .hole = MW_NONE, .where = MW_INSIDE, .local = 255};
     uint32_t zeros = 0, on = 0, at = 0;
     for (uint32_t k = 0; k < 3; k++) {
         location.weight[mw__user_local_vertex(user, k)] = area[k] / sum;
@@ -78,6 +80,7 @@ mw_location mw__location_in_triangle(const mw_mesh *mesh, uint32_t triangle, mw_
 
 const char *mw_where_name(mw_where where)
 {
-    static const char *const names[MW_WHERE_COUNT] = {"inside", "edge", "vertex", "outside", "hole", "near", "bad"};
+    static const char *const names[MW_WHERE_COUNT] = {"inside", "edge", "vertex", "outside",
+                                                      "hole",   "near", "bad"};
     return (unsigned)where < MW_WHERE_COUNT ? names[where] : NULL;
 }

@@ -11,8 +11,8 @@ typedef uint64_t mw_words __attribute__((vector_size(16)));
 
 /* A location, written as it is commonly copied, by 16 bytes: who reads more bytes at a time than
  * were written has to wait until they have left for the cache. */
-static MW_INLINE void mw__location_write(mw_location *location, double a, double b, double c, uint32_t triangle,
-                                         uint32_t hole, mw_where where)
+static MW_INLINE void mw__location_write(mw_location *location, double a, double b, double c,
+                                         uint32_t triangle, uint32_t hole, mw_where where)
 {
     const double weight[3] = {a, b, c};
     const uint32_t numbers[2] = {triangle, hole};
@@ -27,14 +27,17 @@ static MW_INLINE void mw__location_write(mw_location *location, double a, double
 }
 
 /* A location inside a triangle; weights of the corners as stored. */
-static MW_INLINE void mw__location_write_inside(mw_location *location, uint32_t user, double a, double b, double c)
+static MW_INLINE void mw__location_write_inside(mw_location *location, uint32_t user, double a,
+                                                double b, double c)
 {
     bool flipped = user & MW_REVERSED;
-    mw__location_write(location, a, flipped ? c : b, flipped ? b : c, user & MW_USER_MASK, MW_NONE, MW_INSIDE);
+    mw__location_write(location, a, flipped ? c : b, flipped ? b : c, user & MW_USER_MASK, MW_NONE,
+                       MW_INSIDE);
 }
 
 /* A location that names no triangle. */
-static MW_INLINE void mw__location_write_nowhere(mw_location *location, mw_where where, uint32_t hole)
+static MW_INLINE void mw__location_write_nowhere(mw_location *location, mw_where where,
+                                                 uint32_t hole)
 {
     mw__location_write(location, NAN, NAN, NAN, MW_NONE, hole, where);
 }
@@ -50,7 +53,8 @@ static MW_INLINE mw_location mw__location_nowhere(mw_where where)
 static MW_INLINE void mw__location_write_outside(mw_location *location, uint32_t mark)
 {
     bool hole = (mark & MW_GHOST) && (mark & MW_USER_MASK) != MW_POCKET;
-    mw__location_write_nowhere(location, hole ? MW_IN_HOLE : MW_OUTSIDE, hole ? mark & MW_USER_MASK : MW_NONE);
+    mw__location_write_nowhere(location, hole ? MW_IN_HOLE : MW_OUTSIDE,
+                               hole ? mark & MW_USER_MASK : MW_NONE);
 }
 
 /* Areas (twice) of the triangles that q makes with the sides of a triangle, area[k] opposite to

@@ -15,7 +15,8 @@ static bool edge_fails_circle(const mw_tiling *tiling, const mw_triangle *tile, 
 {
     const mw_point *p = tiling->point;
     uint32_t across = tiling->tri[mw__link_triangle(link)].v[mw__prev(mw__link_edge(link))];
-    double bound, in = mw__incircle_rounded(p[tile->v[0]], p[tile->v[1]], p[tile->v[2]], p[across], &bound);
+    double bound,
+        in = mw__incircle_rounded(p[tile->v[0]], p[tile->v[1]], p[tile->v[2]], p[across], &bound);
     return in > bound;
 }
 
@@ -60,24 +61,26 @@ static bool locator_wants_ghosts(const mw_mesh *mesh, const mw_locator_options *
     return options->queries == 0 || options->queries > mesh->tri_count / TRIANGLES_PER_QUERY;
 }
 
-static mw_status locator_make_tiling(mw_locator *locator, const mw_locator_options *options, mw_job *job,
-                                     mw_error *error)
+static mw_status locator_make_tiling(mw_locator *locator, const mw_locator_options *options,
+                                     mw_job *job, mw_error *error)
 {
-    mw_tiling_options how = {.any = options->any, .without_ghosts = !locator_wants_ghosts(locator->mesh, options)};
+    mw_tiling_options how = {.any = options->any,
+                             .without_ghosts = !locator_wants_ghosts(locator->mesh, options)};
     return mw__tiling_create(locator->mesh, how, job, &locator->tiling, error);
 }
 
 /* Where vertices are too crowded for a grid alone the curve has the crowded cells, if tiles lie
  * along one. Tiles that are edited do not keep to a curve; there crowded cells are grids
  * themselves. False when out of memory. */
-static bool guide_make_crowded(const mw_locator *locator, mw_index *guide, mw_grid_plan *plan, bool even,
-                               uint32_t cells)
+static bool guide_make_crowded(const mw_locator *locator, mw_index *guide, mw_grid_plan *plan,
+                               bool even, uint32_t cells)
 {
     mw_job *job = plan->job;
     const mw_tiling *tiling = &locator->tiling;
     mw_curve curve = {0};
     mw_job_span outer = mw__job_part(job, 0.2);
-    bool done = tiling->tile_of || mw__curve_create(&curve, tiling, locator->low, locator->high, 0, job);
+    bool done =
+        tiling->tile_of || mw__curve_create(&curve, tiling, locator->low, locator->high, 0, job);
     mw__job_part_end(job, outer);
     if (curve.regular) {
         done = mw__grid_end(&guide->grid, plan, true);
@@ -92,7 +95,8 @@ static bool guide_make_crowded(const mw_locator *locator, mw_index *guide, mw_gr
     *guide = (mw_index){.start = tiling->tile_of ? MW_START_TWO_LEVEL_GRID : MW_START_AUTO};
     if (!tiling->tile_of) return done;
     outer = mw__job_part(job, 0.4);
-    done = mw__two_level_grid_create(&guide->two_level_grid, tiling, locator->low, locator->high, cells, job);
+    done = mw__two_level_grid_create(&guide->two_level_grid, tiling, locator->low, locator->high,
+                                     cells, job);
     mw__job_part_end(job, outer);
     return done;
 }
@@ -106,7 +110,8 @@ static bool guide_make_crowded(const mw_locator *locator, mw_index *guide, mw_gr
 static uint32_t guide_cells(const mw_tiling *tiling)
 {
     enum { TRIANGLES_PER_CELL = 8, FINER = 2 };
-    return tiling->tri_count / (tiling->tile_of ? TRIANGLES_PER_CELL / FINER : TRIANGLES_PER_CELL) + 1;
+    return tiling->tri_count / (tiling->tile_of ? TRIANGLES_PER_CELL / FINER : TRIANGLES_PER_CELL) +
+           1;
 }
 
 bool mw__locator_guide(const mw_locator *locator, mw_job *job, mw_index *guide)
@@ -135,7 +140,8 @@ static bool are_slots_numbers(const mw_tiling *tiling)
 {
     enum { PROBES = 64 };
     uint32_t home = 0, stride = tiling->tri_count / PROBES + 1, probes = 0;
-    for (uint32_t t = 0; t < tiling->tri_count; t += stride, probes++) home += mw__slot_is_number(tiling, t);
+    for (uint32_t t = 0; t < tiling->tri_count; t += stride, probes++)
+        home += mw__slot_is_number(tiling, t);
     return home > probes / 2;
 }
 
@@ -154,7 +160,8 @@ void mw__locator_measure(mw_locator *locator, mw_job *job)
     locator->crossings_per_length = expected_crossings(tiling->tri_count, width, height);
 }
 
-static mw_status locator_prepare(mw_locator *locator, const mw_locator_options *options, mw_job *job, mw_error *error)
+static mw_status locator_prepare(mw_locator *locator, const mw_locator_options *options,
+                                 mw_job *job, mw_error *error)
 {
     mw_tiling *tiling = &locator->tiling;
     mw_job_span outer = mw__job_part(job, 0.8);
@@ -169,13 +176,15 @@ static mw_status locator_prepare(mw_locator *locator, const mw_locator_options *
         char first[200];
         mw_defect_describe(&tiling->defect, first, sizeof first);
         snprintf(locator->promise, sizeof locator->promise,
-                 "the mesh is no embedding (%s): a point may be reported outside although a triangle contains it, and "
+                 "the mesh is no embedding (%s): a point may be reported outside although a "
+                 "triangle contains it, and "
                  "of several triangles that contain it any may be reported",
                  first);
     }
     mw__job_stage(job, "building a tree of the border", 0.05);
     if (options->border) {
-        if (!mw__border_tree_create(&locator->border_tree, locator->mesh, tiling)) return mw__fail_memory(error);
+        if (!mw__border_tree_create(&locator->border_tree, locator->mesh, tiling))
+            return mw__fail_memory(error);
         locator->has_border = true;
     }
     mw__job_stage(job, "measuring the extent", 0.02);
@@ -186,14 +195,16 @@ static mw_status locator_prepare(mw_locator *locator, const mw_locator_options *
     return done ? MW_OK : mw__fail_memory(error);
 }
 
-mw_status mw_locator_create(const mw_mesh *mesh, const mw_locator_options *options, mw_locator **out, mw_error *error)
+mw_status mw_locator_create(const mw_mesh *mesh, const mw_locator_options *options,
+                            mw_locator **out, mw_error *error)
 {
     static const mw_locator_options defaults;
     if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "no place for the locator");
     *out = NULL;
     if (!mesh) return mw__fail(error, MW_ERROR_ARGUMENT, "no mesh");
     if (!options) options = &defaults;
-    if ((unsigned)options->fill > MW_FILL_NO) return mw__fail(error, MW_ERROR_ARGUMENT, "unknown way to fill");
+    if ((unsigned)options->fill > MW_FILL_NO)
+        return mw__fail(error, MW_ERROR_ARGUMENT, "unknown way to fill");
     if (mesh->flat_count == mesh->tri_count)
         return mw__fail(error, MW_ERROR_INPUT, "the mesh has no triangle with an area");
     mw_status status = MW_RESERVED_CHECK(mw_locator_options, options, error);
@@ -211,21 +222,23 @@ mw_status mw_locator_create(const mw_mesh *mesh, const mw_locator_options *optio
     return status;
 }
 
-mw_status mw_index_create(const mw_locator *locator, mw_start_kind start, const mw_index_options *options,
-                          mw_index **out, mw_error *error)
+mw_status mw_index_create(const mw_locator *locator, mw_start_kind start,
+                          const mw_index_options *options, mw_index **out, mw_error *error)
 {
     static const mw_index_options defaults;
     if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "no place for the index");
     *out = NULL;
     if (!locator) return mw__fail(error, MW_ERROR_ARGUMENT, "an index needs a locator");
-    if (!mw_start_has_index(start)) return mw__fail(error, MW_ERROR_ARGUMENT, "this start has no index");
+    if (!mw_start_has_index(start))
+        return mw__fail(error, MW_ERROR_ARGUMENT, "this start has no index");
     mw_index *index = mw__calloc(1, sizeof *index);
     if (!index) return mw__fail_memory(error);
     index->start = start;
     double begin = mw__seconds();
     if (!options) options = &defaults;
     mw_job job = mw__job(locator->threads, options->progress);
-    mw_status status = mw__index_build(index, &locator->tiling, locator->low, locator->high, options, &job, error);
+    mw_status status =
+        mw__index_build(index, &locator->tiling, locator->low, locator->high, options, &job, error);
     status = mw__job_end(&job, status, error);
     index->seconds = mw__seconds() - begin;
     if (status)
@@ -249,7 +262,8 @@ void mw_locator_describe(const mw_locator *locator, mw_locator_info *info)
     const mw_tiling *tiling = &locator->tiling;
     size_t border = mw__border_tree_bytes(&locator->border_tree);
     *info = (mw_locator_info){
-        .bytes = sizeof *locator + mw__tiling_bytes(tiling) + border + mw__index_bytes(&locator->guide),
+        .bytes =
+            sizeof *locator + mw__tiling_bytes(tiling) + border + mw__index_bytes(&locator->guide),
         .border_bytes = border,
         .area_bytes = tiling->area ? tiling->tri_count * sizeof(double) : 0,
         .fill_bytes = tiling->ghost_count ? mw__tiling_copy_bytes(tiling) : 0,

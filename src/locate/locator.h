@@ -57,9 +57,12 @@ static MW_INLINE bool mw__locator_is_close(const mw_locator *locator, uint32_t t
 }
 
 /* Where to begin where there is a guide: at tile `last`, if q is close to it. */
-static MW_INLINE uint32_t mw__locator_guided_tile(const mw_locator *locator, uint32_t last, mw_point q)
+static MW_INLINE uint32_t mw__locator_guided_tile(const mw_locator *locator, uint32_t last,
+                                                  mw_point q)
 {
-    return mw__locator_is_close(locator, last, q) ? last : mw__index_tile(&locator->tiling, &locator->guide, q);
+    return mw__locator_is_close(locator, last, q)
+               ? last
+               : mw__index_tile(&locator->tiling, &locator->guide, q);
 }
 
 #endif

@@ -19,7 +19,8 @@
 
 /* q is on the boundary of tile t, which contains it: the areas of two or one of its edges vanish.
  * The lowest of the user's triangles that contain q, or MW_NONE where only ghosts do. */
-static uint32_t lowest_at_boundary(const mw_tiling *tiling, const mw_triangle *tile, const double area[3])
+static uint32_t lowest_at_boundary(const mw_tiling *tiling, const mw_triangle *tile,
+                                   const double area[3])
 {
     uint32_t zeros = 0, on = 0, at = 0;
     for (uint32_t k = 0; k < 3; k++)
@@ -29,23 +30,28 @@ static uint32_t lowest_at_boundary(const mw_tiling *tiling, const mw_triangle *t
         } else {
             at = k;
         }
-    if (zeros == 2) return mw__lowest_at_vertex(tiling, (uint32_t)(tile - tiling->tri), tile->v[at]);
+    if (zeros == 2)
+        return mw__lowest_at_vertex(tiling, (uint32_t)(tile - tiling->tri), tile->v[at]);
     if (zeros == 3) return MW_NONE; /* a flat triangle of a mesh that is no embedding */
     uint32_t best = tile->user & MW_GHOST ? MW_NONE : tile->user & MW_USER_MASK;
     if (tile->link[on] == MW_NONE) return best;
     const mw_triangle *across = &tiling->tri[mw__link_triangle(tile->link[on])];
     uint32_t other = across->user & MW_USER_MASK;
     if (across->user & MW_GHOST || other >= best) return best;
-    return tiling->embedding || mw__has_area(tiling->point, across) ? other : best; /* flat ones own no point */
+    /* flat ones own no point */
+    return tiling->embedding || mw__has_area(tiling->point, across) ? other : best;
 }
 
 /* q lies in no triangle: in a hole, if the mark of its tile says so, or outside; near, if the
  * tolerance says so. */
-static mw_location query_outside(const mw_locator *locator, uint32_t mark, mw_point q, double tolerance)
+static mw_location query_outside(const mw_locator *locator, uint32_t mark, mw_point q,
+                                 double tolerance)
 {
     mw_location location;
     mw__location_write_outside(&location, mark);
-    if (tolerance > 0) mw__border_tree_apply_tolerance(&locator->border_tree, locator->mesh, q, tolerance, &location);
+    if (tolerance > 0)
+        mw__border_tree_apply_tolerance(&locator->border_tree, locator->mesh, q, tolerance,
+                                        &location);
     return location;
 }
 
@@ -55,7 +61,8 @@ static mw_location query_answer(const mw_locator *locator, uint32_t t, mw_point 
 {
     const mw_tiling *tiling = &locator->tiling;
     const mw_triangle *tile = &tiling->tri[t];
-    mw_point corner[3] = {tiling->point[tile->v[0]], tiling->point[tile->v[1]], tiling->point[tile->v[2]]};
+    mw_point corner[3] = {tiling->point[tile->v[0]], tiling->point[tile->v[1]],
+                          tiling->point[tile->v[2]]};
     double area[3];
     mw__location_areas(corner, q, area);
     bool inside = area[0] > 0 && area[1] > 0 && area[2] > 0;
@@ -63,7 +70,8 @@ static mw_location query_answer(const mw_locator *locator, uint32_t t, mw_point 
         return mw__location_of(corner, tile->user, q, area);
     /* Only where the mesh is no embedding: the walk came over a fold, to the far side of the edge
      * it did not test. */
-    if (!(area[0] >= 0 && area[1] >= 0 && area[2] >= 0)) return query_outside(locator, 0, q, tolerance);
+    if (!(area[0] >= 0 && area[1] >= 0 && area[2] >= 0))
+        return query_outside(locator, 0, q, tolerance);
     uint32_t triangle = !inside                 ? lowest_at_boundary(tiling, tile, area)
                         : tile->user & MW_GHOST ? MW_NONE
                                                 : tile->user & MW_USER_MASK;
@@ -102,7 +110,8 @@ static void query_count(mw_counters *counters, const mw_work *work, bool cycle, 
 /* A walk in doubles says that q lies beyond a hull edge of its last tile: does it? */
 static bool walk_has_left(const mw_tiling *tiling, const mw_walk *walk)
 {
-    if (tiling->border_loops) return walk->phase == MW_PHASE_AWAY; /* beyond a border there may be more tiles */
+    /* beyond a border there may be more tiles */
+    if (tiling->border_loops) return walk->phase == MW_PHASE_AWAY;
     const mw_triangle *tile = &tiling->tri[walk->t];
     for (int k = 0; k < 3; k++)
         if (tile->link[k] == MW_NONE &&
@@ -123,14 +132,16 @@ static void work_add_final(mw_work *sum, const mw_work *more)
 
 /* End a walk that ran out of fuel, or went in plain doubles, exactly. A walk in doubles that was
  * right does not count as handed over: *changed tells. */
-static mw_verdict walk_hand_over(const mw_tiling *tiling, mw_walk *walk, mw_verdict before, bool counted, bool *changed)
+static mw_verdict walk_hand_over(const mw_tiling *tiling, mw_walk *walk, mw_verdict before,
+                                 bool counted, bool *changed)
 {
     mw_work more = {.trace = counted ? walk->work->trace : NULL};
     mw_walk end = mw__walk_begin(tiling, walk->q, walk->t, 0, 0, counted ? &more : NULL);
     if (!tiling->border_loops) end.stage = MW_STAGE_FINAL;
     mw_verdict verdict = mw__walk_surely(&end, counted);
     bool round = tiling->border_loops &&
-                 verdict == MW_VERDICT_LEFT; /* it may have gone round from another edge of the same border */
+                 /* it may have gone round from another edge of the same border */
+                 verdict == MW_VERDICT_LEFT;
     *changed = verdict != before || (end.t != walk->t && !round);
     if (*changed && counted) work_add_final(walk->work, &more);
     walk->t = end.t;
@@ -138,47 +149,52 @@ static mw_verdict walk_hand_over(const mw_tiling *tiling, mw_walk *walk, mw_verd
     return verdict;
 }
 
-mw_location mw__query_conclude(const mw_locator *locator, const mw_cursor *cursor, mw_walk *walk, mw_verdict verdict,
-                               mw_counters *counters)
+mw_location mw__query_conclude(const mw_locator *locator, const mw_cursor *cursor, mw_walk *walk,
+                               mw_verdict verdict, mw_counters *counters)
 {
     const mw_tiling *tiling = &locator->tiling;
     bool exact = cursor->arithmetic == MW_EXACT, changed = false;
     if (verdict == MW_VERDICT_UNSURE)
-        verdict = mw__walk_finish(walk, (mw_walk_kind)cursor->finish, cursor->fuel, tiling, exact, cursor->count);
+        verdict = mw__walk_finish(walk, (mw_walk_kind)cursor->finish, cursor->fuel, tiling, exact,
+                                  cursor->count);
     bool dry = verdict == MW_VERDICT_OUT_OF_FUEL;
     bool sure = exact || (verdict == MW_VERDICT_LEFT && walk_has_left(tiling, walk));
-    if (MW_UNLIKELY(dry || !sure)) verdict = walk_hand_over(tiling, walk, verdict, cursor->count, &changed);
+    if (MW_UNLIKELY(dry || !sure))
+        verdict = walk_hand_over(tiling, walk, verdict, cursor->count, &changed);
     uint32_t hole = MW_NONE;
     if (tiling->border_loops && verdict == MW_VERDICT_LEFT)
         verdict = mw__components_search(tiling, walk, cursor->count, &hole);
     if (cursor->count) query_count(counters, walk->work, dry, changed);
     if (MW_UNLIKELY(verdict != MW_VERDICT_FOUND))
-        return query_outside(locator, hole == MW_NONE ? 0 : MW_GHOST | hole, walk->q, cursor->tolerance);
+        return query_outside(locator, hole == MW_NONE ? 0 : MW_GHOST | hole, walk->q,
+                             cursor->tolerance);
     return query_answer(locator, walk->t, walk->q, cursor->tolerance);
 }
 
 /* --- the walk of a query --- */
 
 /* Tile t if it is nearer than a sample is likely to be, or else the nearest of the sample. */
-static uint32_t tile_near_or_sampled(const mw_locator *locator, const mw_cursor *cursor, uint32_t t, mw_point q,
-                                     uint64_t *random)
+static uint32_t tile_near_or_sampled(const mw_locator *locator, const mw_cursor *cursor, uint32_t t,
+                                     mw_point q, uint64_t *random)
 {
     const mw_tiling *tiling = &locator->tiling;
     if (mw__distance2(tiling->point[tiling->tri[t].v[0]], q) <= locator->near2) return t;
     return mw__start_sample(tiling, q, cursor->sample, t, random);
 }
 
-static uint32_t start_tile(const mw_locator *locator, const mw_cursor *cursor, uint32_t last, mw_point q,
-                           uint64_t *random)
+static uint32_t start_tile(const mw_locator *locator, const mw_cursor *cursor, uint32_t last,
+                           mw_point q, uint64_t *random)
 {
     const mw_tiling *tiling = &locator->tiling;
-    if (MW_UNLIKELY(last == MW_NONE)) return mw__start_sample(tiling, q, cursor->sample, MW_NONE, random);
+    if (MW_UNLIKELY(last == MW_NONE))
+        return mw__start_sample(tiling, q, cursor->sample, MW_NONE, random);
     switch ((mw_start_kind)cursor->start) {
     case MW_START_RANDOM: return mw__start_random(tiling, random);
     case MW_START_SAMPLE: return mw__start_sample(tiling, q, cursor->sample, MW_NONE, random);
     case MW_START_CENTRE: return mw__tile_named(tiling, locator->centre);
     case MW_START_AUTO:
-        if (locator->guide.start == MW_START_AUTO) return tile_near_or_sampled(locator, cursor, last, q, random);
+        if (locator->guide.start == MW_START_AUTO)
+            return tile_near_or_sampled(locator, cursor, last, q, random);
         return mw__locator_guided_tile(locator, last, q);
     case MW_START_GRID: /* for these, mw__index_first */
     case MW_START_TWO_LEVEL_GRID:
@@ -194,18 +210,19 @@ static uint32_t start_tile(const mw_locator *locator, const mw_cursor *cursor, u
     return last;
 }
 
-uint32_t mw__query_first_tile(const mw_locator *locator, const mw_cursor *cursor, uint32_t last, mw_point q,
-                              uint64_t *random, mw_work *work)
+uint32_t mw__query_first_tile(const mw_locator *locator, const mw_cursor *cursor, uint32_t last,
+                              mw_point q, uint64_t *random, mw_work *work)
 {
     return cursor->index ? mw__index_first(&locator->tiling, cursor, q, random, work)
                          : start_tile(locator, cursor, last, q, random);
 }
 
-static mw_walk query_walk(const mw_locator *locator, const mw_cursor *cursor, uint32_t t, mw_point q, uint64_t *random,
-                          mw_work *work)
+static mw_walk query_walk(const mw_locator *locator, const mw_cursor *cursor, uint32_t t,
+                          mw_point q, uint64_t *random, mw_work *work)
 {
     const mw_tiling *tiling = &locator->tiling;
-    mw_walk walk = mw__walk_begin(tiling, q, t, cursor->fuel, mw__random(random), cursor->count ? work : NULL);
+    mw_walk walk =
+        mw__walk_begin(tiling, q, t, cursor->fuel, mw__random(random), cursor->count ? work : NULL);
     if (MW_UNLIKELY(tiling->border_loops)) mw__components_begin(locator, &walk);
     return walk;
 }
@@ -221,30 +238,32 @@ static mw_walk query_walk(const mw_locator *locator, const mw_cursor *cursor, ui
 static void walk_allow_steps(mw_walk *walk, const mw_locator *locator, uint32_t given)
 {
     mw_point p = walk->point[walk->tri[walk->t].v[0]];
-    double steps = given ? given : locator->crossings_per_length * hypot(walk->q.x - p.x, walk->q.y - p.y);
+    double steps =
+        given ? given : locator->crossings_per_length * hypot(walk->q.x - p.x, walk->q.y - p.y);
     walk->steps = (uint32_t)fmin(steps, walk->fuel);
     walk->fuel += walk->steps; /* at most 4096 + 45 sqrt(2^30), twice */
 }
 
 /* *work is zero, or has what looking for tile t counted. */
-static mw_walk query_begin_at(const mw_locator *locator, const mw_cursor *cursor, uint32_t t, mw_point q,
-                              uint64_t *random, mw_work *work)
+static mw_walk query_begin_at(const mw_locator *locator, const mw_cursor *cursor, uint32_t t,
+                              mw_point q, uint64_t *random, mw_work *work)
 {
     mw_walk walk = query_walk(locator, cursor, t, q, random, work);
-    if (MW_UNLIKELY(cursor->walk == MW_WALK_FAST_STOCHASTIC)) walk_allow_steps(&walk, locator, cursor->steps);
+    if (MW_UNLIKELY(cursor->walk == MW_WALK_FAST_STOCHASTIC))
+        walk_allow_steps(&walk, locator, cursor->steps);
     return walk;
 }
 
-mw_walk mw__query_begin(const mw_locator *locator, const mw_cursor *cursor, uint32_t last, mw_point q, uint64_t *random,
-                        mw_work *work)
+mw_walk mw__query_begin(const mw_locator *locator, const mw_cursor *cursor, uint32_t last,
+                        mw_point q, uint64_t *random, mw_work *work)
 {
     if (cursor->count) *work = (mw_work){0};
     uint32_t t = mw__query_first_tile(locator, cursor, last, q, random, work);
     return query_begin_at(locator, cursor, t, q, random, work);
 }
 
-mw_walk mw__query_begin_at(const mw_locator *locator, const mw_cursor *cursor, uint32_t t, mw_point q, uint64_t *random,
-                           mw_work *work)
+mw_walk mw__query_begin_at(const mw_locator *locator, const mw_cursor *cursor, uint32_t t,
+                           mw_point q, uint64_t *random, mw_work *work)
 {
     if (cursor->count) *work = (mw_work){0};
     return query_begin_at(locator, cursor, t, q, random, work);
@@ -254,13 +273,16 @@ mw_walk mw__query_begin_at(const mw_locator *locator, const mw_cursor *cursor, u
 
 /* Which start do the options mean? With an index, its own; MW_START_AUTO is decided by the
  * query. */
-static mw_status query_resolve_start(const mw_query_options *options, mw_start_kind *start, mw_error *error)
+static mw_status query_resolve_start(const mw_query_options *options, mw_start_kind *start,
+                                     mw_error *error)
 {
     *start = options->start;
-    if ((unsigned)*start >= MW_START_COUNT) return mw__fail(error, MW_ERROR_ARGUMENT, "unknown start");
+    if ((unsigned)*start >= MW_START_COUNT)
+        return mw__fail(error, MW_ERROR_ARGUMENT, "unknown start");
     if (!options->index) {
         if (mw_start_has_index(*start))
-            return mw__fail(error, MW_ERROR_ARGUMENT, "the start %s needs its index", mw_start_name(*start));
+            return mw__fail(error, MW_ERROR_ARGUMENT, "the start %s needs its index",
+                            mw_start_name(*start));
         return MW_OK;
     }
     if (*start == MW_START_AUTO) *start = options->index->start;
@@ -276,28 +298,35 @@ static bool start_is_near(mw_start_kind start)
     return start != MW_START_RANDOM && start != MW_START_SAMPLE && start != MW_START_CENTRE;
 }
 
-mw_status mw_cursor_init(const mw_locator *locator, const mw_query_options *options, mw_cursor *cursor, mw_error *error)
+mw_status mw_cursor_init(const mw_locator *locator, const mw_query_options *options,
+                         mw_cursor *cursor, mw_error *error)
 {
     static const mw_query_options defaults;
     if (!cursor || !locator) return mw__fail(error, MW_ERROR_ARGUMENT, "a cursor needs a locator");
     if (!options) options = &defaults;
-    if ((unsigned)options->walk >= MW_WALK_COUNT) return mw__fail(error, MW_ERROR_ARGUMENT, "unknown walk");
+    if ((unsigned)options->walk >= MW_WALK_COUNT)
+        return mw__fail(error, MW_ERROR_ARGUMENT, "unknown walk");
     mw_start_kind start;
     mw_status status = MW_RESERVED_CHECK(mw_query_options, options, error);
     if (!status) status = query_resolve_start(options, &start, error);
     if (status) return status;
-    if (options->finish && options->finish != MW_WALK_REMEMBERING && options->finish != MW_WALK_STOCHASTIC)
-        return mw__fail(error, MW_ERROR_ARGUMENT, "a walk is finished by remembering or stochastic");
-    if ((unsigned)options->arithmetic > MW_DOUBLE) return mw__fail(error, MW_ERROR_ARGUMENT, "unknown arithmetic");
+    if (options->finish && options->finish != MW_WALK_REMEMBERING &&
+        options->finish != MW_WALK_STOCHASTIC)
+        return mw__fail(error, MW_ERROR_ARGUMENT,
+                        "a walk is finished by remembering or stochastic");
+    if ((unsigned)options->arithmetic > MW_DOUBLE)
+        return mw__fail(error, MW_ERROR_ARGUMENT, "unknown arithmetic");
     if (!(options->tolerance >= 0) || isinf(options->tolerance))
         return mw__fail(error, MW_ERROR_ARGUMENT, "the tolerance is not a length");
     if (options->tolerance > 0 && !locator->has_border)
-        return mw__fail(error, MW_ERROR_ARGUMENT, "a tolerance needs a locator with options.border");
+        return mw__fail(error, MW_ERROR_ARGUMENT,
+                        "a tolerance needs a locator with options.border");
     mw_walk_kind walk = options->walk ? options->walk : locator->auto_walk;
     if (locator->tiling.border_loops && walk != MW_WALK_BORDER)
-        return mw__fail(error, MW_ERROR_ARGUMENT,
-                        "where pockets and holes are not filled only the border walk finds its way, not %s",
-                        mw_walk_name(walk));
+        return mw__fail(
+            error, MW_ERROR_ARGUMENT,
+            "where pockets and holes are not filled only the border walk finds its way, not %s",
+            mw_walk_name(walk));
     *cursor = (mw_cursor){
         .index = options->index,
         .random = mw__random_seed(options->seed, 0),
@@ -325,8 +354,10 @@ void mw__cursor_follow_edits(const mw_locator *locator, mw_cursor *cursor)
     const mw_tiling *tiling = &locator->tiling;
     if (cursor->epoch == locator->epoch) return;
     bool renamed = cursor->epoch >> 32 != locator->epoch >> 32;
-    cursor->last = renamed ? cursor->last % tiling->tri_count : mw__tile_named(tiling, cursor->last_name);
-    cursor->fuel = mw__walk_fuel((mw_walk_kind)cursor->walk, (mw_arithmetic)cursor->arithmetic, tiling);
+    cursor->last =
+        renamed ? cursor->last % tiling->tri_count : mw__tile_named(tiling, cursor->last_name);
+    cursor->fuel =
+        mw__walk_fuel((mw_walk_kind)cursor->walk, (mw_arithmetic)cursor->arithmetic, tiling);
     cursor->sample = mw__sample_count(tiling, cursor->asked);
     cursor->epoch = locator->epoch;
 }
@@ -339,13 +370,15 @@ void mw__cursor_default(const mw_locator *locator, mw_cursor *cursor)
 
 /* By the walk of the cursor: from tile cursor->last, where the fast path has led, else from where
  * the start says. */
-static __attribute__((noinline)) mw_location locate_by_walk(const mw_locator *locator, mw_cursor *cursor, mw_point q)
+static __attribute__((noinline)) mw_location locate_by_walk(const mw_locator *locator,
+                                                            mw_cursor *cursor, mw_point q)
 {
     mw_work work;
     mw__cursor_default(locator, cursor);
-    mw_walk walk = cursor->fast ? mw__walk_begin(&locator->tiling, q, cursor->last, cursor->fuel,
-                                                 mw__random(&cursor->random), NULL)
-                                : mw__query_begin(locator, cursor, cursor->last, q, &cursor->random, &work);
+    mw_walk walk = cursor->fast
+                       ? mw__walk_begin(&locator->tiling, q, cursor->last, cursor->fuel,
+                                        mw__random(&cursor->random), NULL)
+                       : mw__query_begin(locator, cursor, cursor->last, q, &cursor->random, &work);
     const mw_kernels *kernels = mw__walk_kernels((mw_walk_kind)cursor->walk, &locator->tiling);
     mw_verdict verdict = kernels->run[cursor->arithmetic == MW_EXACT][cursor->count](&walk);
     mw_location location = mw__query_conclude(locator, cursor, &walk, verdict, &cursor->counters);
@@ -364,7 +397,8 @@ static MW_INLINE uint32_t fast_first_tile(const mw_locator *locator, mw_cursor *
 }
 
 /* By the fast path; false: it leads to tile cursor->last, but to no answer. */
-static MW_INLINE bool locate_fast(const mw_locator *locator, mw_cursor *cursor, mw_point q, mw_location *location)
+static MW_INLINE bool locate_fast(const mw_locator *locator, mw_cursor *cursor, mw_point q,
+                                  mw_location *location)
 {
     if (MW_UNLIKELY(!cursor->fast)) return false;
     const mw_tiling *tiling = &locator->tiling;
@@ -377,11 +411,12 @@ static MW_INLINE bool locate_fast(const mw_locator *locator, mw_cursor *cursor, 
         mw__location_write_inside(location, tile->user, weight[0], weight[1], weight[2]);
         return true;
     }
-    return mw__fast_path_outside(tiling, cursor, tile, verdict == MW_VERDICT_FOUND, verdict == MW_VERDICT_LEFT,
-                                 location);
+    return mw__fast_path_outside(tiling, cursor, tile, verdict == MW_VERDICT_FOUND,
+                                 verdict == MW_VERDICT_LEFT, location);
 }
 
-static __attribute__((noinline)) mw_location locate_live(const mw_locator *locator, mw_cursor *cursor, mw_point q)
+static __attribute__((noinline)) mw_location locate_live(const mw_locator *locator,
+                                                         mw_cursor *cursor, mw_point q)
 {
     mw_location location;
     mw__cursor_follow_edits(locator, cursor);
@@ -403,12 +438,16 @@ mw_location mw_locate(const mw_locator *locator, mw_cursor *cursor, double x, do
     return location;
 }
 
-mw_status mw_nearest_border(const mw_locator *locator, double x, double y, mw_nearest_border_point *hit,
-                            mw_error *error)
+mw_status mw_nearest_border(const mw_locator *locator, double x, double y,
+                            mw_nearest_border_point *hit, mw_error *error)
 {
     if (!locator || !hit || !isfinite(x) || !isfinite(y))
-        return mw__fail(error, MW_ERROR_ARGUMENT, "the nearest border needs a locator and a finite point");
-    if (!locator->has_border) return mw__fail(error, MW_ERROR_ARGUMENT, "the locator was made without options.border");
-    if (mw__border_tree_nearest(&locator->border_tree, locator->mesh, (mw_point){x, y}, hit)) return MW_OK;
-    return mw__fail(error, MW_ERROR_INPUT, "the mesh has no border"); /* only a mesh that is no embedding */
+        return mw__fail(error, MW_ERROR_ARGUMENT,
+                        "the nearest border needs a locator and a finite point");
+    if (!locator->has_border)
+        return mw__fail(error, MW_ERROR_ARGUMENT, "the locator was made without options.border");
+    if (mw__border_tree_nearest(&locator->border_tree, locator->mesh, (mw_point){x, y}, hit))
+        return MW_OK;
+    /* only a mesh that is no embedding */
+    return mw__fail(error, MW_ERROR_INPUT, "the mesh has no border");
 }

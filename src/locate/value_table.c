@@ -12,7 +12,8 @@
 enum {
     GROUP = 16,  /* points that are looked up together  */
     BLOCK = 512, /* points whose corners are kept, where values lie field by field */
-    LINE = 64,   /* bytes of a cache line, of which the processor finds more by itself after these: */
+    /* bytes of a cache line, of which the processor finds more by itself after these: */
+    LINE = 64,
     LINES = 6
 };
 
@@ -38,7 +39,8 @@ static MW_INLINE const mw_triangle *corners_record(const mw_mesh *mesh, const mw
 }
 
 /* Of at most GROUP points; unspecified where there is no triangle. */
-static void corners_look_up(const mw_mesh *mesh, const mw_location *at, size_t n, table_corners *corners)
+static void corners_look_up(const mw_mesh *mesh, const mw_location *at, size_t n,
+                            table_corners *corners)
 {
     for (size_t i = 0; i < n && mesh->triangle_slot; i++)
         if (at[i].triangle != MW_NONE) __builtin_prefetch(&mesh->triangle_slot[at[i].triangle]);
@@ -48,10 +50,12 @@ static void corners_look_up(const mw_mesh *mesh, const mw_location *at, size_t n
         if (at[i].triangle == MW_NONE) continue;
         const mw_triangle *t = corners_record(mesh, &at[i]);
         for (uint32_t k = 0; k < 3; k++) corners[i].v[mw__user_local_vertex(t->user, k)] = t->v[k];
-        for (int k = 0; k < 3 && mesh->vertex_number; k++) __builtin_prefetch(&mesh->vertex_number[corners[i].v[k]]);
+        for (int k = 0; k < 3 && mesh->vertex_number; k++)
+            __builtin_prefetch(&mesh->vertex_number[corners[i].v[k]]);
     }
     for (size_t i = 0; i < n && mesh->vertex_number; i++)
-        for (int k = 0; k < 3 && at[i].triangle != MW_NONE; k++) corners[i].v[k] = mesh->vertex_number[corners[i].v[k]];
+        for (int k = 0; k < 3 && at[i].triangle != MW_NONE; k++)
+            corners[i].v[k] = mesh->vertex_number[corners[i].v[k]];
 }
 
 /* --- values ----------------------------------------------------------------------------------- */
@@ -81,8 +85,8 @@ static MW_INLINE bool location_is_inside(const mw_location *at)
 }
 
 /* Sums in the order of mw_interpolate: the bits are the same. */
-static MW_INLINE void value_row_inside(const double w[3], const void *const corner[3], size_t count, bool narrow,
-                                       void *restrict result)
+static MW_INLINE void value_row_inside(const double w[3], const void *const corner[3], size_t count,
+                                       bool narrow, void *restrict result)
 {
     const void *restrict a = corner[0], *restrict b = corner[1], *restrict c = corner[2];
     for (size_t k = 0; k < count; k++) {
@@ -94,7 +98,8 @@ static MW_INLINE void value_row_inside(const double w[3], const void *const corn
 }
 
 /* A weight of 0 ignores even NaN. */
-static MW_INLINE double value_on_edge(const double w[3], const void *const corner[3], size_t k, bool narrow)
+static MW_INLINE double value_on_edge(const double w[3], const void *const corner[3], size_t k,
+                                      bool narrow)
 {
     double sum = 0;
     for (int i = 0; i < 3; i++)
@@ -104,8 +109,8 @@ static MW_INLINE double value_on_edge(const double w[3], const void *const corne
 
 /* --- values of a vertex side by side ---------------------------------------------------------- */
 
-static MW_INLINE void value_row(const table_sum *s, const mw_location *at, const table_corners *corners, void *result,
-                                bool narrow)
+static MW_INLINE void value_row(const table_sum *s, const mw_location *at,
+                                const table_corners *corners, void *result, bool narrow)
 {
     const size_t count = s->table.count;
     const void *corner[3];
@@ -113,22 +118,26 @@ static MW_INLINE void value_row(const table_sum *s, const mw_location *at, const
         for (size_t k = 0; k < count; k++) value_store(result, k, NAN, narrow);
         return;
     }
-    for (int i = 0; i < 3; i++) corner[i] = value_at(s->table.values, corners->v[i] * s->table.stride, narrow);
+    for (int i = 0; i < 3; i++)
+        corner[i] = value_at(s->table.values, corners->v[i] * s->table.stride, narrow);
     if (location_is_inside(at))
         value_row_inside(at->weight, corner, count, narrow, result);
     else
-        for (size_t k = 0; k < count; k++) value_store(result, k, value_on_edge(at->weight, corner, k, narrow), narrow);
+        for (size_t k = 0; k < count; k++)
+            value_store(result, k, value_on_edge(at->weight, corner, k, narrow), narrow);
 }
 
 /* Look up the corners of a group, and have the values there on their way. */
-static MW_INLINE void rows_ask(const table_sum *s, size_t from, size_t to, table_corners *corners, bool narrow)
+static MW_INLINE void rows_ask(const table_sum *s, size_t from, size_t to, table_corners *corners,
+                               bool narrow)
 {
     const size_t n = to - from < GROUP ? to - from : GROUP, row = s->table.count * (narrow ? 4 : 8),
                  bytes = row < LINES * LINE ? row : LINES * LINE;
     corners_look_up(s->mesh, &s->locations[from], n, corners);
     for (size_t i = 0; i < n; i++)
         for (int k = 0; k < 3 && s->locations[from + i].triangle != MW_NONE; k++) {
-            const char *values = value_at(s->table.values, corners[i].v[k] * s->table.stride, narrow);
+            const char *values =
+                value_at(s->table.values, corners[i].v[k] * s->table.stride, narrow);
             for (size_t at = 0; at < bytes; at += LINE) __builtin_prefetch(values + at);
             __builtin_prefetch(values + bytes - 1);
         }
@@ -150,14 +159,15 @@ static MW_INLINE void rows_sum(const table_sum *s, size_t from, size_t to, bool 
 /* --- values field by field -------------------------------------------------------------------- */
 
 /* One field at the points of a block. */
-static MW_INLINE void field_sum(const table_sum *s, size_t from, size_t n, const table_corners *corners, size_t k,
-                                bool narrow)
+static MW_INLINE void field_sum(const table_sum *s, size_t from, size_t n,
+                                const table_corners *corners, size_t k, bool narrow)
 {
     const void *values = value_at(s->table.values, k * s->table.step, narrow);
     const size_t stride = s->table.stride;
     for (size_t i = 0; i < n; i++) {
         const mw_location *at = &s->locations[from + i];
-        const size_t v[3] = {corners[i].v[0] * stride, corners[i].v[1] * stride, corners[i].v[2] * stride};
+        const size_t v[3] = {corners[i].v[0] * stride, corners[i].v[1] * stride,
+                             corners[i].v[2] * stride};
         double sum = NAN;
         if (MW_LIKELY(location_is_inside(at) && at->triangle != MW_NONE)) {
             sum = 0 + at->weight[0] * value_load(values, v[0], narrow);
@@ -178,7 +188,8 @@ static MW_INLINE void fields_sum(const table_sum *s, size_t from, size_t to, boo
     for (size_t block = from; block < to; block += BLOCK) {
         const size_t n = to - block < BLOCK ? to - block : BLOCK;
         for (size_t i = 0; i < n; i += GROUP)
-            corners_look_up(s->mesh, &s->locations[block + i], n - i < GROUP ? n - i : GROUP, &corners[i]);
+            corners_look_up(s->mesh, &s->locations[block + i], n - i < GROUP ? n - i : GROUP,
+                            &corners[i]);
         for (size_t k = 0; k < s->table.count; k++) field_sum(s, block, n, corners, k, narrow);
     }
 }
@@ -204,17 +215,20 @@ static mw_status table_check(const mw_value_table *table, mw_error *error)
     if (table->type != MW_FLOAT64 && table->type != MW_FLOAT32)
         return mw__fail(error, MW_ERROR_ARGUMENT, "unknown type of values: %d", (int)table->type);
     if (table->step <= 1 && table->stride && table->stride < table->count)
-        return mw__fail(error, MW_ERROR_ARGUMENT, "a stride of %zu for %zu values", table->stride, table->count);
+        return mw__fail(error, MW_ERROR_ARGUMENT, "a stride of %zu for %zu values", table->stride,
+                        table->count);
     return MW_OK;
 }
 
-mw_status mw_interpolate_table(const mw_mesh *mesh, const mw_value_table *table, const mw_location *locations, size_t n,
+mw_status mw_interpolate_table(const mw_mesh *mesh, const mw_value_table *table,
+                               const mw_location *locations, size_t n,
                                const mw_interpolate_options *options, void *result, mw_error *error)
 {
     static const mw_interpolate_options defaults;
     if (!options) options = &defaults;
     if (!mesh || !table || (n && (!locations || !result)) || (table->count && !table->values))
-        return mw__fail(error, MW_ERROR_ARGUMENT, "interpolation needs a mesh, values, locations and a result");
+        return mw__fail(error, MW_ERROR_ARGUMENT,
+                        "interpolation needs a mesh, values, locations and a result");
     mw_status status = MW_RESERVED_CHECK(mw_interpolate_options, options, error);
     if (!status) status = table_check(table, error);
     if (status || table->count == 0) return status;

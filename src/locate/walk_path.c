@@ -2,8 +2,10 @@
 #include "locate/location.h"
 #include "locate/query.h"
 
-_Static_assert((int)MW_WALK_STAGE_INIT == MW_STAGE_INIT && (int)MW_WALK_STAGE_WALK == MW_STAGE_WALK &&
-                   (int)MW_WALK_STAGE_FINAL == MW_STAGE_FINAL && (int)MW_WALK_STAGE_BORDER == MW_STAGE_BORDER,
+_Static_assert((int)MW_WALK_STAGE_INIT == MW_STAGE_INIT &&
+                   (int)MW_WALK_STAGE_WALK == MW_STAGE_WALK &&
+                   (int)MW_WALK_STAGE_FINAL == MW_STAGE_FINAL &&
+                   (int)MW_WALK_STAGE_BORDER == MW_STAGE_BORDER,
                "stages have the same numbers inside");
 
 /* --- the line --- */
@@ -29,7 +31,8 @@ static mw_point way_middle(const mw_tiling *tiling, const uint32_t *v)
 }
 
 /* Where the line of a walk begins that began in tile `first` and has ended. */
-static void way_set_line(mw_walk_way *way, mw_walk_kind kind, const mw_walk *walk, uint32_t first, size_t count)
+static void way_set_line(mw_walk_way *way, mw_walk_kind kind, const mw_walk *walk, uint32_t first,
+                         size_t count)
 {
     const uint32_t *v = walk->tri[first].v;
     const mw_point corner = walk->point[v[0]], q = walk->q;
@@ -40,7 +43,9 @@ static void way_set_line(mw_walk_way *way, mw_walk_kind kind, const mw_walk *wal
     case MW_WALK_NORMAL_STRAIGHT: way_add_point(way, q.x - walk->d.x, q.y - walk->d.y); break;
     case MW_WALK_ORTHOGONAL: way_add_legs(way, corner, q); break;
     case MW_WALK_IMPROVED_ORTHOGONAL:
-    case MW_WALK_IMPROVED_ORTHOGONAL_VERTEX: way_add_legs(way, way_middle(walk->tiling, v), q); break;
+    case MW_WALK_IMPROVED_ORTHOGONAL_VERTEX:
+        way_add_legs(way, way_middle(walk->tiling, v), q);
+        break;
     case MW_WALK_BORDER:
         if (count > 1) way_add_point(way, walk->p.x, walk->p.y);
         break;
@@ -53,8 +58,8 @@ static void way_set_line(mw_walk_way *way, mw_walk_kind kind, const mw_walk *wal
 
 /* From the start to the answer. Only the tiles of this tiling are written down, not those of an
  * index. */
-static mw_location path_locate(const mw_locator *locator, mw_cursor *cursor, mw_point q, mw_walk_trace *trace,
-                               mw_walk_way *way)
+static mw_location path_locate(const mw_locator *locator, mw_cursor *cursor, mw_point q,
+                               mw_walk_trace *trace, mw_walk_way *way)
 {
     mw_work work;
     mw_walk walk = mw__query_begin(locator, cursor, cursor->last, q, &cursor->random, &work);
@@ -65,18 +70,20 @@ static mw_location path_locate(const mw_locator *locator, mw_cursor *cursor, mw_
     mw_verdict verdict = mw__walk_run(&walk, kernels, true, true);
     mw_location location = mw__query_conclude(locator, cursor, &walk, verdict, &cursor->counters);
     cursor->last = walk.t;
-    if (trace->stage && trace->capacity > 0 && work.triangles[MW_STAGE_INIT] > 0) trace->stage[0] = MW_STAGE_INIT;
+    if (trace->stage && trace->capacity > 0 && work.triangles[MW_STAGE_INIT] > 0)
+        trace->stage[0] = MW_STAGE_INIT;
     way_set_line(way, (mw_walk_kind)cursor->walk, &walk, first, trace->count);
     return location;
 }
 
-size_t mw_walk_follow(const mw_locator *locator, mw_cursor *cursor, double x, double y, mw_walk_way *way,
-                      mw_location *location)
+size_t mw_walk_follow(const mw_locator *locator, mw_cursor *cursor, double x, double y,
+                      mw_walk_way *way, mw_location *location)
 {
     mw_location nowhere = mw__location_nowhere(MW_BAD);
     mw_location *at = location ? location : &nowhere;
-    mw_walk_trace trace = {
-        .triangle = way->triangles, .stage = way->stages, .capacity = way->triangles ? way->capacity : 0};
+    mw_walk_trace trace = {.triangle = way->triangles,
+                           .stage = way->stages,
+                           .capacity = way->triangles ? way->capacity : 0};
     *at = nowhere;
     way->line_points = 0;
     if (!isfinite(x) || !isfinite(y)) return 0;
@@ -93,8 +100,8 @@ size_t mw_walk_follow(const mw_locator *locator, mw_cursor *cursor, double x, do
     return trace.count;
 }
 
-size_t mw_walk_path(const mw_locator *locator, mw_cursor *cursor, double x, double y, uint32_t *triangles,
-                    size_t capacity, mw_location *location)
+size_t mw_walk_path(const mw_locator *locator, mw_cursor *cursor, double x, double y,
+                    uint32_t *triangles, size_t capacity, mw_location *location)
 {
     mw_walk_way way = {.triangles = triangles, .capacity = capacity};
     return mw_walk_follow(locator, cursor, x, y, &way, location);

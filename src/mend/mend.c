@@ -11,7 +11,8 @@
 
 /* --- input --- */
 
-static mw_status mend_check_arguments(const mw_arrays *arrays, const mw_mend_options *options, mw_error *error)
+static mw_status mend_check_arguments(const mw_arrays *arrays, const mw_mend_options *options,
+                                      mw_error *error)
 {
     mw_status status = MW_RESERVED_CHECK(mw_mend_options, options, error);
     if (status) return status;
@@ -37,7 +38,9 @@ static mw_status mend_work_create(mw_mend_work *w, const mw_arrays *arrays, mw_e
             w->triangle[t].v[k] = v;
             if (v >= w->vertex_count && !(w->repairs & MW_REPAIR_DROP))
                 return mw__fail_at(error, t, -1,
-                                   "triangle %" PRIu32 ": corner %zu is no vertex; dropping would take it out", t, k);
+                                   "triangle %" PRIu32
+                                   ": corner %zu is no vertex; dropping would take it out",
+                                   t, k);
         }
     }
     return MW_OK;
@@ -115,11 +118,13 @@ static mw_status mend_work_status(const mw_mend_work *w, bool done, mw_error *er
 {
     if (done) return MW_OK;
     if (w->too_large)
-        return mw__fail(error, MW_ERROR_LIMIT, "splits make more than %" PRIu32 " triangles", MW_MAX_TRIANGLES);
+        return mw__fail(error, MW_ERROR_LIMIT, "splits make more than %" PRIu32 " triangles",
+                        MW_MAX_TRIANGLES);
     return mw__fail_memory(error);
 }
 
-mw_status mw_mend_arrays(const mw_arrays *arrays, const mw_mend_options *options, mw_mended *mended, mw_error *error)
+mw_status mw_mend_arrays(const mw_arrays *arrays, const mw_mend_options *options, mw_mended *mended,
+                         mw_error *error)
 {
     static const mw_mend_options defaults;
     if (!mended) return mw__fail(error, MW_ERROR_ARGUMENT, "no place for the mended mesh");
@@ -159,21 +164,32 @@ void mw_mend_change_describe(const mw_mend_change *change, char *text, size_t si
 {
     uint32_t t = change->triangle, v = change->vertex, other = change->other;
     switch (change->kind) {
-    case MW_MEND_WELDED: snprintf(text, size, "vertex %" PRIu32 ": welded to vertex %" PRIu32, v, other); return;
+    case MW_MEND_WELDED:
+        snprintf(text, size, "vertex %" PRIu32 ": welded to vertex %" PRIu32, v, other);
+        return;
     case MW_MEND_DROPPED_MISSING:
-        snprintf(text, size, "triangle %" PRIu32 ": dropped: it has a vertex that does not exist", t);
+        snprintf(text, size, "triangle %" PRIu32 ": dropped: it has a vertex that does not exist",
+                 t);
         return;
     case MW_MEND_DROPPED_INFINITE:
-        snprintf(text, size, "triangle %" PRIu32 ": dropped: vertex %" PRIu32 " is not finite", t, v);
+        snprintf(text, size, "triangle %" PRIu32 ": dropped: vertex %" PRIu32 " is not finite", t,
+                 v);
         return;
     case MW_MEND_DROPPED_REPEATED:
-        snprintf(text, size, "triangle %" PRIu32 ": dropped: it has vertex %" PRIu32 " twice", t, v);
+        snprintf(text, size, "triangle %" PRIu32 ": dropped: it has vertex %" PRIu32 " twice", t,
+                 v);
         return;
     case MW_MEND_DROPPED_DUPLICATE:
-        snprintf(text, size, "triangle %" PRIu32 ": dropped: it has the vertices of triangle %" PRIu32, t, other);
+        snprintf(text, size,
+                 "triangle %" PRIu32 ": dropped: it has the vertices of triangle %" PRIu32, t,
+                 other);
         return;
-    case MW_MEND_DROPPED_FLAT: snprintf(text, size, "triangle %" PRIu32 ": dropped: it has no area", t); return;
-    case MW_MEND_SPLIT: snprintf(text, size, "triangle %" PRIu32 ": split at vertex %" PRIu32, t, v); return;
+    case MW_MEND_DROPPED_FLAT:
+        snprintf(text, size, "triangle %" PRIu32 ": dropped: it has no area", t);
+        return;
+    case MW_MEND_SPLIT:
+        snprintf(text, size, "triangle %" PRIu32 ": split at vertex %" PRIu32, t, v);
+        return;
     case MW_MEND_TURNED: snprintf(text, size, "triangle %" PRIu32 ": turned", t); return;
     case MW_MEND_CHANGE_COUNT: break;
     }

@@ -93,7 +93,8 @@ static bool drop_duplicates(mw_mend_work *w)
         if (first)
             w->triangle[left++] = triangle;
         else
-            done = mw__mend_note(w, MW_MEND_DROPPED_DUPLICATE, triangle.from, MW_NONE, same_as[same_as[t]]);
+            done = mw__mend_note(w, MW_MEND_DROPPED_DUPLICATE, triangle.from, MW_NONE,
+                                 same_as[same_as[t]]);
     }
     if (done) w->count = left;
     free(same_as);

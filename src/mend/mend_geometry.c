@@ -8,7 +8,9 @@
 static mw_point mend_projected(const mw_mend_work *w, uint32_t vertex, int drop)
 {
     const double *p = mw__mend_point(w, vertex);
-    return drop == 2 ? (mw_point){p[0], p[1]} : drop == 1 ? (mw_point){p[2], p[0]} : (mw_point){p[1], p[2]};
+    return drop == 2   ? (mw_point){p[0], p[1]}
+           : drop == 1 ? (mw_point){p[2], p[0]}
+                       : (mw_point){p[1], p[2]};
 }
 
 /* The first axis to project along; the last one is z. */
@@ -50,8 +52,8 @@ bool mw__mend_near(const mw_mend_work *w, uint32_t a, uint32_t b)
 bool mw__mend_flat(const mw_mend_work *w, const uint32_t v[3])
 {
     for (int axis = mend_first_axis(w); axis < 3; axis++)
-        if (mw__orient2d(mend_projected(w, v[0], axis), mend_projected(w, v[1], axis), mend_projected(w, v[2], axis)) !=
-            0)
+        if (mw__orient2d(mend_projected(w, v[0], axis), mend_projected(w, v[1], axis),
+                         mend_projected(w, v[2], axis)) != 0)
             return false;
     return true;
 }
@@ -99,7 +101,8 @@ bool mw__mend_inside_edge(const mw_mend_work *w, uint32_t a, uint32_t b, uint32_
         return part > 0 && part < 1 && distance <= w->tolerance;
     }
     mw_point p = mend_projected(w, a, 2), q = mend_projected(w, b, 2), r = mend_projected(w, v, 2);
-    return mw__dot2d(p, q, r) > 0 && mw__dot2d(q, p, r) > 0 && mw__compare_distance_to(r, p, q, w->tolerance) <= 0;
+    return mw__dot2d(p, q, r) > 0 && mw__dot2d(q, p, r) > 0 &&
+           mw__compare_distance_to(r, p, q, w->tolerance) <= 0;
 }
 
 /* The coordinate along which the edge is longest tells, without rounding. */

@@ -25,7 +25,8 @@ static bool orient_in_plane(mw_mend_work *w)
 {
     for (size_t t = 0; t < w->count; t++) {
         const uint32_t *v = w->triangle[t].v;
-        if (orient_usable(w, v) && mw__mend_area(w, v[0], v[1], v[2]) < 0 && !orient_turn(w, t)) return false;
+        if (orient_usable(w, v) && mw__mend_area(w, v[0], v[1], v[2]) < 0 && !orient_turn(w, t))
+            return false;
         if (!mw__job_step(w->job, t, w->count)) return false;
     }
     return true;

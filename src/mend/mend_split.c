@@ -43,7 +43,8 @@ static bool split_search_edge(split_search *s, uint32_t half)
     for (uint32_t i = 0; i < s->near.count; i++) {
         uint32_t u = s->near.vertex[i];
         if (u == a || u == b || u == apex || !mw__mend_inside_edge(w, a, b, u)) continue;
-        if (!split_search_add(s, (mw_cut_vertex){half, u, mw__mend_along(w, a, b, u)})) return false;
+        if (!split_search_add(s, (mw_cut_vertex){half, u, mw__mend_along(w, a, b, u)}))
+            return false;
     }
     return true;
 }
@@ -66,7 +67,8 @@ static bool split_plant_tree(split_search *s, const mw_mend_edge *edge, size_t c
         run = mw__mend_edge_run(edge, count, i);
         const uint32_t end[2] = {edge[i].low, edge[i].high};
         for (int k = 0; k < 2 && run == 1 && done; k++) {
-            if (!seen[end[k]] && mw__mend_finite(s->work, end[k])) done = mw__vertex_list_add(&list, end[k]);
+            if (!seen[end[k]] && mw__mend_finite(s->work, end[k]))
+                done = mw__vertex_list_add(&list, end[k]);
             seen[end[k]] = 1;
         }
     }
@@ -113,8 +115,8 @@ static bool split_find(split_search *s)
 
 /* In the plane: are all parts turned like the triangle? With a tolerance a vertex may lie beyond
  * its other edges. */
-static bool split_parts_are_sound(const mw_mend_work *w, const uint32_t v[3], const mw_mend_triangle *part,
-                                  size_t count)
+static bool split_parts_are_sound(const mw_mend_work *w, const uint32_t v[3],
+                                  const mw_mend_triangle *part, size_t count)
 {
     if (w->dimension == 3 || w->tolerance == 0) return true;
     bool left = mw__mend_area(w, v[0], v[1], v[2]) > 0;
@@ -127,8 +129,8 @@ static bool split_parts_are_sound(const mw_mend_work *w, const uint32_t v[3], co
 
 /* Put the parts of triangle `number` into part[0] and on. Returns how many there are; 0 when out of
  * memory. */
-static size_t split_triangle(split_search *s, uint32_t number, size_t first, size_t count, mw_mend_triangle *part,
-                             bool *changed)
+static size_t split_triangle(split_search *s, uint32_t number, size_t first, size_t count,
+                             mw_mend_triangle *part, bool *changed)
 {
     mw_mend_work *w = s->work;
     const mw_mend_triangle *t = &w->triangle[number];
@@ -136,7 +138,8 @@ static size_t split_triangle(split_search *s, uint32_t number, size_t first, siz
         mw__triangle_cut(w, t, s->found + first, count, part);
         bool sound = split_parts_are_sound(w, t->v, part, count + 1);
         for (size_t i = 0; i < count && sound; i++)
-            if (!mw__mend_note(w, MW_MEND_SPLIT, t->from, s->found[first + i].vertex, MW_NONE)) return 0;
+            if (!mw__mend_note(w, MW_MEND_SPLIT, t->from, s->found[first + i].vertex, MW_NONE))
+                return 0;
         if (sound) {
             *changed = true;
             return count + 1;

@@ -4,7 +4,8 @@
 #include "mend/vertex_tree.h"
 
 /* Weld to v, which is kept, every later vertex near it. */
-static bool weld_near(mw_mend_work *w, const mw_vertex_tree *tree, mw_vertex_list *found, uint32_t v)
+static bool weld_near(mw_mend_work *w, const mw_vertex_tree *tree, mw_vertex_list *found,
+                      uint32_t v)
 {
     double low[3], high[3];
     mw__vertex_box(w, v, v, low, high);
@@ -37,7 +38,8 @@ bool mw__mend_weld(mw_mend_work *w)
     mw__job_stage(w->job, "welding vertices", 0.3);
     if (!weld_all(w)) return false;
     for (uint32_t v = 0; v < w->vertex_count; v++)
-        if (w->kept[v] != v && !mw__mend_note(w, MW_MEND_WELDED, MW_NONE, v, w->kept[v])) return false;
+        if (w->kept[v] != v && !mw__mend_note(w, MW_MEND_WELDED, MW_NONE, v, w->kept[v]))
+            return false;
     for (size_t t = 0; t < w->count; t++)
         for (int k = 0; k < 3; k++) {
             uint32_t v = w->triangle[t].v[k];

@@ -2,7 +2,8 @@
 
 #include <stdlib.h>
 
-bool mw__mend_note(mw_mend_work *w, mw_mend_change_kind kind, uint32_t triangle, uint32_t vertex, uint32_t other)
+bool mw__mend_note(mw_mend_work *w, mw_mend_change_kind kind, uint32_t triangle, uint32_t vertex,
+                   uint32_t other)
 {
     if (w->change_count == w->change_capacity) {
         size_t capacity = w->change_capacity ? 2 * w->change_capacity : 64;

@@ -36,7 +36,8 @@ static MW_INLINE const double *mw__mend_point(const mw_mend_work *w, uint32_t ve
 /* The functions below return false when out of memory, or cancelled. */
 
 /* Note a change. */
-bool mw__mend_note(mw_mend_work *w, mw_mend_change_kind kind, uint32_t triangle, uint32_t vertex, uint32_t other);
+bool mw__mend_note(mw_mend_work *w, mw_mend_change_kind kind, uint32_t triangle, uint32_t vertex,
+                   uint32_t other);
 
 /* The repairs, each a stage of the present part. Of mw__mend_split, *changed tells whether it found
  * anything to do; of mw__mend_drop as well. */

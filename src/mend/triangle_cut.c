@@ -43,8 +43,9 @@ static void cutter_strip(cutter *c, const cut_side *ab, const cut_side *bc, uint
         uint32_t p = side_forward(ab, i), q = side_backward(bc, last, j);
         uint32_t p_next = i < ab->count ? side_forward(ab, i + 1) : MW_NONE;
         uint32_t q_next = j < bc->count ? side_backward(bc, last, j + 1) : MW_NONE;
-        bool on_ab = q_next == MW_NONE || (p_next != MW_NONE && mw__mend_square_distance(c->work, p_next, q) <=
-                                                                    mw__mend_square_distance(c->work, p, q_next));
+        bool on_ab = q_next == MW_NONE ||
+                     (p_next != MW_NONE && mw__mend_square_distance(c->work, p_next, q) <=
+                                               mw__mend_square_distance(c->work, p, q_next));
         if (on_ab) {
             cutter_add(c, p, p_next, q);
             i++;
@@ -64,8 +65,8 @@ static void cutter_cut_two_sides(cutter *c, const cut_side side[3])
     cutter_strip(c, &side[k], &side[(k + 1) % 3], side[(k + 2) % 3].corner);
 }
 
-void mw__triangle_cut(const mw_mend_work *w, const mw_mend_triangle *triangle, const mw_cut_vertex *vertex,
-                      size_t count, mw_mend_triangle *part)
+void mw__triangle_cut(const mw_mend_work *w, const mw_mend_triangle *triangle,
+                      const mw_cut_vertex *vertex, size_t count, mw_mend_triangle *part)
 {
     cutter c = {w, part, triangle->from};
     cut_side side[3];

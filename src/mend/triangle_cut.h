@@ -13,7 +13,7 @@ typedef struct mw_cut_vertex {
 
 /* Cut a triangle at `count` vertices, sorted by edge, and along each edge, into count + 1 parts.
  * They are turned like the triangle, and none is flat. O(count). */
-void mw__triangle_cut(const mw_mend_work *w, const mw_mend_triangle *triangle, const mw_cut_vertex *vertex,
-                      size_t count, mw_mend_triangle *part);
+void mw__triangle_cut(const mw_mend_work *w, const mw_mend_triangle *triangle,
+                      const mw_cut_vertex *vertex, size_t count, mw_mend_triangle *part);
 
 #endif

@@ -36,8 +36,8 @@ static bool vertex_before(const mw_mend_work *w, size_t axis, uint32_t a, uint32
 
 /* Put the vertex that is number `middle` of those from..to - 1 in its place, lower ones before it
  * (quickselect, Hoare 1961). */
-static void vertices_select(const mw_mend_work *w, uint32_t *v, uint32_t from, uint32_t to, uint32_t middle,
-                            size_t axis)
+static void vertices_select(const mw_mend_work *w, uint32_t *v, uint32_t from, uint32_t to,
+                            uint32_t middle, size_t axis)
 {
     uint64_t random = to;
     while (to - from > 1) {
@@ -60,7 +60,8 @@ static void vertices_select(const mw_mend_work *w, uint32_t *v, uint32_t from, u
     }
 }
 
-static void vertices_part(const mw_mend_work *w, uint32_t *v, uint32_t from, uint32_t to, size_t axis)
+static void vertices_part(const mw_mend_work *w, uint32_t *v, uint32_t from, uint32_t to,
+                          size_t axis)
 {
     while (to - from > 1) {
         uint32_t middle = from + (to - from) / 2;
@@ -118,7 +119,8 @@ static bool vertex_search_range(const vertex_search *s, uint32_t from, uint32_t 
     return true;
 }
 
-bool mw__vertex_tree_find(const mw_vertex_tree *tree, const double low[3], const double high[3], mw_vertex_list *list)
+bool mw__vertex_tree_find(const mw_vertex_tree *tree, const double low[3], const double high[3],
+                          mw_vertex_list *list)
 {
     vertex_search search = {tree, low, high, list};
     list->count = 0;

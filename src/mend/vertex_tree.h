@@ -25,10 +25,12 @@ void mw__vertex_tree_release(mw_vertex_tree *tree);
 
 /* Find the vertices in the box from low to high: they replace those in the list. Returns false when
  * out of memory. */
-bool mw__vertex_tree_find(const mw_vertex_tree *tree, const double low[3], const double high[3], mw_vertex_list *list);
+bool mw__vertex_tree_find(const mw_vertex_tree *tree, const double low[3], const double high[3],
+                          mw_vertex_list *list);
 
 /* The box of vertices a and b, and whatever lies within the tolerance of it. */
-void mw__vertex_box(const mw_mend_work *work, uint32_t a, uint32_t b, double low[3], double high[3]);
+void mw__vertex_box(const mw_mend_work *work, uint32_t a, uint32_t b, double low[3],
+                    double high[3]);
 
 bool mw__vertex_list_add(mw_vertex_list *list, uint32_t vertex);
 void mw__vertex_list_release(mw_vertex_list *list);

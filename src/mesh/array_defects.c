@@ -9,7 +9,8 @@
 
 /* --- numbers out of range --- */
 
-static bool repair_triangle(mw_repair *repair, const mw_arrays *arrays, uint32_t t, mw_defects *defects)
+static bool repair_triangle(mw_repair *repair, const mw_arrays *arrays, uint32_t t,
+                            mw_defects *defects)
 {
     for (uint32_t k = 0; k < 3; k++) {
         uint32_t v = mw__index_at(arrays, 3 * (size_t)t + k);
@@ -20,11 +21,13 @@ static bool repair_triangle(mw_repair *repair, const mw_arrays *arrays, uint32_t
         repair->replaced[t] = 1;
         if (!mw__defects_add(defects, defect)) return false;
     }
-    for (uint32_t k = 0; k < 3 && repair->replaced[t]; k++) repair->triangles[3 * (size_t)t + k] = 0;
+    for (uint32_t k = 0; k < 3 && repair->replaced[t]; k++)
+        repair->triangles[3 * (size_t)t + k] = 0;
     return true;
 }
 
-mw_status mw__repair_create(mw_repair *repair, const mw_arrays *arrays, mw_defects *defects, mw_error *error)
+mw_status mw__repair_create(mw_repair *repair, const mw_arrays *arrays, mw_defects *defects,
+                            mw_error *error)
 {
     *repair = (mw_repair){.arrays = *arrays,
                           .triangles = mw__alloc(3 * arrays->triangle_count, sizeof(uint32_t)),
@@ -46,16 +49,19 @@ void mw__repair_release(mw_repair *repair)
 
 /* --- triangles --- */
 
-bool mw__find_unusable(const uint32_t v[3], const bool finite[3], uint32_t t, mw_defects *defects, bool *usable)
+bool mw__find_unusable(const uint32_t v[3], const bool finite[3], uint32_t t, mw_defects *defects,
+                       bool *usable)
 {
     *usable = true;
     for (uint32_t k = 0; k < 3; k++) {
         /* A vertex three times is one defect. */
         int before = (k > 0 && v[0] == v[k]) + (k > 1 && v[1] == v[k]);
-        mw_defect defect = mw__defect(before > 0 ? MW_DEFECT_REPEATED_VERTEX : MW_DEFECT_NOT_FINITE, t);
+        mw_defect defect =
+            mw__defect(before > 0 ? MW_DEFECT_REPEATED_VERTEX : MW_DEFECT_NOT_FINITE, t);
         defect.vertex = v[k];
         if (before > 0 || !finite[k]) *usable = false;
-        if ((before == 1 || (before == 0 && !finite[k])) && !mw__defects_add(defects, defect)) return false;
+        if ((before == 1 || (before == 0 && !finite[k])) && !mw__defects_add(defects, defect))
+            return false;
     }
     return true;
 }
@@ -82,7 +88,8 @@ static int compare_edge_ends(const void *left, const void *right)
 }
 
 /* All edges without a neighbour, sorted. */
-static bool unlinked_edges_gather(const mw_triangle *tri, uint32_t n, edge_ends **unlinked, size_t *count)
+static bool unlinked_edges_gather(const mw_triangle *tri, uint32_t n, edge_ends **unlinked,
+                                  size_t *count)
 {
     *unlinked = NULL;
     for (int pass = 0; pass < 2; pass++) {

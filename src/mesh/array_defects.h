@@ -15,12 +15,14 @@ typedef struct mw_repair {
 } mw_repair;
 
 /* Add the vertex numbers out of range to `defects`. MW_ERROR_MEMORY. Release in either case. */
-mw_status mw__repair_create(mw_repair *repair, const mw_arrays *arrays, mw_defects *defects, mw_error *error);
+mw_status mw__repair_create(mw_repair *repair, const mw_arrays *arrays, mw_defects *defects,
+                            mw_error *error);
 void mw__repair_release(mw_repair *repair);
 
 /* Add the defects that make triangle t with vertices v unusable. finite[k]: are the coordinates of
  * v[k] finite? *usable becomes true where there is none. Returns false when out of memory. */
-bool mw__find_unusable(const uint32_t v[3], const bool finite[3], uint32_t t, mw_defects *defects, bool *usable);
+bool mw__find_unusable(const uint32_t v[3], const bool finite[3], uint32_t t, mw_defects *defects,
+                       bool *usable);
 
 /* Add the edges of more than two triangles, of which the first two are linked. O(n log b) for b
  * edges without a link. Returns false when out of memory. */

@@ -31,8 +31,8 @@ typedef struct bucket_source {
 
 /* Read triangles from number t on. Returns false if some vertex number is out of range. The loop
  * looks slots up without a branch, so that many look-ups run at the same time. */
-static MW_INLINE bool raw_triangles_read_as(const bucket_source *s, mw_integer_type type, size_t t, uint32_t count,
-                                            mw_raw_triangle *out)
+static MW_INLINE bool raw_triangles_read_as(const bucket_source *s, mw_integer_type type, size_t t,
+                                            uint32_t count, mw_raw_triangle *out)
 {
     const mw_arrays arrays = {.triangles = s->arrays->triangles, .integer_type = type};
     const uint32_t *slot = s->mesh->vertex_slot, n = s->mesh->point_count;
@@ -48,7 +48,8 @@ static MW_INLINE bool raw_triangles_read_as(const bucket_source *s, mw_integer_t
     return right;
 }
 
-static bool raw_triangles_read(const bucket_source *s, size_t t, uint32_t count, mw_raw_triangle *out)
+static bool raw_triangles_read(const bucket_source *s, size_t t, uint32_t count,
+                               mw_raw_triangle *out)
 {
     switch (s->arrays->integer_type) {
     case MW_INT32: return raw_triangles_read_as(s, MW_INT32, t, count, out);
@@ -63,7 +64,8 @@ static bool triangle_is_usable(const bucket_source *s, size_t t)
     const mw_mesh *mesh = s->mesh;
     for (size_t k = 0; k < 3; k++) {
         uint32_t v = mw__index_at(s->arrays, 3 * t + k);
-        if (v >= mesh->point_count || v == mw__index_at(s->arrays, 3 * t + (k + 1) % 3)) return false;
+        if (v >= mesh->point_count || v == mw__index_at(s->arrays, 3 * t + (k + 1) % 3))
+            return false;
         if (!mw__is_finite(mesh->point[mesh->vertex_slot[v]])) return false;
     }
     return true;
@@ -77,7 +79,8 @@ typedef struct bucket_writer {
     uint32_t *next_block, free; /* the next unused block */
 } bucket_writer;
 
-static MW_INLINE void bucket_writer_put(bucket_writer *s, uint32_t range, const mw_raw_triangle *corners)
+static MW_INLINE void bucket_writer_put(bucket_writer *s, uint32_t range,
+                                        const mw_raw_triangle *corners)
 {
     mw_bucket *bucket = &s->bucket[range];
     if (MW_UNLIKELY(bucket->next % MW_BUCKET_BLOCK == 0)) {
@@ -92,12 +95,13 @@ static MW_INLINE void bucket_writer_put(bucket_writer *s, uint32_t range, const 
 }
 
 /* Returns the first unusable triangle of the share, or MW_NONE. */
-static uint32_t bucket_writer_fill(const mw_buckets *buckets, const bucket_source *from, uint32_t share)
+static uint32_t bucket_writer_fill(const mw_buckets *buckets, const bucket_source *from,
+                                   uint32_t share)
 {
     enum { BATCH = 64 };
     mw_raw_triangle batch[BATCH];
-    bucket_writer s = {buckets->raw, buckets->bucket + (size_t)share * buckets->ranges, buckets->next_block,
-                       (uint32_t)writer_first_block(buckets, share)};
+    bucket_writer s = {buckets->raw, buckets->bucket + (size_t)share * buckets->ranges,
+                       buckets->next_block, (uint32_t)writer_first_block(buckets, share)};
     size_t end = bucket_share_begin(buckets, share + 1);
     for (size_t t = bucket_share_begin(buckets, share), count; t < end; t += count) {
         count = end - t < BATCH ? end - t : BATCH;
@@ -106,8 +110,9 @@ static uint32_t bucket_writer_fill(const mw_buckets *buckets, const bucket_sourc
             const uint32_t *v = batch[i].v;
             bool doubtful = !good | (v[0] == v[1]) | (v[1] == v[2]) | (v[2] == v[0]);
             if (MW_UNLIKELY(doubtful) && !triangle_is_usable(from, t + i)) return (uint32_t)t + i;
-            bucket_writer_put(&s, (uint32_t)((uint64_t)mw__lowest_of_three(v[0], v[1], v[2]) >> buckets->shift),
-                              &batch[i]);
+            bucket_writer_put(
+                &s, (uint32_t)((uint64_t)mw__lowest_of_three(v[0], v[1], v[2]) >> buckets->shift),
+                &batch[i]);
         }
     }
     return MW_NONE;
@@ -129,16 +134,19 @@ static void bucket_fill_share(void *work, uint64_t share, uint32_t member)
     }
 }
 
-bool mw__buckets_fill(mw_buckets *buckets, const mw_mesh *mesh, const mw_arrays *arrays, bool all_finite, mw_job *job,
-                      uint32_t *bad)
+bool mw__buckets_fill(mw_buckets *buckets, const mw_mesh *mesh, const mw_arrays *arrays,
+                      bool all_finite, mw_job *job, uint32_t *bad)
 {
     *bad = MW_NONE;
     mw__job_stage(job, "distributing triangles", 0.2);
-    buckets->next_block = mw__alloc(writer_first_block(buckets, buckets->writers), sizeof *buckets->next_block);
-    buckets->bucket = mw__calloc((size_t)buckets->writers * buckets->ranges, sizeof *buckets->bucket);
+    buckets->next_block =
+        mw__alloc(writer_first_block(buckets, buckets->writers), sizeof *buckets->next_block);
+    buckets->bucket =
+        mw__calloc((size_t)buckets->writers * buckets->ranges, sizeof *buckets->bucket);
     if (!buckets->next_block || !buckets->bucket) return false;
     bucket_filling filling = {buckets, {mesh, arrays, all_finite}, MW_NONE};
-    bool done = mw__job_chunks(job, buckets->writers, buckets->writers, bucket_fill_share, &filling);
+    bool done =
+        mw__job_chunks(job, buckets->writers, buckets->writers, bucket_fill_share, &filling);
     *bad = filling.bad;
     return done;
 }
@@ -165,7 +173,8 @@ static const mw_bucket *bucket_of(const mw_buckets *buckets, uint32_t share, uin
 uint32_t mw__buckets_count(const mw_buckets *buckets, uint32_t range)
 {
     uint32_t sum = 0;
-    for (uint32_t s = 0; s < buckets->writers; s++) sum += bucket_size(bucket_of(buckets, s, range));
+    for (uint32_t s = 0; s < buckets->writers; s++)
+        sum += bucket_size(bucket_of(buckets, s, range));
     return sum;
 }
 

@@ -41,8 +41,8 @@ size_t mw__buckets_capacity(const mw_buckets *buckets);
  * becomes the first unusable triangle, and then the buckets are unusable, too; otherwise MW_NONE.
  * all_finite: are all vertices finite? A stage that takes 0.2 of the present part. Returns false
  * when out of memory, or cancelled. Release in either case. */
-bool mw__buckets_fill(mw_buckets *buckets, const mw_mesh *mesh, const mw_arrays *arrays, bool all_finite, mw_job *job,
-                      uint32_t *bad);
+bool mw__buckets_fill(mw_buckets *buckets, const mw_mesh *mesh, const mw_arrays *arrays,
+                      bool all_finite, mw_job *job, uint32_t *bad);
 void mw__buckets_release(mw_buckets *buckets);
 
 /* The number of triangles in a range. */

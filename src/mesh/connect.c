@@ -22,12 +22,13 @@ static MW_INLINE uint32_t edge_upper_vertex(const mw_triangle *t, uint32_t e)
 /* --- a mesh that fits the cache --- */
 
 /* The half-edges of lower vertex i: half[first[i]] up to, not including, half[first[i + 1]]. */
-static void half_edges_gather(const mw_triangle *tri, uint32_t n, uint32_t vertex_count, uint32_t *first,
-                              mw_half_edge *half)
+static void half_edges_gather(const mw_triangle *tri, uint32_t n, uint32_t vertex_count,
+                              uint32_t *first, mw_half_edge *half)
 {
     uint32_t sum = 0;
     for (uint32_t t = 0; t < n; t++)
-        for (uint32_t e = 0; e < 3 && mw__has_three_vertices(&tri[t]); e++) first[edge_lower_vertex(&tri[t], e)]++;
+        for (uint32_t e = 0; e < 3 && mw__has_three_vertices(&tri[t]); e++)
+            first[edge_lower_vertex(&tri[t], e)]++;
     for (uint32_t i = 0; i <= vertex_count; i++) first[i] = sum += first[i];
     for (uint32_t t = 0; t < n; t++)
         for (uint32_t e = 0; e < 3 && mw__has_three_vertices(&tri[t]); e++)
@@ -84,7 +85,8 @@ static uint32_t connect_share_begin(const connect_work *w, uint32_t share)
 static void connect_count_share(const connect_work *w, uint32_t share)
 {
     uint32_t *next = w->worker[share].next;
-    for (uint32_t t = connect_share_begin(w, share), end = connect_share_begin(w, share + 1); t < end; t++)
+    for (uint32_t t = connect_share_begin(w, share), end = connect_share_begin(w, share + 1);
+         t < end; t++)
         for (uint32_t e = 0; e < 3 && mw__has_three_vertices(&w->tri[t]); e++)
             next[edge_lower_vertex(&w->tri[t], e) >> w->shift]++;
 }
@@ -106,7 +108,8 @@ static void connect_sum_counts(const connect_work *w)
 static void connect_fill_share(const connect_work *w, uint32_t share)
 {
     uint32_t *next = w->worker[share].next;
-    for (uint32_t t = connect_share_begin(w, share), end = connect_share_begin(w, share + 1); t < end; t++)
+    for (uint32_t t = connect_share_begin(w, share), end = connect_share_begin(w, share + 1);
+         t < end; t++)
         for (uint32_t e = 0; e < 3 && mw__has_three_vertices(&w->tri[t]); e++)
             w->half[next[edge_lower_vertex(&w->tri[t], e) >> w->shift]++] = mw__link(t, e);
 }
@@ -117,7 +120,8 @@ static void connect_link_partition(const connect_work *w, connect_worker *worker
     if (base + size > w->vertex_count) size = w->vertex_count - base;
     mw_partition partition = {(uint32_t)base, (uint32_t)size, 0, 0};
     mw_strays all = {w->half + w->first[p], w->first[p + 1] - w->first[p]};
-    worker->done = worker->done && mw__partition_link(w->tri, partition, all, &worker->workspace, &worker->links);
+    worker->done = worker->done &&
+                   mw__partition_link(w->tri, partition, all, &worker->workspace, &worker->links);
 }
 
 static void connect_count_chunk(void *work, uint64_t share, uint32_t member)
@@ -158,8 +162,9 @@ static bool connect_work_create(connect_work *w)
     w->worker = mw__calloc(w->team, sizeof *w->worker);
     bool done = w->half && w->first && w->worker;
     for (uint32_t i = 0; i < w->team && done; i++) {
-        w->worker[i] = (connect_worker){
-            .next = mw__calloc(w->partitions, sizeof(uint32_t)), .links = mw__no_links(), .done = true};
+        w->worker[i] = (connect_worker){.next = mw__calloc(w->partitions, sizeof(uint32_t)),
+                                        .links = mw__no_links(),
+                                        .done = true};
         done = w->worker[i].next;
     }
     return done;
@@ -176,7 +181,8 @@ static void connect_work_release(connect_work *w)
     free(w->half);
 }
 
-static bool connect_by_partitions(mw_triangle *tri, uint32_t n, uint32_t vertex_count, mw_job *job, mw_links *links)
+static bool connect_by_partitions(mw_triangle *tri, uint32_t n, uint32_t vertex_count, mw_job *job,
+                                  mw_links *links)
 {
     connect_work w = {.tri = tri, .n = n, .vertex_count = vertex_count, .shift = PARTITION_SHIFT};
     w.team = mw__job_team(job, n / WORTHWHILE + 1);
@@ -193,8 +199,8 @@ bool mw__connect(mw_triangle *tri, uint32_t n, uint32_t vertex_count, mw_job *jo
 {
     mw_links found = mw__no_links();
     bool few = n < WORTHWHILE && vertex_count < WORTHWHILE;
-    bool done =
-        few ? connect_in_cache(tri, n, vertex_count, &found) : connect_by_partitions(tri, n, vertex_count, job, &found);
+    bool done = few ? connect_in_cache(tri, n, vertex_count, &found)
+                    : connect_by_partitions(tri, n, vertex_count, job, &found);
     if (links) *links = found;
     return done;
 }

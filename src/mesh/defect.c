@@ -7,8 +7,12 @@
 
 mw_defect mw__defect(mw_defect_kind kind, uint32_t triangle)
 {
-    return (mw_defect){
-        .kind = kind, .triangle = triangle, .other = MW_NONE, .vertex = MW_NONE, .edge = 255, .other_edge = 255};
+    return (mw_defect){.kind = kind,
+                       .triangle = triangle,
+                       .other = MW_NONE,
+                       .vertex = MW_NONE,
+                       .edge = 255,
+                       .other_edge = 255};
 }
 
 bool mw__defects_add(mw_defects *defects, mw_defect defect)
@@ -42,7 +46,8 @@ static int compare_defects(const void *left, const void *right)
 
 void mw__defects_sort(mw_defects *defects)
 {
-    if (defects->count > 1) qsort(defects->list, defects->count, sizeof *defects->list, compare_defects);
+    if (defects->count > 1)
+        qsort(defects->list, defects->count, sizeof *defects->list, compare_defects);
 }
 
 void mw__defects_release(mw_defects *defects)
@@ -77,11 +82,13 @@ const char *mw_defect_text(mw_defect_kind kind)
 static void defect_describe_overlap(const mw_defect *d, char *text, size_t size)
 {
     if (d->other == MW_NONE)
-        snprintf(text, size, "triangle %" PRIu32 ": other triangles cover it too, beside its edge %u", d->triangle,
-                 d->edge);
+        snprintf(text, size,
+                 "triangle %" PRIu32 ": other triangles cover it too, beside its edge %u",
+                 d->triangle, d->edge);
     else
         snprintf(text, size,
-                 "triangle %" PRIu32 ": overlaps triangle %" PRIu32 ", which lies on the same side of edge %u",
+                 "triangle %" PRIu32 ": overlaps triangle %" PRIu32
+                 ", which lies on the same side of edge %u",
                  d->triangle, d->other, d->edge);
 }
 
@@ -92,25 +99,32 @@ static void defect_describe_in_space(const mw_defect *d, char *text, size_t size
     unsigned e = d->edge;
     switch (d->kind) {
     case MW_DEFECT_CLASHING:
-        snprintf(text, size, "triangle %" PRIu32 ": triangle %" PRIu32 " at edge %u is oriented differently", t,
+        snprintf(text, size,
+                 "triangle %" PRIu32 ": triangle %" PRIu32 " at edge %u is oriented differently", t,
                  d->other, e);
         return;
     case MW_DEFECT_OPEN_EDGE:
-        snprintf(text, size, "triangle %" PRIu32 ": edge %u has no neighbour: the polyhedron is not closed", t, e);
+        snprintf(text, size,
+                 "triangle %" PRIu32 ": edge %u has no neighbour: the polyhedron is not closed", t,
+                 e);
         return;
     case MW_DEFECT_THROUGH_CENTRE:
         snprintf(text, size, "triangle %" PRIu32 ": its plane passes through the centre", t);
         return;
     case MW_DEFECT_BACK_FACING:
         if (d->other == MW_NONE)
-            snprintf(text, size, "triangle %" PRIu32 ": turns its back to the centre, unlike most", t);
+            snprintf(text, size, "triangle %" PRIu32 ": turns its back to the centre, unlike most",
+                     t);
         else
             snprintf(text, size,
-                     "triangle %" PRIu32 ": turns its back to the centre, seen from triangle %" PRIu32 " at edge %u", t,
-                     d->other, e);
+                     "triangle %" PRIu32
+                     ": turns its back to the centre, seen from triangle %" PRIu32 " at edge %u",
+                     t, d->other, e);
         return;
     case MW_DEFECT_COVERED:
-        snprintf(text, size, "triangle %" PRIu32 ": a ray from the centre meets it and triangle %" PRIu32, t, d->other);
+        snprintf(text, size,
+                 "triangle %" PRIu32 ": a ray from the centre meets it and triangle %" PRIu32, t,
+                 d->other);
         return;
     default: return;
     }
@@ -134,23 +148,28 @@ void mw_defect_describe(const mw_defect *d, char *text, size_t size)
         snprintf(text, size, "triangle %" PRIu32 ": vertex %" PRIu32 " stands in it twice", t, v);
         return;
     case MW_DEFECT_NON_MANIFOLD_EDGE:
-        snprintf(text, size, "triangle %" PRIu32 ": two others share its edge %u, one is triangle %" PRIu32, t, e,
-                 d->other);
+        snprintf(text, size,
+                 "triangle %" PRIu32 ": two others share its edge %u, one is triangle %" PRIu32, t,
+                 e, d->other);
         return;
     case MW_DEFECT_FOLDED:
-        snprintf(text, size, "triangle %" PRIu32 ": triangle %" PRIu32 " is folded back onto it at edge %u", t,
+        snprintf(text, size,
+                 "triangle %" PRIu32 ": triangle %" PRIu32 " is folded back onto it at edge %u", t,
                  d->other, e);
         return;
     case MW_DEFECT_WINDING:
-        snprintf(text, size, "triangle %" PRIu32 ": the triangles round its vertex %" PRIu32 " turn more than once", t,
-                 v);
+        snprintf(text, size,
+                 "triangle %" PRIu32 ": the triangles round its vertex %" PRIu32
+                 " turn more than once",
+                 t, v);
         return;
     case MW_DEFECT_CROSSING:
-        snprintf(text, size, "triangle %" PRIu32 ": edge %u crosses edge %u of triangle %" PRIu32, t, e, d->other_edge,
-                 d->other);
+        snprintf(text, size, "triangle %" PRIu32 ": edge %u crosses edge %u of triangle %" PRIu32,
+                 t, e, d->other_edge, d->other);
         return;
     case MW_DEFECT_VERTEX_IN_EDGE:
-        snprintf(text, size, "triangle %" PRIu32 ": vertex %" PRIu32 " lies inside edge %u", t, v, e);
+        snprintf(text, size, "triangle %" PRIu32 ": vertex %" PRIu32 " lies inside edge %u", t, v,
+                 e);
         return;
     case MW_DEFECT_OVERLAP: defect_describe_overlap(d, text, size); return;
     case MW_DEFECT_FLAT: snprintf(text, size, "triangle %" PRIu32 ": has no area", t); return;

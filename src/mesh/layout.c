@@ -93,7 +93,8 @@ bool mw__mesh_set_points(mw_mesh *mesh, const mw_point *given, uint32_t *order, 
 
 bool mw__mesh_lay_out_vertices(mw_mesh *mesh, mw_job *job)
 {
-    if (mesh->vertex_number || !mw__points_are_scattered(mesh->point, mesh->point_count)) return true;
+    if (mesh->vertex_number || !mw__points_are_scattered(mesh->point, mesh->point_count))
+        return true;
     uint32_t *order = mw__alloc_lines(mesh->point_count, sizeof *order);
     mw_job_span outer = mw__job_part(job, 0.7);
     bool ordered = order && mw__points_order(mesh->point, mesh->point_count, job, order);
@@ -131,10 +132,12 @@ typedef struct point_reading {
 static void points_read(void *work, uint64_t from, uint64_t to)
 {
     const point_reading *r = work;
-    for (uint64_t i = from; i < to; i++) r->to[i] = (mw_point){r->from[i * r->stride], r->from[i * r->stride + 1]};
+    for (uint64_t i = from; i < to; i++)
+        r->to[i] = (mw_point){r->from[i * r->stride], r->from[i * r->stride + 1]};
 }
 
-const mw_point *mw__points_read(const double *from, size_t stride, uint32_t n, mw_job *job, mw_point **copy)
+const mw_point *mw__points_read(const double *from, size_t stride, uint32_t n, mw_job *job,
+                                mw_point **copy)
 {
     *copy = NULL;
     if (stride == 0 || stride == 2) return (const mw_point *)from;
@@ -177,7 +180,8 @@ static bool layout_vertices(mesh_layout *l)
     mw_point *copy;
     mw_key *keys = l->scratch;
     mw__job_stage(l->job, "reading points", 0.05);
-    const mw_point *given = mw__points_read(l->arrays->points, l->arrays->point_stride, n, l->job, &copy);
+    const mw_point *given =
+        mw__points_read(l->arrays->points, l->arrays->point_stride, n, l->job, &copy);
     bool done = given || n == 0;
     if (done) {
         mw__job_stage(l->job, "measuring the extent", 0.05);
@@ -196,8 +200,9 @@ static bool layout_vertices(mesh_layout *l)
 static void layout_choose_buckets(mesh_layout *l)
 {
     mw_buckets *p = &l->buckets;
-    *p = (mw_buckets){
-        .shift = PARTITION_SHIFT, .writers = mw__job_team(l->job, MOST_THREADS), .triangle_count = l->mesh->tri_count};
+    *p = (mw_buckets){.shift = PARTITION_SHIFT,
+                      .writers = mw__job_team(l->job, MOST_THREADS),
+                      .triangle_count = l->mesh->tri_count};
     while (l->mesh->point_count >> p->shift >= MOST_PARTITIONS) p->shift++;
     p->ranges = (l->mesh->point_count >> p->shift) + 1;
 }
@@ -214,7 +219,8 @@ static bool layout_allocate(mesh_layout *l)
     return l->scratch && mesh->tri && mesh->triangle_slot;
 }
 
-mw_status mw__mesh_lay_out(mw_mesh *mesh, const mw_arrays *arrays, mw_job *job, mw_links *links, mw_error *error)
+mw_status mw__mesh_lay_out(mw_mesh *mesh, const mw_arrays *arrays, mw_job *job, mw_links *links,
+                           mw_error *error)
 {
     mesh_layout l = {.mesh = mesh, .arrays = arrays, .job = job};
     layout_choose_buckets(&l);

@@ -16,10 +16,11 @@ bool mw__arrays_are_scattered(const mw_arrays *arrays);
 /* Are consecutive points far apart in the plane? Looks at a sample. */
 bool mw__points_are_scattered(const mw_point *points, uint32_t n);
 
-/* Points that lie `stride` doubles apart (0: 2) as the library has them: the caller's own array if it
- * is packed, else *copy, which is to be released in any case. Steps of the present stage. NULL when
- * out of memory, or cancelled; or if `from` is NULL. */
-const mw_point *mw__points_read(const double *from, size_t stride, uint32_t n, mw_job *job, mw_point **copy);
+/* Points that lie `stride` doubles apart (0: 2) as the library has them: the caller's own array if
+ * it is packed, else *copy, which is to be released in any case. Steps of the present stage. NULL
+ * when out of memory, or cancelled; or if `from` is NULL. */
+const mw_point *mw__points_read(const double *from, size_t stride, uint32_t n, mw_job *job,
+                                mw_point **copy);
 
 /* Copy the points into a mesh without points. Its triangles name vertices by slot: slot i gets
  * point order[i]. NULL: slots are numbers; else the mesh takes ownership of `order`. Steps of the
@@ -34,6 +35,7 @@ bool mw__mesh_lay_out_vertices(mw_mesh *mesh, mw_job *job);
 /* Fill in points and linked triangles in their new order, with slots and numbers. MW_ERROR_INPUT
  * names the first unusable triangle; MW_ERROR_MEMORY, also if the job is cancelled. Stages of the
  * present part of the job. */
-mw_status mw__mesh_lay_out(mw_mesh *mesh, const mw_arrays *arrays, mw_job *job, mw_links *links, mw_error *error);
+mw_status mw__mesh_lay_out(mw_mesh *mesh, const mw_arrays *arrays, mw_job *job, mw_links *links,
+                           mw_error *error);
 
 #endif

@@ -21,7 +21,8 @@ enum { FEW = 32 }; /* so many half-edges at a vertex are compared pair by pair *
 
 /* Join the half-edges of one lower vertex by comparing all pairs. Returns false and changes nothing
  * where an edge has more than two halves. */
-static MW_INLINE bool half_edges_match_few(mw_triangle *tri, const mw_half_edge *half, uint32_t count, mw_links *links)
+static MW_INLINE bool half_edges_match_few(mw_triangle *tri, const mw_half_edge *half,
+                                           uint32_t count, mw_links *links)
 {
     uint32_t mate[FEW];
     for (uint32_t i = 0; i < count; i++) {
@@ -62,7 +63,8 @@ void mw__links_note_extra(const mw_triangle *tri, uint32_t half, uint32_t *extra
 
 /* The same for many half-edges, or for an edge with more than two: joins the first two in the
  * user's order. */
-static bool half_edges_match_many(mw_triangle *tri, const mw_half_edge *half, uint32_t count, mw_links *links)
+static bool half_edges_match_many(mw_triangle *tri, const mw_half_edge *half, uint32_t count,
+                                  mw_links *links)
 {
     ranked_half_edge *ranked = mw__alloc(count, sizeof *ranked);
     if (!ranked) return false;
@@ -72,13 +74,15 @@ static bool half_edges_match_many(mw_triangle *tri, const mw_half_edge *half, ui
     for (uint32_t i = 0, next; i < count; i = next) {
         for (next = i + 1; next < count && ranked[next].to == ranked[i].to;) next++;
         if (next - i > 1) half_edges_join(tri, ranked[i].half, ranked[i + 1].half, links);
-        for (uint32_t j = i + 2; j < next; j++) mw__links_note_extra(tri, ranked[j].half, &links->extra);
+        for (uint32_t j = i + 2; j < next; j++)
+            mw__links_note_extra(tri, ranked[j].half, &links->extra);
     }
     free(ranked);
     return true;
 }
 
-bool mw__half_edges_match(mw_triangle *tri, const mw_half_edge *half, uint32_t count, mw_links *links)
+bool mw__half_edges_match(mw_triangle *tri, const mw_half_edge *half, uint32_t count,
+                          mw_links *links)
 {
     return (count <= FEW && half_edges_match_few(tri, half, count, links)) ||
            half_edges_match_many(tri, half, count, links);
@@ -91,12 +95,13 @@ void mw__links_add(const mw_triangle *tri, const mw_links *more, mw_links *links
     if (more->extra != MW_NONE) mw__links_note_extra(tri, more->extra, &links->extra);
 }
 
-mw_status mw__fail_non_manifold_edge(const mw_triangle *tri, uint32_t extra, uint32_t from, uint32_t to,
-                                     mw_error *error)
+mw_status mw__fail_non_manifold_edge(const mw_triangle *tri, uint32_t extra, uint32_t from,
+                                     uint32_t to, mw_error *error)
 {
     uint32_t user = tri[mw__link_triangle(extra)].user;
     return mw__fail_at(error, user & MW_USER_MASK, from,
-                       "triangle %" PRIu32 ": two others share its edge %" PRIu32 ", from vertex %" PRIu32
-                       " to %" PRIu32,
-                       user & MW_USER_MASK, mw__user_local_edge(user, mw__link_edge(extra)), from, to);
+                       "triangle %" PRIu32 ": two others share its edge %" PRIu32
+                       ", from vertex %" PRIu32 " to %" PRIu32,
+                       user & MW_USER_MASK, mw__user_local_edge(user, mw__link_edge(extra)), from,
+                       to);
 }

@@ -33,13 +33,14 @@ void mw__links_add(const mw_triangle *tri, const mw_links *more, mw_links *links
 
 /* The error of an edge with more than two triangles. `extra` is a link to the third; `from` and
  * `to` are the user's numbers of the vertices. */
-mw_status mw__fail_non_manifold_edge(const mw_triangle *tri, uint32_t extra, uint32_t from, uint32_t to,
-                                     mw_error *error);
+mw_status mw__fail_non_manifold_edge(const mw_triangle *tri, uint32_t extra, uint32_t from,
+                                     uint32_t to, mw_error *error);
 
 /* Link the half-edges of one lower vertex, any number of them. Where an edge has more than two, the
  * first two in the user's order are joined and the others noted. Adds the results to *links.
  * Returns false when out of memory. */
-bool mw__half_edges_match(mw_triangle *tri, const mw_half_edge *half, uint32_t count, mw_links *links);
+bool mw__half_edges_match(mw_triangle *tri, const mw_half_edge *half, uint32_t count,
+                          mw_links *links);
 
 /* Note a third or further half-edge of an edge: the first in the user's order becomes *extra. */
 void mw__links_note_extra(const mw_triangle *tri, uint32_t half, uint32_t *extra);

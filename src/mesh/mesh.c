@@ -40,10 +40,12 @@ void mw_mesh_vertex(const mw_mesh *mesh, uint32_t vertex, double point[2])
 void mw_mesh_triangle(const mw_mesh *mesh, uint32_t triangle, uint32_t vertices[3])
 {
     const mw_triangle *t = &mesh->tri[mw__triangle_slot(mesh, triangle)];
-    for (uint32_t k = 0; k < 3; k++) vertices[mw__user_local_vertex(t->user, k)] = mw__vertex_number(mesh, t->v[k]);
+    for (uint32_t k = 0; k < 3; k++)
+        vertices[mw__user_local_vertex(t->user, k)] = mw__vertex_number(mesh, t->v[k]);
 }
 
-uint32_t mw_mesh_neighbour(const mw_mesh *mesh, uint32_t triangle, unsigned local_edge, unsigned *edge)
+uint32_t mw_mesh_neighbour(const mw_mesh *mesh, uint32_t triangle, unsigned local_edge,
+                           unsigned *edge)
 {
     const mw_triangle *t = &mesh->tri[mw__triangle_slot(mesh, triangle)];
     /* The exchange is its own inverse. */
@@ -56,14 +58,15 @@ uint32_t mw_mesh_neighbour(const mw_mesh *mesh, uint32_t triangle, unsigned loca
 
 size_t mw_mesh_bytes(const mw_mesh *mesh)
 {
-    size_t vertex = sizeof *mesh->point + mesh->field_count * sizeof(double), triangle = sizeof *mesh->tri;
+    size_t vertex = sizeof *mesh->point + mesh->field_count * sizeof(double),
+           triangle = sizeof *mesh->tri;
     if (mesh->vertex_slot) vertex += sizeof *mesh->vertex_slot + sizeof *mesh->vertex_number;
     if (mesh->triangle_slot) triangle += sizeof *mesh->triangle_slot;
     return sizeof *mesh + mesh->point_count * vertex + mesh->tri_count * triangle +
            mesh->field_count * sizeof *mesh->field;
 }
 
-/* --- fields ------------------------------------------------------------------------------------ */
+/* --- fields ----------------------------------------------------------------------------------- */
 
 static mw_field *mesh_find_field(const mw_mesh *mesh, const char *name)
 {
@@ -92,7 +95,8 @@ static mw_field *add_field(mw_mesh *mesh, const char *name)
     return field;
 }
 
-mw_status mw_mesh_set_field(mw_mesh *mesh, const char *name, const double *values, size_t stride, mw_error *error)
+mw_status mw_mesh_set_field(mw_mesh *mesh, const char *name, const double *values, size_t stride,
+                            mw_error *error)
 {
     if (!mesh || !name || (!values && mesh->point_count))
         return mw__fail(error, MW_ERROR_ARGUMENT, "a field needs a mesh, a name and values");

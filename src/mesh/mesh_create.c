@@ -19,7 +19,8 @@ static void mesh_copy_points(void *work, uint64_t from, uint64_t to)
     const mesh_filling *f = work;
     size_t stride = f->arrays->point_stride ? f->arrays->point_stride : 2;
     const double *points = f->arrays->points;
-    for (uint64_t i = from; i < to; i++) f->mesh->point[i] = (mw_point){points[i * stride], points[i * stride + 1]};
+    for (uint64_t i = from; i < to; i++)
+        f->mesh->point[i] = (mw_point){points[i * stride], points[i * stride + 1]};
 }
 
 /* Store the triangle counter-clockwise. Returns its signed area as the user gave it: twice the
@@ -27,7 +28,8 @@ static void mesh_copy_points(void *work, uint64_t from, uint64_t to)
 static double triangle_orient(const mw_mesh *mesh, mw_triangle *t)
 {
     mw_point a = mesh->point[t->v[0]], b = mesh->point[t->v[1]], c = mesh->point[t->v[2]];
-    double area = mw__is_finite(a) && mw__is_finite(b) && mw__is_finite(c) ? mw__orient2d(a, b, c) : 0;
+    double area =
+        mw__is_finite(a) && mw__is_finite(b) && mw__is_finite(c) ? mw__orient2d(a, b, c) : 0;
     if (area >= 0) return area;
     uint32_t v = t->v[1];
     t->v[1] = t->v[2];
@@ -61,8 +63,8 @@ static void mesh_copy_triangles(void *work, uint64_t from, uint64_t to)
 static mw_status mesh_refuse_non_manifold_edge(const mw_mesh *mesh, uint32_t extra, mw_error *error)
 {
     const uint32_t *v = &mesh->tri[mw__link_triangle(extra)].v[mw__link_edge(extra)];
-    return mw__fail_non_manifold_edge(mesh->tri, extra, mw__vertex_number(mesh, v[0]), mw__vertex_number(mesh, v[1]),
-                                      error);
+    return mw__fail_non_manifold_edge(mesh->tri, extra, mw__vertex_number(mesh, v[0]),
+                                      mw__vertex_number(mesh, v[1]), error);
 }
 
 static mw_status mesh_copy_all(mesh_filling *f, mw_job *job, mw_error *error)
@@ -71,15 +73,18 @@ static mw_status mesh_copy_all(mesh_filling *f, mw_job *job, mw_error *error)
     mw__job_stage(job, "copying points", 0.1);
     if (!mw__job_ranges(job, mesh->point_count, mesh_copy_points, f)) return mw__fail_memory(error);
     mw__job_stage(job, "copying triangles", 0.3);
-    if (!mw__job_ranges(job, mesh->tri_count, mesh_copy_triangles, f)) return mw__fail_memory(error);
+    if (!mw__job_ranges(job, mesh->tri_count, mesh_copy_triangles, f))
+        return mw__fail_memory(error);
     mesh->flat_count = f->flat;
     mesh->reversed_count = f->reversed;
-    return f->bad == MW_NONE ? MW_OK
-                             : mw__copy_triangle(f->arrays, 2, mesh->tolerant, f->bad, &mesh->tri[f->bad], error);
+    return f->bad == MW_NONE
+               ? MW_OK
+               : mw__copy_triangle(f->arrays, 2, mesh->tolerant, f->bad, &mesh->tri[f->bad], error);
 }
 
 /* Keep the order of the arrays. */
-static mw_status mesh_copy_arrays(mw_mesh *mesh, const mw_arrays *arrays, mw_job *job, mw_links *links, mw_error *error)
+static mw_status mesh_copy_arrays(mw_mesh *mesh, const mw_arrays *arrays, mw_job *job,
+                                  mw_links *links, mw_error *error)
 {
     mesh->point = mw__alloc_lines(mesh->point_count, sizeof *mesh->point);
     mesh->tri = mw__alloc_lines(mesh->tri_count, sizeof *mesh->tri);
@@ -95,24 +100,27 @@ static mw_status mesh_copy_arrays(mw_mesh *mesh, const mw_arrays *arrays, mw_job
     return status;
 }
 
-static mw_status mesh_fill(mw_mesh *mesh, const mw_arrays *arrays, const mw_mesh_options *options, mw_job *job,
-                           mw_error *error)
+static mw_status mesh_fill(mw_mesh *mesh, const mw_arrays *arrays, const mw_mesh_options *options,
+                           mw_job *job, mw_error *error)
 {
-    bool lay_out =
-        !mesh->tolerant && (options->layout == 1 || (options->layout == 0 && mw__arrays_are_scattered(arrays)));
+    bool lay_out = !mesh->tolerant && (options->layout == 1 ||
+                                       (options->layout == 0 && mw__arrays_are_scattered(arrays)));
     mw_links links = mw__no_links();
     mw_status status = lay_out ? mw__mesh_lay_out(mesh, arrays, job, &links, error)
                                : mesh_copy_arrays(mesh, arrays, job, &links, error);
     if (status) return status;
     mesh->opposite = links.opposite;
     mesh->border_count = (uint32_t)(3 * (uint64_t)mesh->tri_count - links.linked);
-    return links.extra == MW_NONE || mesh->tolerant ? MW_OK : mesh_refuse_non_manifold_edge(mesh, links.extra, error);
+    return links.extra == MW_NONE || mesh->tolerant
+               ? MW_OK
+               : mesh_refuse_non_manifold_edge(mesh, links.extra, error);
 }
 
-mw_status mw__mesh_create(const mw_arrays *arrays, const mw_mesh_options *options, mw_job *job, mw_mesh **out,
-                          mw_error *error)
+mw_status mw__mesh_create(const mw_arrays *arrays, const mw_mesh_options *options, mw_job *job,
+                          mw_mesh **out, mw_error *error)
 {
-    if (options->layout < 0 || options->layout > 2) return mw__fail(error, MW_ERROR_ARGUMENT, "unknown layout");
+    if (options->layout < 0 || options->layout > 2)
+        return mw__fail(error, MW_ERROR_ARGUMENT, "unknown layout");
     mw_status status = MW_RESERVED_CHECK(mw_mesh_options, options, error);
     if (!status) status = mw__arrays_validate(arrays, 2, error);
     if (status) return status;
@@ -129,7 +137,8 @@ mw_status mw__mesh_create(const mw_arrays *arrays, const mw_mesh_options *option
     return status;
 }
 
-mw_status mw_mesh_create(const mw_arrays *arrays, const mw_mesh_options *options, mw_mesh **out, mw_error *error)
+mw_status mw_mesh_create(const mw_arrays *arrays, const mw_mesh_options *options, mw_mesh **out,
+                         mw_error *error)
 {
     static const mw_mesh_options defaults;
     if (!options) options = &defaults;

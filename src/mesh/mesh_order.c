@@ -13,8 +13,8 @@ static void corners_extent_widen(double low[2], double high[2], mw_point p)
     if (p.y > high[1]) high[1] = p.y;
 }
 
-void mw__triangles_extent(const mw_point *point, const mw_triangle *tri, uint32_t tri_count, double low[2],
-                          double high[2])
+void mw__triangles_extent(const mw_point *point, const mw_triangle *tri, uint32_t tri_count,
+                          double low[2], double high[2])
 {
     low[0] = low[1] = INFINITY;
     high[0] = high[1] = -INFINITY;
@@ -22,9 +22,11 @@ void mw__triangles_extent(const mw_point *point, const mw_triangle *tri, uint32_
         for (int k = 0; k < 3; k++) corners_extent_widen(low, high, point[tri[t].v[k]]);
 }
 
-bool mw__triangles_order(const mw_point *point, const mw_triangle *tri, uint32_t tri_count, uint32_t *order)
+bool mw__triangles_order(const mw_point *point, const mw_triangle *tri, uint32_t tri_count,
+                         uint32_t *order)
 {
-    mw_key *key = mw__alloc(tri_count, sizeof *key), *scratch = mw__alloc(tri_count, sizeof *scratch);
+    mw_key *key = mw__alloc(tri_count, sizeof *key),
+           *scratch = mw__alloc(tri_count, sizeof *scratch);
     bool done = key && scratch;
     if (done) {
         double low[2], high[2];
@@ -32,7 +34,8 @@ bool mw__triangles_order(const mw_point *point, const mw_triangle *tri, uint32_t
         mw_hilbert hilbert = mw__hilbert(low, high);
         for (uint32_t t = 0; t < tri_count; t++) {
             mw_point a = point[tri[t].v[0]], b = point[tri[t].v[1]], c = point[tri[t].v[2]];
-            key[t].key = mw__hilbert_key(&hilbert, a.x / 3 + b.x / 3 + c.x / 3, a.y / 3 + b.y / 3 + c.y / 3);
+            key[t].key =
+                mw__hilbert_key(&hilbert, a.x / 3 + b.x / 3 + c.x / 3, a.y / 3 + b.y / 3 + c.y / 3);
             key[t].item = t;
         }
         mw__sort_keys(key, scratch, tri_count);
@@ -63,16 +66,20 @@ bool mw__vertices_order(const mw_triangle *tri, const uint32_t *triangle_order, 
 
 static void order_to_user_numbers(const mw_mesh *mesh, uint32_t *triangles, uint32_t *vertices)
 {
-    for (uint32_t i = 0; triangles && i < mesh->tri_count; i++) triangles[i] = mw__triangle_number(mesh, triangles[i]);
-    for (uint32_t i = 0; vertices && i < mesh->point_count; i++) vertices[i] = mw__vertex_number(mesh, vertices[i]);
+    for (uint32_t i = 0; triangles && i < mesh->tri_count; i++)
+        triangles[i] = mw__triangle_number(mesh, triangles[i]);
+    for (uint32_t i = 0; vertices && i < mesh->point_count; i++)
+        vertices[i] = mw__vertex_number(mesh, vertices[i]);
 }
 
-mw_status mw_mesh_hilbert_order(const mw_mesh *mesh, uint32_t *triangles, uint32_t *vertices, mw_error *error)
+mw_status mw_mesh_hilbert_order(const mw_mesh *mesh, uint32_t *triangles, uint32_t *vertices,
+                                mw_error *error)
 {
     if (!mesh) return mw__fail(error, MW_ERROR_ARGUMENT, "no mesh");
     uint32_t *order = triangles ? triangles : mw__alloc(mesh->tri_count, sizeof *order);
     bool done = order && mw__triangles_order(mesh->point, mesh->tri, mesh->tri_count, order);
-    if (done && vertices) done = mw__vertices_order(mesh->tri, order, mesh->tri_count, mesh->point_count, vertices);
+    if (done && vertices)
+        done = mw__vertices_order(mesh->tri, order, mesh->tri_count, mesh->point_count, vertices);
     if (done) order_to_user_numbers(mesh, triangles, vertices);
     if (!triangles) free(order);
     return done ? MW_OK : mw__fail_memory(error);

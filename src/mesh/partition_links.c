@@ -42,7 +42,8 @@ typedef struct mw_vertex_block {
 
 /* --- blocks --- */
 
-static MW_INLINE mw_vertex_block *block_of(mw_vertex_block *block, mw_partition partition, uint32_t vertex)
+static MW_INLINE mw_vertex_block *block_of(mw_vertex_block *block, mw_partition partition,
+                                           uint32_t vertex)
 {
     return &block[(vertex - partition.base) >> BLOCK_SHIFT];
 }
@@ -58,22 +59,26 @@ static MW_INLINE uint32_t triangle_low_corner(const uint32_t v[3])
 static MW_INLINE const uint32_t *stray_ends(const mw_triangle *tri, mw_strays strays, uint32_t i)
 {
     enum { AHEAD = 16 };
-    if (i + AHEAD < strays.count) __builtin_prefetch(&tri[mw__link_triangle(strays.half[i + AHEAD])]);
+    if (i + AHEAD < strays.count)
+        __builtin_prefetch(&tri[mw__link_triangle(strays.half[i + AHEAD])]);
     return &tri[mw__link_triangle(strays.half[i])].v[mw__link_edge(strays.half[i])];
 }
 
-static MW_INLINE void block_count_other(mw_vertex_block *block, mw_partition partition, uint32_t from, uint32_t to)
+static MW_INLINE void block_count_other(mw_vertex_block *block, mw_partition partition,
+                                        uint32_t from, uint32_t to)
 {
     block_of(block, partition, from < to ? from : to)->next[from < to]++;
 }
 
-static void blocks_count_edges(const mw_triangle *tri, mw_partition partition, mw_strays strays, mw_vertex_block *block)
+static void blocks_count_edges(const mw_triangle *tri, mw_partition partition, mw_strays strays,
+                               mw_vertex_block *block)
 {
     for (uint32_t t = partition.first; t < partition.end; t++) {
         const uint32_t *v = tri[t].v;
         uint32_t k = triangle_low_corner(v), x = v[k + 1], y = v[mw__prev(k)];
         block_of(block, partition, v[k])->triangles = t + 1 - partition.first;
-        if (MW_LIKELY(mw__partition_has(partition, x < y ? x : y))) block_count_other(block, partition, x, y);
+        if (MW_LIKELY(mw__partition_has(partition, x < y ? x : y)))
+            block_count_other(block, partition, x, y);
     }
     for (uint32_t i = 0; i < strays.count; i++) {
         const uint32_t *ends = stray_ends(tri, strays, i);
@@ -104,15 +109,16 @@ static MW_INLINE void entry_put(mw_edge_entry *to, uint32_t lower, uint32_t uppe
     to->half = half;
 }
 
-static MW_INLINE void entry_put_other(mw_edge_entry *entry, mw_vertex_block *block, mw_partition partition,
-                                      uint32_t from, uint32_t to, uint32_t half)
+static MW_INLINE void entry_put_other(mw_edge_entry *entry, mw_vertex_block *block,
+                                      mw_partition partition, uint32_t from, uint32_t to,
+                                      uint32_t half)
 {
     uint32_t low = from < to ? from : to, high = from < to ? to : from;
     entry_put(&entry[block_of(block, partition, low)->next[from < to]++], low, high, half);
 }
 
-static void entries_fill(const mw_triangle *tri, mw_partition partition, mw_strays strays, mw_vertex_block *block,
-                         mw_edge_entry *entry)
+static void entries_fill(const mw_triangle *tri, mw_partition partition, mw_strays strays,
+                         mw_vertex_block *block, mw_edge_entry *entry)
 {
     for (uint32_t t = partition.first; t < partition.end; t++) {
         const uint32_t *v = tri[t].v;
@@ -160,8 +166,8 @@ static bool entry_is_double(const mw_edge_entry *entry, uint32_t from, uint32_t 
 /* Every half-edge that goes up looks for its mate. Those without a mate move to the front, so that
  * two of the same edge are found among them. Returns false where an edge has more than two halves,
  * or two that both go up. */
-static bool entries_find_mates(mw_triangle *tri, mw_edge_entry *entry, const uint32_t *table, const mw_vertex_block *b,
-                               mw_links *links)
+static bool entries_find_mates(mw_triangle *tri, mw_edge_entry *entry, const uint32_t *table,
+                               const mw_vertex_block *b, mw_links *links)
 {
     uint32_t end = b->next[1], single = b->middle;
     for (uint32_t i = b->middle; i < end; i++) {
@@ -185,8 +191,8 @@ static bool entries_find_mates(mw_triangle *tri, mw_edge_entry *entry, const uin
 
 /* Group the half-edges of the block by their lower vertices. Those of vertex i of the block go to
  * half[first[i]] up to, not including, half[first[i + 1]]. Removes the links that they have. */
-static void block_split_by_vertex(mw_triangle *tri, const mw_edge_entry *entry, uint32_t n, mw_half_edge *half,
-                                  uint32_t *first)
+static void block_split_by_vertex(mw_triangle *tri, const mw_edge_entry *entry, uint32_t n,
+                                  mw_half_edge *half, uint32_t *first)
 {
     uint32_t next[BLOCK] = {0}, sum = 0;
     for (uint32_t i = 0; i < n; i++) next[(entry[i].key >> 32) % BLOCK]++;
@@ -198,12 +204,14 @@ static void block_split_by_vertex(mw_triangle *tri, const mw_edge_entry *entry, 
     first[BLOCK] = sum;
     for (uint32_t i = 0; i < n; i++) {
         *mw__half_edge_link(tri, entry[i].half) = MW_NONE;
-        half[next[(entry[i].key >> 32) % BLOCK]++] = (mw_half_edge){(uint32_t)entry[i].key, entry[i].half};
+        half[next[(entry[i].key >> 32) % BLOCK]++] =
+            (mw_half_edge){(uint32_t)entry[i].key, entry[i].half};
     }
 }
 
 /* Match any half-edges, linked or not. */
-static bool block_match_each(mw_triangle *tri, const mw_edge_entry *entry, const mw_vertex_block *b, mw_links *links)
+static bool block_match_each(mw_triangle *tri, const mw_edge_entry *entry, const mw_vertex_block *b,
+                             mw_links *links)
 {
     uint32_t n = b->next[1] - b->from, first[BLOCK + 1];
     mw_half_edge *half = mw__alloc(n, sizeof *half);
@@ -216,7 +224,8 @@ static bool block_match_each(mw_triangle *tri, const mw_edge_entry *entry, const
     return done;
 }
 
-static bool block_match(mw_triangle *tri, const mw_link_workspace *workspace, const mw_vertex_block *b, mw_links *links)
+static bool block_match(mw_triangle *tri, const mw_link_workspace *workspace,
+                        const mw_vertex_block *b, mw_links *links)
 {
     mw_edge_entry *entry = workspace->entry;
     bool simple = b->next[1] - b->from <= MOST_ENTRIES && table_enter(entry, workspace->table, b) &&
@@ -240,12 +249,13 @@ static bool link_workspace_reserve(mw_link_workspace *workspace, size_t entries,
         workspace->block = mw__alloc_lines(workspace->blocks, sizeof *workspace->block);
         if (!workspace->block) workspace->blocks = 0;
     }
-    if (!workspace->table) workspace->table = mw__alloc_lines((size_t)1 << TABLE_BITS, sizeof *workspace->table);
+    if (!workspace->table)
+        workspace->table = mw__alloc_lines((size_t)1 << TABLE_BITS, sizeof *workspace->table);
     return workspace->entry && workspace->block && workspace->table;
 }
 
-bool mw__partition_link(mw_triangle *tri, mw_partition partition, mw_strays strays, mw_link_workspace *workspace,
-                        mw_links *links)
+bool mw__partition_link(mw_triangle *tri, mw_partition partition, mw_strays strays,
+                        mw_link_workspace *workspace, mw_links *links)
 {
     uint32_t blocks = (partition.size >> BLOCK_SHIFT) + 1;
     size_t entries = 3 * (size_t)(partition.end - partition.first) + strays.count + 1;
@@ -257,7 +267,8 @@ bool mw__partition_link(mw_triangle *tri, mw_partition partition, mw_strays stra
     blocks_sum_counts(partition, blocks, workspace->block);
     entries_fill(tri, partition, strays, workspace->block, workspace->entry);
     bool done = true;
-    for (uint32_t i = 0; i < blocks && done; i++) done = block_match(tri, workspace, &workspace->block[i], links);
+    for (uint32_t i = 0; i < blocks && done; i++)
+        done = block_match(tri, workspace, &workspace->block[i], links);
     return done;
 }
 

@@ -34,8 +34,8 @@ typedef struct mw_link_workspace {
 /* Link the triangles of a partition, which have no links yet, and the strays, along the edges whose
  * lower vertex is in the partition. Adds the results to *links. The workspace is zero at first.
  * Returns false when out of memory. */
-bool mw__partition_link(mw_triangle *tri, mw_partition partition, mw_strays strays, mw_link_workspace *workspace,
-                        mw_links *links);
+bool mw__partition_link(mw_triangle *tri, mw_partition partition, mw_strays strays,
+                        mw_link_workspace *workspace, mw_links *links);
 void mw__link_workspace_release(mw_link_workspace *workspace);
 
 #endif

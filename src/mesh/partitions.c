@@ -56,13 +56,16 @@ static mw_partition partition_of(const partition_work *w, uint32_t p)
 /* --- sorting --- */
 
 /* Find where the triangles of each vertex begin. */
-static void partition_count_triangles(const partition_work *w, uint32_t p, mw_partition partition, uint32_t *next)
+static void partition_count_triangles(const partition_work *w, uint32_t p, mw_partition partition,
+                                      uint32_t *next)
 {
     uint32_t n, sum = partition.first;
     const mw_raw_triangle *c;
     for (uint32_t i = 0; i < partition.size; i++) next[i] = 0;
-    for (mw_bucket_reader r = mw__bucket_reader_begin(w->buckets, p); (c = mw__bucket_read_block(&r, &n));)
-        for (uint32_t i = 0; i < n; i++) next[mw__lowest_of_three(c[i].v[0], c[i].v[1], c[i].v[2]) - partition.base]++;
+    for (mw_bucket_reader r = mw__bucket_reader_begin(w->buckets, p);
+         (c = mw__bucket_read_block(&r, &n));)
+        for (uint32_t i = 0; i < n; i++)
+            next[mw__lowest_of_three(c[i].v[0], c[i].v[1], c[i].v[2]) - partition.base]++;
     for (uint32_t i = 0; i < partition.size; i++) {
         uint32_t here = next[i];
         next[i] = sum;
@@ -71,7 +74,8 @@ static void partition_count_triangles(const partition_work *w, uint32_t p, mw_pa
 }
 
 /* Store a triangle counter-clockwise. Returns its area as triangle_orient does. */
-static MW_INLINE double partition_store_triangle(const mw_point *point, mw_raw_triangle c, mw_triangle *to)
+static MW_INLINE double partition_store_triangle(const mw_point *point, mw_raw_triangle c,
+                                                 mw_triangle *to)
 {
     uint32_t a = c.v[0], b = c.v[1], d = c.v[2];
     double area = mw__orient2d(point[a], point[b], point[d]);
@@ -93,9 +97,11 @@ typedef struct stray_writer {
 
 /* Edge `half` belongs to the later partition p. A triangle has one stray at most, so there is
  * room. */
-static void stray_note(const partition_work *w, partition_worker *worker, stray_writer *s, uint32_t p, uint32_t half)
+static void stray_note(const partition_work *w, partition_worker *worker, stray_writer *s,
+                       uint32_t p, uint32_t half)
 {
-    if (s->left == 0) s->slot = (uint32_t)(mw__bucket_read_block(&s->reader, &s->left) - w->buckets->raw);
+    if (s->left == 0)
+        s->slot = (uint32_t)(mw__bucket_read_block(&s->reader, &s->left) - w->buckets->raw);
     mw_raw_triangle *stray = &w->buckets->raw[s->slot];
     stray->v[0] = half;
     stray->v[1] = worker->list[p].first; /* the previous one of the list */
@@ -111,14 +117,17 @@ static void partition_sort(const partition_work *w, partition_worker *worker, ui
     const mw_partition partition = partition_of(w, p);
     const mw_point *point = w->mesh->point;
     mw_triangle *tri = w->mesh->tri;
-    uint32_t *triangle_slot = w->mesh->triangle_slot, *next = worker->next, n, flat = 0, reversed = 0;
+    uint32_t *triangle_slot = w->mesh->triangle_slot, *next = worker->next, n, flat = 0,
+             reversed = 0;
     const mw_raw_triangle *block;
     stray_writer strays = {.reader = mw__bucket_reader_begin(w->buckets, p)};
     partition_count_triangles(w, p, partition, next);
-    for (mw_bucket_reader r = mw__bucket_reader_begin(w->buckets, p); (block = mw__bucket_read_block(&r, &n));)
+    for (mw_bucket_reader r = mw__bucket_reader_begin(w->buckets, p);
+         (block = mw__bucket_read_block(&r, &n));)
         for (uint32_t i = 0; i < n; i++) {
             const mw_raw_triangle c = block[i];
-            uint32_t low = mw__lowest_of_three(c.v[0], c.v[1], c.v[2]), slot = next[low - partition.base]++;
+            uint32_t low = mw__lowest_of_three(c.v[0], c.v[1], c.v[2]),
+                     slot = next[low - partition.base]++;
             double area = partition_store_triangle(point, c, &tri[slot]);
             flat += area == 0;
             reversed += area < 0;
@@ -126,7 +135,8 @@ static void partition_sort(const partition_work *w, partition_worker *worker, ui
             uint32_t middle = mw__middle_of_three(c.v[0], c.v[1], c.v[2]);
             if (MW_LIKELY(mw__partition_has(partition, middle))) continue;
             uint32_t k = tri[slot].v[1] == low ? 1 : tri[slot].v[2] == low ? 2 : 0;
-            stray_note(w, worker, &strays, middle >> w->buckets->shift, mw__link(slot, mw__next(k)));
+            stray_note(w, worker, &strays, middle >> w->buckets->shift,
+                       mw__link(slot, mw__next(k)));
         }
     worker->flat += flat;
     worker->reversed += reversed;
@@ -148,7 +158,8 @@ static uint32_t partition_take(partition_work *w, uint32_t sorted)
 }
 
 /* Gather the strays of all threads for partition p. Returns false when out of memory. */
-static bool strays_gather(const partition_work *w, partition_worker *worker, uint32_t p, mw_strays *strays)
+static bool strays_gather(const partition_work *w, partition_worker *worker, uint32_t p,
+                          mw_strays *strays)
 {
     uint32_t count = 0;
     for (uint32_t i = 0; i < w->team; i++) count += w->worker[i].list[p].count;
@@ -160,7 +171,8 @@ static bool strays_gather(const partition_work *w, partition_worker *worker, uin
     }
     *strays = (mw_strays){worker->stray, 0};
     for (uint32_t i = 0; i < w->team; i++)
-        for (uint32_t left = w->worker[i].list[p].count, s = w->worker[i].list[p].first; left > 0; left--) {
+        for (uint32_t left = w->worker[i].list[p].count, s = w->worker[i].list[p].first; left > 0;
+             left--) {
             worker->stray[strays->count++] = w->buckets->raw[s].v[0];
             s = w->buckets->raw[s].v[1];
         }
@@ -171,7 +183,8 @@ static void partition_link_taken(const partition_work *w, partition_worker *work
 {
     mw_strays strays;
     worker->done = worker->done && strays_gather(w, worker, p, &strays) &&
-                   mw__partition_link(w->mesh->tri, partition_of(w, p), strays, &worker->workspace, &worker->links);
+                   mw__partition_link(w->mesh->tri, partition_of(w, p), strays, &worker->workspace,
+                                      &worker->links);
 }
 
 /* --- all --- */
@@ -183,7 +196,8 @@ static void partition_member_run(void *work, uint32_t member)
     partition_work *w = work;
     partition_worker *worker = &w->worker[member];
     uint32_t p, taken;
-    while ((p = atomic_fetch_add(&w->next_sorted, 1)) < w->buckets->ranges && !mw__job_stopped(w->job)) {
+    while ((p = atomic_fetch_add(&w->next_sorted, 1)) < w->buckets->ranges &&
+           !mw__job_stopped(w->job)) {
         partition_sort(w, worker, p);
         taken = partition_take(w, p);
         if (taken != MW_NONE) partition_link_taken(w, worker, taken);

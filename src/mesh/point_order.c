@@ -57,7 +57,8 @@ static void extent_search_run(void *work, uint64_t from, uint64_t to)
 /* If no point is finite, the extent is empty, and all keys are equal. */
 mw_extent mw__points_extent(const mw_point *points, uint32_t n, mw_job *job, bool *all_finite)
 {
-    extent_search s = {.points = points, .extent = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}}, .finite = true};
+    extent_search s = {
+        .points = points, .extent = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}}, .finite = true};
     pthread_mutex_init(&s.lock, NULL);
     mw__job_ranges(job, n, extent_search_run, &s);
     pthread_mutex_destroy(&s.lock);
@@ -71,12 +72,14 @@ mw_extent mw__points_extent(const mw_point *points, uint32_t n, mw_job *job, boo
 static void crowd_sort(const mw_point *points, mw_key *keys, mw_key *scratch, size_t n);
 
 /* Sort keys that differ in their lower bits only. */
-static void point_keys_sort(const mw_point *points, mw_key *keys, mw_key *scratch, size_t n, uint32_t bits, bool again)
+static void point_keys_sort(const mw_point *points, mw_key *keys, mw_key *scratch, size_t n,
+                            uint32_t bits, bool again)
 {
     mw__sort_keys_by(keys, scratch, n, bits);
     for (size_t from = 0, to; from < n; from = to) {
         for (to = from + 1; to < n && keys[to].key == keys[from].key;) to++;
-        if (to - from > MW_LONG_RUN && (to - from < n || again)) crowd_sort(points, keys + from, scratch, to - from);
+        if (to - from > MW_LONG_RUN && (to - from < n || again))
+            crowd_sort(points, keys + from, scratch, to - from);
     }
 }
 
@@ -146,7 +149,8 @@ static void point_keys_distribute(void *work, uint64_t number, uint32_t member)
     uint32_t chunk = (uint32_t)number;
     (void)member;
     uint32_t *next = s->first + (size_t)chunk * s->buckets, end = point_chunk_end(s, chunk);
-    for (uint32_t i = chunk * CHUNK; i < end; i++) s->scratch[next[s->keys[i].key >> s->shift]++] = s->keys[i];
+    for (uint32_t i = chunk * CHUNK; i < end; i++)
+        s->scratch[next[s->keys[i].key >> s->shift]++] = s->keys[i];
 }
 
 /* After distributing, `first` of the last chunk is the end of each bucket. */
@@ -171,8 +175,8 @@ static bool points_sort_all(point_sorting *s, mw_job *job)
     return mw__job_chunks(job, team, s->buckets, point_bucket_sort, s);
 }
 
-bool mw__points_sort(const mw_point *points, uint32_t n, const mw_extent *extent, mw_job *job, mw_key *keys,
-                     mw_key *scratch)
+bool mw__points_sort(const mw_point *points, uint32_t n, const mw_extent *extent, mw_job *job,
+                     mw_key *keys, mw_key *scratch)
 {
     uint32_t bits = 1;
     while (bits < MOST_BITS && n >> bits > SMALL) bits++;

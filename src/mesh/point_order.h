@@ -21,8 +21,8 @@ mw_extent mw__points_extent(const mw_point *points, uint32_t n, mw_job *job, boo
  * the position on that curve. `scratch` has room for n keys, too. The result is the same for any
  * number of threads. Stages of the present part of the job. Returns false when out of memory, or
  * cancelled. */
-bool mw__points_sort(const mw_point *points, uint32_t n, const mw_extent *extent, mw_job *job, mw_key *keys,
-                     mw_key *scratch);
+bool mw__points_sort(const mw_point *points, uint32_t n, const mw_extent *extent, mw_job *job,
+                     mw_key *keys, mw_key *scratch);
 
 /* Set the keys of the points keys[i].item along the curve through the extent of these points. */
 void mw__points_set_keys(const mw_point *points, mw_key *keys, size_t n);

@@ -7,8 +7,10 @@ enum { FIRST_TABLE = 64 };
 
 bool mw__polygon_sets_create(mw_polygon_sets *s)
 {
-    *s = (mw_polygon_sets){.count = 1, .set_room = FIRST_TABLE, .rank_room = FIRST_TABLE, .table_size = FIRST_TABLE};
-    s->rank = mw__alloc(s->rank_room, sizeof *s->rank); /* not NULL, even if no place is inside a polygon */
+    *s = (mw_polygon_sets){
+        .count = 1, .set_room = FIRST_TABLE, .rank_room = FIRST_TABLE, .table_size = FIRST_TABLE};
+    /* not NULL, even if no place is inside a polygon */
+    s->rank = mw__alloc(s->rank_room, sizeof *s->rank);
     s->first = mw__calloc(s->set_room, sizeof *s->first);
     s->table = mw__calloc(s->table_size, sizeof *s->table);
     return s->first && s->rank && s->table;
@@ -100,7 +102,8 @@ static size_t sets_write(mw_polygon_sets *s, uint32_t set, const uint32_t *ranks
     return made;
 }
 
-uint32_t mw__polygon_sets_toggle(mw_polygon_sets *s, uint32_t set, const uint32_t *ranks, size_t count)
+uint32_t mw__polygon_sets_toggle(mw_polygon_sets *s, uint32_t set, const uint32_t *ranks,
+                                 size_t count)
 {
     if (count == 0) return set;
     if (!sets_make_room(s, s->first[set + 1] - s->first[set] + count)) return MW_NONE;

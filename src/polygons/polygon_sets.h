@@ -10,7 +10,8 @@ typedef struct mw_polygon_sets {
     uint32_t *rank;
     uint32_t count;
     size_t set_room, rank_room;
-    uint32_t *table;   /* open addressing: numbers of sets, 0 = free; only until mw__polygon_sets_finish */
+    /* open addressing: numbers of sets, 0 = free; only until mw__polygon_sets_finish */
+    uint32_t *table;
     size_t table_size; /* a power of two */
 } mw_polygon_sets;
 
@@ -20,7 +21,8 @@ void mw__polygon_sets_release(mw_polygon_sets *sets);
 
 /* The set that differs from `set` in the ranks that are listed an odd number of times; the list is
  * ascending. MW_NONE when out of memory. */
-uint32_t mw__polygon_sets_toggle(mw_polygon_sets *sets, uint32_t set, const uint32_t *ranks, size_t count);
+uint32_t mw__polygon_sets_toggle(mw_polygon_sets *sets, uint32_t set, const uint32_t *ranks,
+                                 size_t count);
 
 /* No more sets will be made: release what only making them needs. */
 void mw__polygon_sets_finish(mw_polygon_sets *sets);

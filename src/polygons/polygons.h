@@ -6,11 +6,15 @@
  * that of the left sides of all chords, be there a place on all of them or not:
  *
  *          c
- *         / \ B         Chord k of polygon P parts the triangle. The stored set holds where a point
- *        / k .          is to the left of k; P is in or out of it the other way for points to the
- *       /  .  \         right. On k the point is on P's border. The side of each chord is an orient2d
- *      a .-----b        of the segment's own points, so nothing is rounded.
+ *         / \ B
+ *        / k .
+ *       /  .  \
+ *      a .-----b
  *       A
+ *
+ * Chord k of polygon P parts the triangle. The stored set holds where a point is to the left of k;
+ * P is in or out of it the other way for points to the right. On k the point is on P's border. The
+ * side of each chord is an orient2d of the segment's own points, so nothing is rounded.
  */
 #ifndef MW_SRC_POLYGONS_POLYGONS_H
 #define MW_SRC_POLYGONS_POLYGONS_H
@@ -37,7 +41,8 @@ struct mw_polygons {
     mw_polygon_sets sets;
     uint32_t *subsegment; /* per edge, at 3 * triangle + edge: a row of `owners`, or MW_NONE */
     uint32_t subsegment_count;
-    mw_rank_lists owners;    /* per subsegment: the polygons whose segments run along it, as often as they do */
+    /* per subsegment: the polygons whose segments run along it, as often as they do */
+    mw_rank_lists owners;
     mw_rank_lists corners;   /* per vertex: the polygons on whose border it lies */
     mw_rank_lists chords;    /* per triangle: chords, by number */
     mw_polygon_chord *chord; /* in the order of their polygons */

@@ -10,7 +10,8 @@ typedef struct polygon_merge {
     const uint32_t *owner, *owner_end;     /* polygons on whose border the edge or vertex lies  */
 } polygon_merge;
 
-static void list_take(const mw_rank_lists *lists, uint32_t row, const uint32_t **from, const uint32_t **to)
+static void list_take(const mw_rank_lists *lists, uint32_t row, const uint32_t **from,
+                      const uint32_t **to)
 {
     *from = *to = NULL;
     if (!lists->first || row == MW_NONE) return;
@@ -39,7 +40,8 @@ static polygon_merge merge_begin(const mw_polygons *p, const double point[2], co
 static uint32_t merge_next(const polygon_merge *m)
 {
     uint32_t next = m->covered < m->covered_end ? *m->covered : MW_NONE;
-    if (m->chord < m->chord_end && m->p->chord[*m->chord].rank < next) next = m->p->chord[*m->chord].rank;
+    if (m->chord < m->chord_end && m->p->chord[*m->chord].rank < next)
+        next = m->p->chord[*m->chord].rank;
     if (m->owner < m->owner_end && *m->owner < next) next = *m->owner;
     return next;
 }
@@ -58,8 +60,8 @@ static bool merge_take(polygon_merge *m, uint32_t rank, bool *border)
     return inside || *border;
 }
 
-size_t mw_polygons_at(const mw_polygons *p, const double point[2], const mw_location *location, mw_polygon_hit *hits,
-                      size_t capacity)
+size_t mw_polygons_at(const mw_polygons *p, const double point[2], const mw_location *location,
+                      mw_polygon_hit *hits, size_t capacity)
 {
     if (location->where > MW_ON_VERTEX) return 0;
     polygon_merge m = merge_begin(p, point, location);
@@ -91,14 +93,17 @@ size_t mw_polygons_crossing(const mw_polygons *p, uint32_t *polygons_found, size
 
 void mw_polygons_describe(const mw_polygons *p, mw_polygons_info *info)
 {
-    const uint32_t triangles = mw_mesh_triangle_count(p->mesh), vertices = mw_mesh_vertex_count(p->mesh);
+    const uint32_t triangles = mw_mesh_triangle_count(p->mesh),
+                   vertices = mw_mesh_vertex_count(p->mesh);
     *info = (mw_polygons_info){.polygons = p->polygon_count,
                                .crossing_segments = p->chord_count,
                                .passages = p->chords.first ? p->chords.first[triangles] : 0,
                                .sets = p->sets.count};
-    info->bytes = sizeof *p + (size_t)p->polygon_count * (sizeof *p->polygon + sizeof *p->crossing) +
-                  (size_t)triangles * (sizeof *p->set + 3 * sizeof *p->subsegment) +
-                  p->sets.set_room * sizeof *p->sets.first + p->sets.rank_room * sizeof *p->sets.rank +
-                  mw__rank_lists_bytes(&p->owners, p->subsegment_count) + mw__rank_lists_bytes(&p->corners, vertices) +
-                  mw__rank_lists_bytes(&p->chords, triangles) + p->chord_count * sizeof *p->chord;
+    info->bytes =
+        sizeof *p + (size_t)p->polygon_count * (sizeof *p->polygon + sizeof *p->crossing) +
+        (size_t)triangles * (sizeof *p->set + 3 * sizeof *p->subsegment) +
+        p->sets.set_room * sizeof *p->sets.first + p->sets.rank_room * sizeof *p->sets.rank +
+        mw__rank_lists_bytes(&p->owners, p->subsegment_count) +
+        mw__rank_lists_bytes(&p->corners, vertices) + mw__rank_lists_bytes(&p->chords, triangles) +
+        p->chord_count * sizeof *p->chord;
 }

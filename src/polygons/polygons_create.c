@@ -1,5 +1,6 @@
 /* polygons_create.c - polygons become ready for queries: their rings are forced into a
- * triangulation; those that cross others are followed through it; then each triangle gets its set. */
+ * triangulation; those that cross others are followed through it; then each triangle gets its set.
+ * */
 #include "base/options.h"
 #include "polygons/polygons_label.h"
 #include "triangulate/constrained/cdt.h"
@@ -51,7 +52,8 @@ static bool maker_meet_vertex(polygon_maker *k, uint32_t vertex, uint32_t segmen
 static mw_key *crossing_by_rank(const polygon_maker *k, size_t *count)
 {
     const mw_segment_parts *crossing = &k->m->crossing;
-    mw_key *key = mw__alloc(crossing->count, sizeof *key), *scratch = mw__alloc(crossing->count, sizeof *scratch);
+    mw_key *key = mw__alloc(crossing->count, sizeof *key),
+           *scratch = mw__alloc(crossing->count, sizeof *scratch);
     *count = 0;
     if (key && scratch) {
         for (size_t i = 0; i < crossing->count; i++) {
@@ -72,7 +74,8 @@ static bool maker_meet_edge(void *context, mw_segment_meeting meeting, uint32_t 
 {
     polygon_maker *k = context;
     if (meeting != MW_MEETS_EDGE) return true;
-    mw_subsegment made = {.from = mw__half_start(k->m->tri, number), .to = mw__half_end(k->m->tri, number)};
+    mw_subsegment made = {.from = mw__half_start(k->m->tri, number),
+                          .to = mw__half_end(k->m->tri, number)};
     made.number = mw__segment_insertion_mark(&k->m->net, number);
     return mw__subsegment_note(k->m, &made, k->part->segment);
 }
@@ -96,7 +99,8 @@ static bool maker_trace(polygon_maker *k, const mw_key *key, size_t count, mw_se
     for (size_t i = 0; i < count; i++) {
         k->part = &k->m->crossing.item[key[i].item];
         k->chord = (uint32_t)i;
-        if (!mw__segment_insertion_trace(&k->m->net, k->part->from, k->part->to, meet, k)) return false;
+        if (!mw__segment_insertion_trace(&k->m->net, k->part->from, k->part->to, meet, k))
+            return false;
         if (!mw__job_step(k->m->job, i, count)) return false;
     }
     return true;
@@ -108,7 +112,8 @@ static bool maker_take_chords(polygon_maker *k, const mw_key *key, size_t count)
     k->p->chord_count = count;
     for (size_t i = 0; k->p->chord && i < count; i++) {
         const mw_segment_part *part = &k->m->crossing.item[key[i].item];
-        k->p->chord[i] = (mw_polygon_chord){k->m->point[part->from], k->m->point[part->to], key[i].key};
+        k->p->chord[i] =
+            (mw_polygon_chord){k->m->point[part->from], k->m->point[part->to], key[i].key};
         if (!maker_meet_vertex(k, part->from, part->segment)) return false;
         if (!maker_meet_vertex(k, part->to, part->segment)) return false;
     }
@@ -198,7 +203,8 @@ static bool maker_follow(polygon_maker *k)
     mw_key *key = crossing_by_rank(k, &count);
     bool done = key;
     mw__job_stage(k->m->job, "following segments that cross", 0.1);
-    if (done) done = maker_trace(k, key, count, maker_meet_edge) && maker_take_chords(k, key, count);
+    if (done)
+        done = maker_trace(k, key, count, maker_meet_edge) && maker_take_chords(k, key, count);
     mw__job_stage(k->m->job, "following segments that cross", 0.1);
     if (done) done = maker_own_edges(k) && maker_trace(k, key, count, maker_meet);
     free(key);
@@ -249,17 +255,19 @@ static mw_status maker_run(polygon_maker *k, mw_error *error)
     return status;
 }
 
-static mw_status polygons_check(const mw_constraints *rings, const mw_polygons_options *options, mw_error *error)
+static mw_status polygons_check(const mw_constraints *rings, const mw_polygons_options *options,
+                                mw_error *error)
 {
     if (!rings) return mw__fail(error, MW_ERROR_ARGUMENT, "rings are NULL");
     if (rings->segment_count && !rings->polygon)
         return mw__fail(error, MW_ERROR_ARGUMENT, "no numbers of polygons were given");
-    if (rings->hole_seed_count) return mw__fail(error, MW_ERROR_ARGUMENT, "polygons have rings for holes, no seeds");
+    if (rings->hole_seed_count)
+        return mw__fail(error, MW_ERROR_ARGUMENT, "polygons have rings for holes, no seeds");
     return MW_RESERVED_CHECK(mw_polygons_options, options, error);
 }
 
-mw_status mw_polygons_create(const mw_constraints *rings, const mw_polygons_options *options, mw_polygons **out,
-                             mw_error *error)
+mw_status mw_polygons_create(const mw_constraints *rings, const mw_polygons_options *options,
+                             mw_polygons **out, mw_error *error)
 {
     static const mw_polygons_options defaults;
     if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "out is NULL");

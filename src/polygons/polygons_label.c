@@ -69,7 +69,8 @@ static uint32_t labeller_cross(labeller *l, uint32_t from, uint32_t out, uint32_
     uint32_t t = mw__link_triangle(into), k = mw__link_edge(into);
     l->toggle_count = 0;
     bool done = labeller_add_owners(l, t, k) && labeller_add_chords(l, t, k);
-    if (done && out != MW_NONE) done = labeller_add_chords(l, mw__link_triangle(out), mw__link_edge(out));
+    if (done && out != MW_NONE)
+        done = labeller_add_chords(l, mw__link_triangle(out), mw__link_edge(out));
     if (!done) return MW_NONE;
     if (l->toggle_count > 1) qsort(l->toggle, l->toggle_count, sizeof *l->toggle, rank_compare);
     return mw__polygon_sets_toggle(&l->p->sets, from, l->toggle, l->toggle_count);
@@ -106,17 +107,20 @@ static bool labeller_run(labeller *l, uint32_t tri_count, uint32_t *stack, mw_jo
     l->p->set[mw__link_triangle(half)] = set;
     stack[top++] = mw__link_triangle(half);
     while (top > 0)
-        if (!labeller_spread(l, stack[--top], stack, &top) || !mw__job_step(job, done++, tri_count)) return false;
+        if (!labeller_spread(l, stack[--top], stack, &top) || !mw__job_step(job, done++, tri_count))
+            return false;
     mw__polygon_sets_finish(&l->p->sets);
     return true;
 }
 
-bool mw__polygons_label(mw_polygons *p, const mw_triangle *tri, uint32_t tri_count, const mw_point *point, mw_job *job)
+bool mw__polygons_label(mw_polygons *p, const mw_triangle *tri, uint32_t tri_count,
+                        const mw_point *point, mw_job *job)
 {
     labeller l = {.p = p, .tri = tri, .point = point};
     uint32_t *stack = mw__alloc(tri_count, sizeof *stack);
     p->set = mw__alloc(tri_count, sizeof *p->set);
-    bool done = stack && p->set && mw__polygon_sets_create(&p->sets) && labeller_run(&l, tri_count, stack, job);
+    bool done = stack && p->set && mw__polygon_sets_create(&p->sets) &&
+                labeller_run(&l, tri_count, stack, job);
     free(l.toggle);
     free(stack);
     return done;

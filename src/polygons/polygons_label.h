@@ -8,6 +8,7 @@
 /* Fill p->set and p->sets. The other members are complete, but for the mesh: its triangles and
  * points are given, and fill a convex hull. Steps of the present stage. False when out of memory,
  * or cancelled. */
-bool mw__polygons_label(mw_polygons *p, const mw_triangle *tri, uint32_t tri_count, const mw_point *point, mw_job *job);
+bool mw__polygons_label(mw_polygons *p, const mw_triangle *tri, uint32_t tri_count,
+                        const mw_point *point, mw_job *job);
 
 #endif

@@ -50,7 +50,8 @@ bool mw__rank_lists_create(mw_rank_lists *lists, mw_rank_entries *e, uint32_t ro
     uint32_t made = 0, row = 0;
     for (size_t i = 0; i < e->count; i++) {
         mw_key entry = e->entry[i];
-        if (once && i > 0 && e->entry[i - 1].key == entry.key && e->entry[i - 1].item == entry.item) continue;
+        if (once && i > 0 && e->entry[i - 1].key == entry.key && e->entry[i - 1].item == entry.item)
+            continue;
         while (row < entry.key) lists->first[++row] = made;
         lists->item[made++] = entry.item;
     }

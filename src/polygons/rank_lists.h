@@ -16,13 +16,15 @@ typedef struct mw_rank_entries {
     size_t count, room;
 } mw_rank_entries;
 
-bool mw__rank_entries_add(mw_rank_entries *entries, uint32_t row, uint32_t item); /* false when out of memory */
+/* false when out of memory */
+bool mw__rank_entries_add(mw_rank_entries *entries, uint32_t row, uint32_t item);
 void mw__rank_entries_release(mw_rank_entries *entries);
 
 /* Make the lists of `rows` rows of the entries, which are sorted; `once`: leave out what a list
  * has already. False when out of memory, or of 2^32 entries and more; release the lists in either
  * case. */
-bool mw__rank_lists_create(mw_rank_lists *lists, mw_rank_entries *entries, uint32_t rows, bool once);
+bool mw__rank_lists_create(mw_rank_lists *lists, mw_rank_entries *entries, uint32_t rows,
+                           bool once);
 void mw__rank_lists_release(mw_rank_lists *lists);
 
 static inline size_t mw__rank_lists_bytes(const mw_rank_lists *lists, uint32_t rows)

@@ -113,7 +113,8 @@ static int angle_with_integers(const mw_point p[6])
 {
     int base = mw__big_base(&p[0].x, 12);
     mw_big cross[2], dot[2], difference;
-    for (int i = 0; i < 2; i++) big_products(p[3 * i], p[3 * i + 1], p[3 * i + 2], base, &cross[i], &dot[i]);
+    for (int i = 0; i < 2; i++)
+        big_products(p[3 * i], p[3 * i + 1], p[3 * i + 2], base, &cross[i], &dot[i]);
     mw__big_cross(&difference, &cross[0], &dot[0], &cross[1], &dot[1]);
     return difference.sign;
 }

@@ -1,10 +1,14 @@
 /* distance.c - which of two segments is nearer to a point, exactly.
  *
- *      q            The nearest point of a segment ab is a, b, or the foot of the perpendicular; dot products tell
- *      :  \         which without error. The squared distance is |q - v|^2 to a vertex v, and to the line it is
- *   a--:-----b      orient2d(a, b, q)^2 / |b - a|^2, a quotient of two polynomials. Intervals in doubles compare nearly
- *                   all of them, big integers the others, by cross-multiplication (of degree 6 at most: expansions
- *                   would get long). */
+ *      q
+ *      :  \
+ *   a--:-----b
+ *
+ * The nearest point of a segment ab is a, b, or the foot of the perpendicular; dot products tell
+ * which without error. The squared distance is |q - v|^2 to a vertex v, and to the line it is
+ * orient2d(a, b, q)^2 / |b - a|^2, a quotient of two polynomials. Intervals in doubles compare
+ * nearly all of them, big integers the others, by cross-multiplication (of degree 6 at most:
+ * expansions would get long). */
 #include "predicates/big.h"
 #include "predicates/expansion.h"
 

@@ -80,7 +80,8 @@ static int expansion_scale(const double *e, int m, double b, double *h)
 
 /* h = e * f, m and n > 0: by halves of f, so that every part takes part in log2(n) sums only. h and
  * scratch have room for 2 * m * n; each half is made in the other's array. */
-static int expansion_multiply(const double *e, int m, const double *f, int n, double *h, double *scratch)
+static int expansion_multiply(const double *e, int m, const double *f, int n, double *h,
+                              double *scratch)
 {
     if (n == 1) return expansion_scale(e, m, f[0], h);
     int half = n / 2, cut = 2 * m * half;
@@ -122,7 +123,8 @@ double mw__expansion_estimate(mw_expansion e)
     return sum;
 }
 
-mw_expansion mw__expansion_cross(mw_arena *arena, mw_expansion a, mw_expansion b, mw_expansion c, mw_expansion d)
+mw_expansion mw__expansion_cross(mw_arena *arena, mw_expansion a, mw_expansion b, mw_expansion c,
+                                 mw_expansion d)
 {
     mw_expansion left = mw__expansion_multiply(arena, a, d);
     mw_expansion right = mw__expansion_multiply(arena, b, c);

@@ -35,7 +35,8 @@ double mw__expansion_estimate(mw_expansion e);
 /* a*d - b*c for expansions of at most two parts (differences): at most 16 parts. Takes 48
  * doubles. */
 #define MW_CROSS_ROOM 48
-mw_expansion mw__expansion_cross(mw_arena *arena, mw_expansion a, mw_expansion b, mw_expansion c, mw_expansion d);
+mw_expansion mw__expansion_cross(mw_arena *arena, mw_expansion a, mw_expansion b, mw_expansion c,
+                                 mw_expansion d);
 
 /* Is each of v[0..n) zero or of a magnitude from low to high? False for NaN. */
 bool mw__within(const double *v, int n, double low, double high);

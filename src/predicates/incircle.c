@@ -63,7 +63,8 @@ static bool incircle_on_grid(const row p[3], double *det)
 
 static mw_expansion expansion_term(mw_arena *arena, const row *p, const row *q, const row *r)
 {
-    mw_expansion x = mw__expansion_multiply(arena, p->x, p->x), y = mw__expansion_multiply(arena, p->y, p->y);
+    mw_expansion x = mw__expansion_multiply(arena, p->x, p->x),
+                 y = mw__expansion_multiply(arena, p->y, p->y);
     mw_expansion lift = mw__expansion_add(arena, x, y);
     mw_expansion minor = mw__expansion_cross(arena, q->x, q->y, r->x, r->y);
     return mw__expansion_multiply(arena, lift, minor);
@@ -81,7 +82,8 @@ static double incircle_with_expansions(const double v[8])
         p[i].y = mw__expansion_difference(&arena, v[2 * i + 1], v[7]);
     }
     if (incircle_on_grid(p, &det)) return det;
-    for (int i = 0; i < 3; i++) term[i] = expansion_term(&arena, &p[i], &p[(i + 1) % 3], &p[(i + 2) % 3]);
+    for (int i = 0; i < 3; i++)
+        term[i] = expansion_term(&arena, &p[i], &p[(i + 1) % 3], &p[(i + 2) % 3]);
     mw_expansion sum = mw__expansion_add(&arena, term[0], term[1]);
     return mw__expansion_estimate(mw__expansion_add(&arena, sum, term[2]));
 }
@@ -115,5 +117,6 @@ double mw__incircle_exact(mw_point a, mw_point b, mw_point c, mw_point d)
 
 double mw_incircle(const double a[2], const double b[2], const double c[2], const double d[2])
 {
-    return mw__incircle((mw_point){a[0], a[1]}, (mw_point){b[0], b[1]}, (mw_point){c[0], c[1]}, (mw_point){d[0], d[1]});
+    return mw__incircle((mw_point){a[0], a[1]}, (mw_point){b[0], b[1]}, (mw_point){c[0], c[1]},
+                        (mw_point){d[0], d[1]});
 }

@@ -15,8 +15,10 @@
 /* (v0 - v1)^2 + (v2 - v3)^2 */
 static mw_expansion expansion_square(mw_arena *arena, const double v[4])
 {
-    mw_expansion x = mw__expansion_difference(arena, v[0], v[1]), y = mw__expansion_difference(arena, v[2], v[3]);
-    return mw__expansion_add(arena, mw__expansion_multiply(arena, x, x), mw__expansion_multiply(arena, y, y));
+    mw_expansion x = mw__expansion_difference(arena, v[0], v[1]),
+                 y = mw__expansion_difference(arena, v[2], v[3]);
+    return mw__expansion_add(arena, mw__expansion_multiply(arena, x, x),
+                             mw__expansion_multiply(arena, y, y));
 }
 
 static double length_with_expansions(const double v[8])

@@ -34,7 +34,8 @@ static double side_with_expansions(const mw_line *line, const double a[3], const
     }
     for (int k = 0; k < 3; k++) {
         int i = (k + 1) % 3, j = (k + 2) % 3;
-        mw_expansion m = {line->m + k, line->m[k] != 0}, minor = mw__expansion_cross(&arena, p[i], p[j], r[i], r[j]);
+        mw_expansion m = {line->m + k, line->m[k] != 0},
+                     minor = mw__expansion_cross(&arena, p[i], p[j], r[i], r[j]);
         sum = mw__expansion_add(&arena, sum, mw__expansion_multiply(&arena, minor, m));
     }
     return mw__expansion_estimate(sum);
@@ -270,7 +271,8 @@ static double length_fraction(const double m[3], int *exponent)
 }
 
 /* N and M as fractions, with their exponents. */
-static void exact_quotient(const mw_line *line, const mw_corners s, double fraction[2], int exponent[2])
+static void exact_quotient(const mw_line *line, const mw_corners s, double fraction[2],
+                           int exponent[2])
 {
     hit h;
     int base = common_base(line, s, s, 0), motion = mw__big_base(line->m, 3);
@@ -288,7 +290,8 @@ static bool is_ordinary(double x)
     return fabs(x) > 0x1p-200 && fabs(x) < 0x1p200;
 }
 
-static double distance_by_fractions(const mw_line *line, const mw_corners s, double n, double m, bool fine)
+static double distance_by_fractions(const mw_line *line, const mw_corners s, double n, double m,
+                                    bool fine)
 {
     double fraction[2];
     int exponent[3] = {0};
@@ -309,7 +312,8 @@ double mw__hit_distance(const mw_line *line, const mw_corners s)
     bool fine = FINE * fabs(n) > n_bound && FINE * fabs(m) > m_bound;
     const double *v = line->m;
     double square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
-    if (MW_LIKELY(fine && is_ordinary(n) && is_ordinary(m) && is_ordinary(square))) return n * sqrt(square) / m;
+    if (MW_LIKELY(fine && is_ordinary(n) && is_ordinary(m) && is_ordinary(square)))
+        return n * sqrt(square) / m;
     return distance_by_fractions(line, s, n, m, fine);
 }
 
@@ -346,7 +350,8 @@ void mw__hit_sides(const mw_line *line, const mw_corners s, double side[3])
         sum += side[k];
     }
     double most = fmax(fmax(bound[0], bound[1]), bound[2]);
-    if (!(most <= WEIGHT_FINE * sum && sum >= LEAST_SUM && sum <= MOST_SUM)) exact_sides(line, s, side);
+    if (!(most <= WEIGHT_FINE * sum && sum >= LEAST_SUM && sum <= MOST_SUM))
+        exact_sides(line, s, side);
 }
 
 bool mw__hit_inside(const mw_line *line, const mw_corners s, double side[3])

@@ -25,14 +25,15 @@ double mw__side_exact(const mw_line *line, const double a[3], const double b[3])
 #define MW_SIDE_MOTION 0x1p100
 
 /* m . ((a - q) x (b - q)) as rounded. Its sign is sure where its magnitude is above *bound. */
-static MW_INLINE double mw__side_rounded(const mw_line *line, const double a[3], const double b[3], double *bound)
+static MW_INLINE double mw__side_rounded(const mw_line *line, const double a[3], const double b[3],
+                                         double *bound)
 {
     const double *q = line->q, *m = line->m;
     double ax = a[0] - q[0], ay = a[1] - q[1], az = a[2] - q[2];
     double bx = b[0] - q[0], by = b[1] - q[1], bz = b[2] - q[2];
     double yz = ay * bz, zy = az * by, zx = az * bx, xz = ax * bz, xy = ax * by, yx = ay * bx;
-    double permanent =
-        fabs(m[0]) * (fabs(yz) + fabs(zy)) + fabs(m[1]) * (fabs(zx) + fabs(xz)) + fabs(m[2]) * (fabs(xy) + fabs(yx));
+    double permanent = fabs(m[0]) * (fabs(yz) + fabs(zy)) + fabs(m[1]) * (fabs(zx) + fabs(xz)) +
+                       fabs(m[2]) * (fabs(xy) + fabs(yx));
     bool small = fabs(m[0]) + fabs(m[1]) + fabs(m[2]) < MW_SIDE_MOTION;
     *bound = small ? MW_SIDE_ERROR * permanent + MW_UNDERFLOW_ERROR : INFINITY;
     return m[0] * (yz - zy) + m[1] * (zx - xz) + m[2] * (xy - yx);
@@ -48,7 +49,8 @@ static MW_INLINE double mw__side(const mw_line *line, const double a[3], const d
 }
 
 /* m . n, n as above: < 0 where m points at the front of the triangle. Sign-exact. */
-static MW_INLINE double mw__facing(const double m[3], const double a[3], const double b[3], const double c[3])
+static MW_INLINE double mw__facing(const double m[3], const double a[3], const double b[3],
+                                   const double c[3])
 {
     mw_line line = {{a[0], a[1], a[2]}, {m[0], m[1], m[2]}};
     return mw__side(&line, b, c);

@@ -15,7 +15,8 @@ static double orient2d_with_expansions(const double v[8])
     double room[8 + MW_CROSS_ROOM];
     mw_arena arena = {room};
     mw_expansion difference[4];
-    for (int i = 0; i < 4; i++) difference[i] = mw__expansion_difference(&arena, v[2 * i], v[2 * i + 1]);
+    for (int i = 0; i < 4; i++)
+        difference[i] = mw__expansion_difference(&arena, v[2 * i], v[2 * i + 1]);
     return mw__expansion_estimate(
         mw__expansion_cross(&arena, difference[0], difference[2], difference[3], difference[1]));
 }
@@ -47,7 +48,8 @@ double mw__orient2d_exact(mw_point a, mw_point b, mw_point c)
 double mw__orient2d_fraction(mw_point a, mw_point b, mw_point c, int *exponent)
 {
     mw_big result;
-    int base = orient2d_with_integers((const double[8]){a.x, c.x, b.y, c.y, a.y, c.y, b.x, c.x}, &result);
+    int base =
+        orient2d_with_integers((const double[8]){a.x, c.x, b.y, c.y, a.y, c.y, b.x, c.x}, &result);
     double fraction = mw__big_fraction(&result, exponent);
     *exponent += 2 * base;
     return fraction;

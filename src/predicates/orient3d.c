@@ -20,7 +20,8 @@ static double orient3d_with_expansions(const double v[12])
     mw_arena arena = {room};
     mw_expansion row[3][3], term[3];
     for (int i = 0; i < 3; i++) {
-        for (int k = 0; k < 3; k++) row[i][k] = mw__expansion_difference(&arena, v[9 + k], v[3 * i + k]);
+        for (int k = 0; k < 3; k++)
+            row[i][k] = mw__expansion_difference(&arena, v[9 + k], v[3 * i + k]);
     }
     for (int i = 0; i < 3; i++) {
         const mw_expansion *p = row[(i + 1) % 3], *q = row[(i + 2) % 3];
@@ -47,7 +48,8 @@ static double orient3d_with_integers(const double v[12])
     return mw__big_double(&sum, 3 * base);
 }
 
-double mw__orient3d_exact(const double a[3], const double b[3], const double c[3], const double d[3])
+double mw__orient3d_exact(const double a[3], const double b[3], const double c[3],
+                          const double d[3])
 {
     const double v[12] = {a[0], a[1], a[2], b[0], b[1], b[2], c[0], c[1], c[2], d[0], d[1], d[2]};
     if (MW_LIKELY(mw__within(v, 12, LOW, HIGH))) return orient3d_with_expansions(v);

@@ -22,12 +22,14 @@ typedef struct power_row {
     mw_expansion x, y, lift;
 } power_row;
 
-static power_row power_row_make(mw_arena *arena, const mw_weighted_point *a, const mw_weighted_point *d)
+static power_row power_row_make(mw_arena *arena, const mw_weighted_point *a,
+                                const mw_weighted_point *d)
 {
     power_row row;
     row.x = mw__expansion_difference(arena, a->at.x, d->at.x);
     row.y = mw__expansion_difference(arena, a->at.y, d->at.y);
-    mw_expansion x = mw__expansion_multiply(arena, row.x, row.x), y = mw__expansion_multiply(arena, row.y, row.y);
+    mw_expansion x = mw__expansion_multiply(arena, row.x, row.x),
+                 y = mw__expansion_multiply(arena, row.y, row.y);
     mw_expansion weight = mw__expansion_difference(arena, d->weight, a->weight);
     row.lift = mw__expansion_add(arena, mw__expansion_add(arena, x, y), weight);
     return row;
@@ -42,7 +44,8 @@ static double power_with_expansions(const mw_weighted_point p[4])
     for (int i = 0; i < 3; i++) row[i] = power_row_make(&arena, &p[i], &p[3]);
     for (int i = 0; i < 3; i++) {
         const power_row *q = &row[(i + 1) % 3], *r = &row[(i + 2) % 3];
-        term[i] = mw__expansion_multiply(&arena, row[i].lift, mw__expansion_cross(&arena, q->x, q->y, r->x, r->y));
+        term[i] = mw__expansion_multiply(&arena, row[i].lift,
+                                         mw__expansion_cross(&arena, q->x, q->y, r->x, r->y));
     }
     mw_expansion sum = mw__expansion_add(&arena, term[0], term[1]);
     return mw__expansion_estimate(mw__expansion_add(&arena, sum, term[2]));
@@ -70,7 +73,8 @@ static int power_base(const mw_weighted_point *p, int n)
     return zero || base < half ? base : half;
 }
 
-static void power_big_make(power_big *row, const mw_weighted_point *a, const mw_weighted_point *d, int base)
+static void power_big_make(power_big *row, const mw_weighted_point *a, const mw_weighted_point *d,
+                           int base)
 {
     mw_big square;
     mw__big_difference(&row->x, a->at.x, d->at.x, base);
@@ -101,14 +105,16 @@ static bool power_has_expansions(const mw_weighted_point *p, int n)
 {
     for (int i = 0; i < n; i++) {
         double at[2] = {p[i].at.x, p[i].at.y};
-        if (!mw__within(at, 2, LOW, HIGH) || !mw__within(&p[i].weight, 1, WEIGHT_LOW, WEIGHT_HIGH)) return false;
+        if (!mw__within(at, 2, LOW, HIGH) || !mw__within(&p[i].weight, 1, WEIGHT_LOW, WEIGHT_HIGH))
+            return false;
     }
     return true;
 }
 
 double mw__power_exact(const mw_weighted_point p[4])
 {
-    return MW_LIKELY(power_has_expansions(p, 4)) ? power_with_expansions(p) : power_with_integers(p);
+    return MW_LIKELY(power_has_expansions(p, 4)) ? power_with_expansions(p)
+                                                 : power_with_integers(p);
 }
 
 /* The line through (ta, la) and (tb, lb) passes d, where t is 0, at the height (la tb - lb ta) /

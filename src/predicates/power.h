@@ -43,7 +43,9 @@ static MW_INLINE double mw__power(const mw_weighted_point p[4])
         det += lift[i] * (left - right);
         permanent += size[i] * (fabs(left) + fabs(right));
     }
-    if (MW_LIKELY(lifts < MW_INCIRCLE_LIFTS && fabs(det) > MW_POWER_ERROR * permanent + MW_UNDERFLOW_ERROR)) return det;
+    if (MW_LIKELY(lifts < MW_INCIRCLE_LIFTS &&
+                  fabs(det) > MW_POWER_ERROR * permanent + MW_UNDERFLOW_ERROR))
+        return det;
     return mw__power_exact(p);
 }
 

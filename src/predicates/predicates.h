@@ -38,7 +38,8 @@ double mw__dot2d_exact(mw_point a, mw_point b, mw_point c);
  * fraction's magnitude is from 1/2 to 1, or 0. Slow. */
 double mw__orient2d_fraction(mw_point a, mw_point b, mw_point c, int *exponent);
 double mw__incircle_exact(mw_point a, mw_point b, mw_point c, mw_point d);
-double mw__orient3d_exact(const double a[3], const double b[3], const double c[3], const double d[3]);
+double mw__orient3d_exact(const double a[3], const double b[3], const double c[3],
+                          const double d[3]);
 
 /* What products that underflow can add to the error: at most 2^-970, see each filter. */
 #define MW_UNDERFLOW_ERROR 0x1p-960
@@ -95,12 +96,17 @@ static MW_INLINE double mw__dot2d(mw_point a, mw_point b, mw_point c)
 #define MW_INCIRCLE_LIFTS 0x1p100
 
 /* The determinant as rounded. Its sign is sure where its magnitude is above *bound. */
-static MW_INLINE double mw__incircle_rounded(mw_point a, mw_point b, mw_point c, mw_point d, double *bound)
+static MW_INLINE double mw__incircle_rounded(mw_point a, mw_point b, mw_point c, mw_point d,
+                                             double *bound)
 {
-    double adx = a.x - d.x, ady = a.y - d.y, bdx = b.x - d.x, bdy = b.y - d.y, cdx = c.x - d.x, cdy = c.y - d.y;
-    double bc = bdx * cdy, cb = cdx * bdy, ca = cdx * ady, ac = adx * cdy, ab = adx * bdy, ba = bdx * ady;
-    double alift = adx * adx + ady * ady, blift = bdx * bdx + bdy * bdy, clift = cdx * cdx + cdy * cdy;
-    double permanent = alift * (fabs(bc) + fabs(cb)) + blift * (fabs(ca) + fabs(ac)) + clift * (fabs(ab) + fabs(ba));
+    double adx = a.x - d.x, ady = a.y - d.y, bdx = b.x - d.x, bdy = b.y - d.y, cdx = c.x - d.x,
+           cdy = c.y - d.y;
+    double bc = bdx * cdy, cb = cdx * bdy, ca = cdx * ady, ac = adx * cdy, ab = adx * bdy,
+           ba = bdx * ady;
+    double alift = adx * adx + ady * ady, blift = bdx * bdx + bdy * bdy,
+           clift = cdx * cdx + cdy * cdy;
+    double permanent = alift * (fabs(bc) + fabs(cb)) + blift * (fabs(ca) + fabs(ac)) +
+                       clift * (fabs(ab) + fabs(ba));
     bool small = alift + blift + clift < MW_INCIRCLE_LIFTS;
     *bound = small ? MW_INCIRCLE_ERROR * permanent + MW_UNDERFLOW_ERROR : INFINITY;
     return alift * (bc - cb) + blift * (ca - ac) + clift * (ab - ba);
@@ -123,15 +129,15 @@ static MW_INLINE double mw__incircle(mw_point a, mw_point b, mw_point c, mw_poin
 #define MW_ORIENT3D_HEIGHTS 0x1p100
 
 /* The determinant as rounded. Its sign is sure where its magnitude is above *bound. */
-static MW_INLINE double mw__orient3d_rounded(const double a[3], const double b[3], const double c[3], const double d[3],
-                                             double *bound)
+static MW_INLINE double mw__orient3d_rounded(const double a[3], const double b[3],
+                                             const double c[3], const double d[3], double *bound)
 {
     double ax = d[0] - a[0], ay = d[1] - a[1], az = d[2] - a[2];
     double bx = d[0] - b[0], by = d[1] - b[1], bz = d[2] - b[2];
     double cx = d[0] - c[0], cy = d[1] - c[1], cz = d[2] - c[2];
     double bc = bx * cy, cb = cx * by, ca = cx * ay, ac = ax * cy, ab = ax * by, ba = bx * ay;
-    double permanent =
-        fabs(az) * (fabs(bc) + fabs(cb)) + fabs(bz) * (fabs(ca) + fabs(ac)) + fabs(cz) * (fabs(ab) + fabs(ba));
+    double permanent = fabs(az) * (fabs(bc) + fabs(cb)) + fabs(bz) * (fabs(ca) + fabs(ac)) +
+                       fabs(cz) * (fabs(ab) + fabs(ba));
     bool small = fabs(az) + fabs(bz) + fabs(cz) < MW_ORIENT3D_HEIGHTS;
     *bound = small ? MW_ORIENT3D_ERROR * permanent + MW_UNDERFLOW_ERROR : INFINITY;
     return az * (bc - cb) + bz * (ca - ac) + cz * (ab - ba);
@@ -139,7 +145,8 @@ static MW_INLINE double mw__orient3d_rounded(const double a[3], const double b[3
 
 /* > 0: d lies on the side of the plane through a, b, c from which they turn counter-clockwise.
  * Sign-exact. */
-static MW_INLINE double mw__orient3d(const double a[3], const double b[3], const double c[3], const double d[3])
+static MW_INLINE double mw__orient3d(const double a[3], const double b[3], const double c[3],
+                                     const double d[3])
 {
     double bound, det = mw__orient3d_rounded(a, b, c, d, &bound);
     return MW_LIKELY(fabs(det) > bound) ? det : mw__orient3d_exact(a, b, c, d);
@@ -165,7 +172,8 @@ static MW_INLINE mw_angle mw__angle(mw_point a, mw_point b, mw_point c)
 {
     double ux = a.x - b.x, uy = a.y - b.y, vx = c.x - b.x, vy = c.y - b.y;
     double left = ux * vy, right = uy * vx, x = ux * vx, y = uy * vy;
-    return (mw_angle){a, b, c, fabs(left - right), x + y, fabs(left) + fabs(right), fabs(x) + fabs(y)};
+    return (mw_angle){
+        a, b, c, fabs(left - right), x + y, fabs(left) + fabs(right), fabs(x) + fabs(y)};
 }
 
 /* Bound for cross(s) dot(t) - dot(s) cross(t). A product of two differences, cross or dot, is off
@@ -180,7 +188,8 @@ static MW_INLINE mw_angle mw__angle(mw_point a, mw_point b, mw_point c)
 
 /* It as rounded, the sine of the difference of the angles times lengths. Its sign is sure where its
  * magnitude is above *bound. */
-static MW_INLINE double mw__angle_difference_rounded(const mw_angle *s, const mw_angle *t, double *bound)
+static MW_INLINE double mw__angle_difference_rounded(const mw_angle *s, const mw_angle *t,
+                                                     double *bound)
 {
     double permanent = s->cross_sum * t->dot_sum + s->dot_sum * t->cross_sum;
     bool small = s->cross_sum + s->dot_sum + t->cross_sum + t->dot_sum < MW_ANGLE_SUMS;

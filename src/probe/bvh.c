@@ -42,7 +42,8 @@ static uint32_t bvh_sample_corners(const mw_surface *surface, double value[3][SA
 {
     uint32_t wanted = surface->tri_count < SAMPLE ? surface->tri_count : SAMPLE, count = 0;
     for (uint32_t i = 0; i < wanted; i++) {
-        const double *corner = mw__surface_corner(surface, sample_index(i, wanted, surface->tri_count), 0);
+        const double *corner =
+            mw__surface_corner(surface, sample_index(i, wanted, surface->tri_count), 0);
         if (!mw__is_finite3(corner)) continue;
         for (int k = 0; k < 3; k++) value[k][count] = corner[k];
         count++;
@@ -152,7 +153,8 @@ static void level_fit_chunk(void *work, uint64_t chunk, uint32_t member)
     mw_bvh_box *box = b->box + b->first[f->level];
     (void)member;
     for (uint64_t i = chunk * CHUNK; i < count && i < end; i++)
-        box[i] = f->level ? bvh_fit_box(b, f->level, (uint32_t)i) : bvh_fit_leaf(b, f->surface, (uint32_t)i);
+        box[i] = f->level ? bvh_fit_box(b, f->level, (uint32_t)i)
+                          : bvh_fit_leaf(b, f->surface, (uint32_t)i);
 }
 
 static bool bvh_fit_level(mw_bvh *b, const mw_surface *surface, uint32_t level, mw_job *job)
@@ -184,7 +186,8 @@ static double bvh_box_size(const mw_bvh_box *box)
 /* Half the surface area of a box. The share of all lines that meet a box is proportional to it. */
 static double bvh_box_area(const mw_bvh_box *box)
 {
-    double x = (double)box->high[0] - (double)box->low[0], y = (double)box->high[1] - (double)box->low[1];
+    double x = (double)box->high[0] - (double)box->low[0],
+           y = (double)box->high[1] - (double)box->low[1];
     double z = (double)box->high[2] - (double)box->low[2];
     return x * y + y * z + z * x;
 }
@@ -296,7 +299,8 @@ static uint32_t *bvh_order_along_curve(const mw_surface *surface, mw_job *job)
     }
     bvh_curve c = bvh_choose_curve(surface);
     mw__job_stage(job, "sorting triangles", 0.6);
-    for (uint32_t t = 0; t < n && mw__job_step(job, t, n); t++) key[t] = (mw_key){bvh_triangle_key(&c, surface, t), t};
+    for (uint32_t t = 0; t < n && mw__job_step(job, t, n); t++)
+        key[t] = (mw_key){bvh_triangle_key(&c, surface, t), t};
     if (mw__job_stopped(job)) {
         free(order);
         free(key);

@@ -33,8 +33,8 @@ typedef struct mw_bvh {
     double scale, centre[3];             /* the frame; scale is a power of two */
 } mw_bvh;
 
-/* Make the tree without fitting its boxes. Stages of the present part of the job. Returns false when
- * out of memory, or cancelled. Release in either case. */
+/* Make the tree without fitting its boxes. Stages of the present part of the job. Returns false
+ * when out of memory, or cancelled. Release in either case. */
 bool mw__bvh_create(mw_bvh *bvh, const mw_surface *surface, mw_job *job);
 void mw__bvh_release(mw_bvh *bvh);
 size_t mw__bvh_bytes(const mw_bvh *bvh);
@@ -70,12 +70,14 @@ static MW_INLINE void mw__bvh_to_frame(const mw_bvh *bvh, const double point[3],
 
 /* Transform a point to the frame: q. Returns the width by which to widen all boxes. No vertex has
  * moved farther than `slack` since they were fitted. */
-static MW_INLINE double mw__bvh_aim(const mw_bvh *bvh, const double point[3], double slack, double q[3])
+static MW_INLINE double mw__bvh_aim(const mw_bvh *bvh, const double point[3], double slack,
+                                    double q[3])
 {
     mw__bvh_to_frame(bvh, point, q);
     double largest = fmax(fabs(q[0]), fmax(fabs(q[1]), fabs(q[2])));
     if (largest <= MW_BVH_FAR)
-        return (largest * MW_BVH_Q_ERROR + slack * bvh->scale + MW_BVH_LEAST_WIDTH) * MW_BVH_WIDTH_ERROR;
+        return (largest * MW_BVH_Q_ERROR + slack * bvh->scale + MW_BVH_LEAST_WIDTH) *
+               MW_BVH_WIDTH_ERROR;
     q[0] = q[1] = q[2] = 0;
     return INFINITY;
 }
@@ -97,13 +99,15 @@ typedef struct mw_bvh_stack {
 static MW_INLINE void mw__bvh_push(mw_bvh_stack *stack, uint32_t floor, mw_bvh_visit visit)
 {
     uint32_t i = stack->count++;
-    for (; i > floor && stack->visit[i - 1].near < visit.near; i--) stack->visit[i] = stack->visit[i - 1];
+    for (; i > floor && stack->visit[i - 1].near < visit.near; i--)
+        stack->visit[i] = stack->visit[i - 1];
     stack->visit[i] = visit;
 }
 
 /* The children of box `i` of a level: boxes of level - 1, or the triangles of a leaf, in the order
  * of the tree. They are *first up to, not including, the returned value. */
-static MW_INLINE uint32_t mw__bvh_children(const mw_bvh *bvh, uint32_t level, uint32_t i, uint32_t *first)
+static MW_INLINE uint32_t mw__bvh_children(const mw_bvh *bvh, uint32_t level, uint32_t i,
+                                           uint32_t *first)
 {
     uint32_t size = level ? MW_BVH_FANOUT : MW_BVH_LEAF;
     uint32_t all = level ? bvh->level_boxes[level - 1] : bvh->count;

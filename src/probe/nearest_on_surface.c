@@ -63,8 +63,8 @@ static offset offset_cross(const offset *u, const offset *v)
         double minus = offset_two_product(u->head[j], v->head[i], &minus_tail);
         double sum = offset_two_sum(plus, -minus, &tail);
         tail += plus_tail - minus_tail;
-        tail +=
-            (u->head[i] * v->tail[j] - u->tail[j] * v->head[i]) + (u->tail[i] * v->head[j] - u->head[j] * v->tail[i]);
+        tail += (u->head[i] * v->tail[j] - u->tail[j] * v->head[i]) +
+                (u->tail[i] * v->head[j] - u->head[j] * v->tail[i]);
         r.head[k] = offset_two_sum(sum, tail, &r.tail[k]);
     }
     return r;
@@ -75,7 +75,8 @@ static double offset_dot(const offset *u, const offset *v)
 {
     double sum = 0, tails = 0;
     for (int k = 0; k < 3; k++) {
-        double of_product, of_sum, product = offset_two_product(u->head[k], v->head[k], &of_product);
+        double of_product, of_sum,
+            product = offset_two_product(u->head[k], v->head[k], &of_product);
         sum = offset_two_sum(sum, product, &of_sum);
         tails += of_sum + of_product + (u->head[k] * v->tail[k] + u->tail[k] * v->head[k]);
     }
@@ -189,7 +190,8 @@ static nearest_candidate nearest_on_edges(const triangle_view *v)
     int nearest = 0;
     for (int i = 0; i < 3; i++) {
         const double *p = v->corner[i].head, *e = v->edge[i].head;
-        double t = foot_along_edge(v, i), away[3] = {p[0] + t * e[0], p[1] + t * e[1], p[2] + t * e[2]};
+        double t = foot_along_edge(v, i),
+               away[3] = {p[0] + t * e[0], p[1] + t * e[1], p[2] + t * e[2]};
         double square = vector_dot(away, away);
         if (square >= least) continue;
         least = square;
@@ -207,14 +209,17 @@ static nearest_candidate nearest_on_edges(const triangle_view *v)
 static bool nearest_on_face(const triangle_view *v, nearest_candidate *c)
 {
     const double *square = v->square;
-    int i = square[0] >= square[1] ? square[0] >= square[2] ? 0 : 2 : square[1] >= square[2] ? 1 : 2;
+    int i = square[0] >= square[1]   ? square[0] >= square[2] ? 0 : 2
+            : square[1] >= square[2] ? 1
+                                     : 2;
     int j = (i + 1) % 3, apex = (i + 2) % 3;
     const double *e = v->edge[i].head, *back = v->edge[apex].head;
     offset normal = offset_cross(&v->edge[apex], &v->edge[i]);
     const double *n = normal.head, *p = v->corner[i].head;
     double square_n = vector_dot(n, n), least = LEAST_HEIGHT * square[i];
     if (!(square[i] > LEAST_SQUARE && square_n > least * least)) return false;
-    double up[3] = {n[1] * e[2] - n[2] * e[1], n[2] * e[0] - n[0] * e[2], n[0] * e[1] - n[1] * e[0]};
+    double up[3] = {n[1] * e[2] - n[2] * e[1], n[2] * e[0] - n[0] * e[2],
+                    n[0] * e[1] - n[1] * e[0]};
     double height = -vector_dot(p, up) / square_n, slope = -vector_dot(back, e) / square[i];
     double along = -vector_dot(p, e) / square[i] - slope * height;
     if (!(height > 0 && along > 0 && height + along < 1)) return false;
@@ -261,7 +266,8 @@ static void candidate_point(double point[3], const nearest_candidate *c, const t
 }
 
 /* `least` is the distance of the box of the triangle. */
-static mw_nearest_surface_point nearest_of_triangle(const mw_corners corner, const double q[3], double least)
+static mw_nearest_surface_point nearest_of_triangle(const mw_corners corner, const double q[3],
+                                                    double least)
 {
     triangle_view v;
     triangle_view_from(&v, q, corner);
@@ -326,9 +332,11 @@ static void nearest_look_at_triangle(nearest_search *s, uint32_t t)
 static void nearest_look_into(nearest_search *s, mw_bvh_stack *stack, mw_bvh_visit visit)
 {
     const mw_bvh *bvh = &s->prober->bvh;
-    uint32_t first, end = mw__bvh_children(bvh, visit.level, visit.box, &first), floor = stack->count;
+    uint32_t first, end = mw__bvh_children(bvh, visit.level, visit.box, &first),
+                    floor = stack->count;
     if (visit.level == 0) {
-        for (uint32_t i = first; i < end; i++) nearest_look_at_triangle(s, mw__bvh_triangle(bvh, i));
+        for (uint32_t i = first; i < end; i++)
+            nearest_look_at_triangle(s, mw__bvh_triangle(bvh, i));
         return;
     }
     mw_bvh_visit below = {0, visit.level - 1, 0};
@@ -353,11 +361,14 @@ static void nearest_search_bvh(nearest_search *s)
 mw_status mw_nearest_on_surface(const mw_prober *prober, const double point[3], double max_distance,
                                 mw_nearest_surface_point *hit, mw_error *error)
 {
-    if (!prober || !point || !hit) return mw__fail(error, MW_ERROR_ARGUMENT, "no prober, no point or no place for it");
+    if (!prober || !point || !hit)
+        return mw__fail(error, MW_ERROR_ARGUMENT, "no prober, no point or no place for it");
     *hit = (mw_nearest_surface_point){MW_NONE, NAN, {NAN, NAN, NAN}, {NAN, NAN, NAN}};
     if (!prober->has_bvh)
-        return mw__fail(error, MW_ERROR_ARGUMENT, "the nearest point needs a prober with options.boxes");
-    if (!(max_distance >= 0)) return mw__fail(error, MW_ERROR_ARGUMENT, "the distance is not a length");
+        return mw__fail(error, MW_ERROR_ARGUMENT,
+                        "the nearest point needs a prober with options.boxes");
+    if (!(max_distance >= 0))
+        return mw__fail(error, MW_ERROR_ARGUMENT, "the distance is not a length");
     if (!mw__is_finite3(point)) return MW_OK;
     nearest_search s = {.prober = prober,
                         .point = point,
@@ -367,7 +378,8 @@ mw_status mw_nearest_on_surface(const mw_prober *prober, const double point[3], 
     bool current = prober->version == prober->surface->version;
     if (current) nearest_search_bvh(&s);
     mw__surface_read_unlock(prober->surface);
-    if (!current) return mw__fail(error, MW_ERROR_ARGUMENT, "the boxes are not up to date: mw_prober_update");
+    if (!current)
+        return mw__fail(error, MW_ERROR_ARGUMENT, "the boxes are not up to date: mw_prober_update");
     if (s.nearest.triangle != MW_NONE) *hit = s.nearest;
     return MW_OK;
 }

@@ -83,7 +83,8 @@ static MW_INLINE bool is_above_plane(mw_plane_walk *w, uint32_t v, mw_plane_walk
     double side = w->n[0] * x + w->n[1] * y + w->n[2] * z;
     double permanent = w->sum[0] * fabs(x) + w->sum[1] * fabs(y) + w->sum[2] * fabs(z);
     bool small = fabs(x) + fabs(y) + fabs(z) < MW_SIDE_MOTION;
-    if (MW_LIKELY(small && fabs(side) > MW_SIDE_ERROR * permanent + MW_UNDERFLOW_ERROR)) return side > 0;
+    if (MW_LIKELY(small && fabs(side) > MW_SIDE_ERROR * permanent + MW_UNDERFLOW_ERROR))
+        return side > 0;
     return mw__side_exact(&w->search->line, w->o, p) > 0;
 }
 
@@ -104,9 +105,11 @@ static MW_INLINE bool plane_walk_touches(mw_plane_walk *w, mw_plane_walk_policy 
     return mw__touch_in_reach(s->surface, &s->line, w->t, s->reach);
 }
 
-static MW_INLINE mw_plane_walk_verdict plane_walk_enter(mw_plane_walk *w, uint32_t link, mw_plane_walk_policy P)
+static MW_INLINE mw_plane_walk_verdict plane_walk_enter(mw_plane_walk *w, uint32_t link,
+                                                        mw_plane_walk_policy P)
 {
-    if (MW_UNLIKELY(link == MW_NONE || mw__link_triangle(link) == w->first)) return MW_PLANE_WALK_END;
+    if (MW_UNLIKELY(link == MW_NONE || mw__link_triangle(link) == w->first))
+        return MW_PLANE_WALK_END;
     if (MW_UNLIKELY(w->fuel == 0)) return MW_PLANE_WALK_END;
     w->fuel--;
     w->t = mw__link_triangle(link);
@@ -117,7 +120,8 @@ static MW_INLINE mw_plane_walk_verdict plane_walk_enter(mw_plane_walk *w, uint32
 
 /* At a border: go back to the first triangle and continue over its other edge, whose first end is
  * above the plane. */
-static MW_INLINE mw_plane_walk_verdict plane_walk_turn_back(mw_plane_walk *w, mw_plane_walk_policy P)
+static MW_INLINE mw_plane_walk_verdict plane_walk_turn_back(mw_plane_walk *w,
+                                                            mw_plane_walk_policy P)
 {
     if (w->turned) return MW_PLANE_WALK_END;
     w->turned = true;
@@ -129,8 +133,8 @@ static MW_INLINE mw_plane_walk_verdict plane_walk_turn_back(mw_plane_walk *w, mw
 }
 
 /* Leave over edge e = rl, unless the triangle is touched. */
-static MW_INLINE mw_plane_walk_verdict plane_walk_leave(mw_plane_walk *w, uint32_t e, uint32_t r, uint32_t l,
-                                                        mw_plane_walk_policy P)
+static MW_INLINE mw_plane_walk_verdict plane_walk_leave(mw_plane_walk *w, uint32_t e, uint32_t r,
+                                                        uint32_t l, mw_plane_walk_policy P)
 {
     int side = side_of_line(w, r, l, P);
     bool met = side != w->side || side == 0;
@@ -161,7 +165,8 @@ static MW_INLINE uint32_t plane_walk_edge_up(mw_plane_walk *w, mw_plane_walk_pol
 
 static void plane_through_middle(mw_plane_walk *w)
 {
-    const double *a = vertex_position(w, corner_vertex(w, 0)), *b = vertex_position(w, corner_vertex(w, 1)),
+    const double *a = vertex_position(w, corner_vertex(w, 0)),
+                 *b = vertex_position(w, corner_vertex(w, 1)),
                  *c = vertex_position(w, corner_vertex(w, 2));
     for (int i = 0; i < 3; i++) w->o[i] = a[i] / 3 + b[i] / 3 + c[i] / 3;
     plane_span(w);
@@ -184,7 +189,8 @@ static MW_INLINE mw_plane_walk_verdict plane_walk_aim(mw_plane_walk *w, mw_plane
         plane_through_corner(w, k);
         up = plane_walk_edge_up(w, P);
     }
-    if (MW_UNLIKELY(up == MW_NONE)) return plane_walk_touches(w, P) ? MW_PLANE_WALK_TOUCH : MW_PLANE_WALK_END;
+    if (MW_UNLIKELY(up == MW_NONE))
+        return plane_walk_touches(w, P) ? MW_PLANE_WALK_TOUCH : MW_PLANE_WALK_END;
     w->side = 1;
     return plane_walk_leave(w, up, corner_vertex(w, up), corner_vertex(w, up + 1), P);
 }
@@ -201,14 +207,15 @@ static MW_INLINE mw_plane_walk_verdict plane_walk_follow(mw_plane_walk *w, mw_pl
 
 static MW_INLINE mw_plane_walk_verdict plane_walk_step(mw_plane_walk *w, mw_plane_walk_policy P)
 {
-    if (P.raced && atomic_load_explicit(w->found, memory_order_relaxed) != MW_NONE) return MW_PLANE_WALK_END;
+    if (P.raced && atomic_load_explicit(w->found, memory_order_relaxed) != MW_NONE)
+        return MW_PLANE_WALK_END;
     return MW_LIKELY(w->e != MW_PLANE_WALK_FIRST) ? plane_walk_follow(w, P) : plane_walk_aim(w, P);
 }
 
 /* --- kernels --- */
 
-mw_plane_walk mw__plane_walk_begin(const mw_probe_search *search, uint32_t t, const _Atomic uint32_t *found,
-                                   mw_probe_counters *work)
+mw_plane_walk mw__plane_walk_begin(const mw_probe_search *search, uint32_t t,
+                                   const _Atomic uint32_t *found, mw_probe_counters *work)
 {
     const mw_surface *surface = search->surface;
     if (work) work->triangles++;
@@ -256,8 +263,8 @@ static uint32_t plane_walk_raced_count(mw_plane_walk *walk)
 
 uint32_t mw__plane_walk_run(mw_plane_walk *walk)
 {
-    static uint32_t (*const kernels[2][2])(mw_plane_walk *) = {{plane_walk_alone, plane_walk_alone_count},
-                                                               {plane_walk_raced, plane_walk_raced_count}};
+    static uint32_t (*const kernels[2][2])(mw_plane_walk *) = {
+        {plane_walk_alone, plane_walk_alone_count}, {plane_walk_raced, plane_walk_raced_count}};
     return kernels[walk->found != NULL][walk->work != NULL](walk);
 }
 

@@ -67,8 +67,8 @@ typedef struct mw_plane_walk {
 
 /* A walk from triangle t. Counts in *work, unless that is NULL. `found`: see mw_plane_walk; NULL
  * for a single walk. Touches no memory of the mesh. */
-mw_plane_walk mw__plane_walk_begin(const mw_probe_search *search, uint32_t t, const _Atomic uint32_t *found,
-                                   mw_probe_counters *work);
+mw_plane_walk mw__plane_walk_begin(const mw_probe_search *search, uint32_t t,
+                                   const _Atomic uint32_t *found, mw_probe_counters *work);
 
 /* Run a walk to its end. Returns the triangle that is touched, or MW_NONE. */
 uint32_t mw__plane_walk_run(mw_plane_walk *walk);
@@ -82,17 +82,20 @@ uint32_t mw__plane_walk_trace(mw_plane_walk *walk, mw_probe_trace *trace);
 bool mw__probe_faces(const mw_probe_search *search, uint32_t triangle, mw_probe_counters *work);
 
 /* Alg. 1. Returns MW_NONE if m points at the front of no triangle in the sample. */
-uint32_t mw__probe_first_triangle(const mw_probe_search *search, uint64_t *random, mw_probe_counters *work);
+uint32_t mw__probe_first_triangle(const mw_probe_search *search, uint64_t *random,
+                                  mw_probe_counters *work);
 
 /* --- probe_race.c --- */
 
 /* Run walk i of a search from triangle `first`. Returns the triangle that is touched, or MW_NONE.
  * `found`, `work`: as for mw__plane_walk_begin. `trace`: NULL, or for a single walk that counts. */
-uint32_t mw__probe_search_from(const mw_probe_search *search, uint64_t i, uint32_t first, const _Atomic uint32_t *found,
-                               mw_probe_counters *work, mw_probe_trace *trace);
+uint32_t mw__probe_search_from(const mw_probe_search *search, uint64_t i, uint32_t first,
+                               const _Atomic uint32_t *found, mw_probe_counters *work,
+                               mw_probe_trace *trace);
 
 /* Run walks until one touches a triangle. Returns that, or MW_NONE. Adds the work of all walks,
  * without maxima, to *work, unless that is NULL. With a trace the walks run one after the other. */
-uint32_t mw__probe_search_all(const mw_probe_search *search, mw_probe_counters *work, mw_probe_trace *trace);
+uint32_t mw__probe_search_all(const mw_probe_search *search, mw_probe_counters *work,
+                              mw_probe_trace *trace);
 
 #endif

@@ -47,7 +47,8 @@ static uint32_t probe_sample_count(const mw_surface *surface, uint32_t samples)
     return samples < surface->tri_count ? samples : surface->tri_count;
 }
 
-static mw_probe_options probe_options_resolve(const mw_probe_options *options, const mw_surface *surface)
+static mw_probe_options probe_options_resolve(const mw_probe_options *options,
+                                              const mw_surface *surface)
 {
     mw_probe_options all = *options;
     if (isinf(all.max_distance)) all.max_distance = 0;
@@ -56,16 +57,19 @@ static mw_probe_options probe_options_resolve(const mw_probe_options *options, c
     return all;
 }
 
-mw_status mw_probe_cursor_init(const mw_prober *prober, const mw_probe_options *options, mw_probe_cursor *cursor,
-                               mw_error *error)
+mw_status mw_probe_cursor_init(const mw_prober *prober, const mw_probe_options *options,
+                               mw_probe_cursor *cursor, mw_error *error)
 {
     static const mw_probe_options defaults;
     if (!cursor || !prober) return mw__fail(error, MW_ERROR_ARGUMENT, "a cursor needs a prober");
     if (!options) options = &defaults;
-    if ((unsigned)options->start >= MW_PROBE_START_COUNT) return mw__fail(error, MW_ERROR_ARGUMENT, "unknown start");
-    if (!(options->max_distance >= 0)) return mw__fail(error, MW_ERROR_ARGUMENT, "the distance is not a length");
+    if ((unsigned)options->start >= MW_PROBE_START_COUNT)
+        return mw__fail(error, MW_ERROR_ARGUMENT, "unknown start");
+    if (!(options->max_distance >= 0))
+        return mw__fail(error, MW_ERROR_ARGUMENT, "the distance is not a length");
     if (options->certain && !prober->has_bvh)
-        return mw__fail(error, MW_ERROR_ARGUMENT, "certain probes need a prober with options.boxes");
+        return mw__fail(error, MW_ERROR_ARGUMENT,
+                        "certain probes need a prober with options.boxes");
     mw_status status = MW_RESERVED_CHECK(mw_probe_options, options, error);
     if (status) return status;
     *cursor = (mw_probe_cursor){
@@ -81,7 +85,8 @@ mw_status mw_probe_cursor_init(const mw_prober *prober, const mw_probe_options *
 
 /* Is triangle t probably nearer to q than the nearest of a sample? If k points are spread over a
  * ball of radius r, the nearest has an expected distance of about 2 r / sqrt(k). */
-static bool probe_beats_sample(const mw_prober *prober, uint32_t t, const double q[3], uint32_t samples)
+static bool probe_beats_sample(const mw_prober *prober, uint32_t t, const double q[3],
+                               uint32_t samples)
 {
     const double *p = mw__surface_corner(prober->surface, t, 0);
     double x = p[0] - q[0], y = p[1] - q[1], z = p[2] - q[2];
@@ -89,16 +94,18 @@ static bool probe_beats_sample(const mw_prober *prober, uint32_t t, const double
 }
 
 /* Does the search start at the triangle touched last? */
-static bool probe_is_coherent(const mw_prober *prober, const mw_probe_cursor *cursor, const double q[3])
+static bool probe_is_coherent(const mw_prober *prober, const mw_probe_cursor *cursor,
+                              const double q[3])
 {
     mw_probe_start start = cursor->options.start;
     if (cursor->prober != prober || cursor->last >= prober->surface->tri_count) return false;
     return start == MW_PROBE_START_LAST ||
-           (start == MW_PROBE_START_AUTO && probe_beats_sample(prober, cursor->last, q, cursor->options.samples));
+           (start == MW_PROBE_START_AUTO &&
+            probe_beats_sample(prober, cursor->last, q, cursor->options.samples));
 }
 
-static mw_probe_search probe_plan(const mw_prober *prober, mw_probe_cursor *cursor, const double q[3],
-                                  const double m[3])
+static mw_probe_search probe_plan(const mw_prober *prober, mw_probe_cursor *cursor,
+                                  const double q[3], const double m[3])
 {
     const mw_probe_options *options = &cursor->options;
     return (mw_probe_search){
@@ -118,11 +125,13 @@ static mw_probe_search probe_plan(const mw_prober *prober, mw_probe_cursor *curs
 
 /* A probe that moves in small steps usually touches the triangle that it touched last. Its first
  * walk would start and end there, so no walk is needed, unless it is counted or traced. */
-static mw_touch probe_answer_published(const mw_probe_search *search, mw_probe_counters *work, mw_probe_trace *trace)
+static mw_touch probe_answer_published(const mw_probe_search *search, mw_probe_counters *work,
+                                       mw_probe_trace *trace)
 {
     mw_touch again;
-    bool stays = search->last != MW_NONE &&
-                 mw__touch_surely_inside(search->surface, &search->line, search->last, search->reach, &again);
+    bool stays =
+        search->last != MW_NONE && mw__touch_surely_inside(search->surface, &search->line,
+                                                           search->last, search->reach, &again);
     if (stays && !work) return again;
     uint32_t t = mw__probe_search_all(search, work, trace);
     if (stays) return again;
@@ -130,31 +139,36 @@ static mw_touch probe_answer_published(const mw_probe_search *search, mw_probe_c
     return mw__touch_of_lowest(search->surface, &search->line, t);
 }
 
-static mw_touch probe_answer_certain(const mw_prober *prober, mw_probe_search *search, double max_distance,
-                                     mw_probe_counters *work, mw_probe_trace *trace)
+static mw_touch probe_answer_certain(const mw_prober *prober, mw_probe_search *search,
+                                     double max_distance, mw_probe_counters *work,
+                                     mw_probe_trace *trace)
 {
-    if (!prober->has_bvh || prober->version != search->surface->version) return mw__touch_none(MW_TOUCH_BAD);
+    if (!prober->has_bvh || prober->version != search->surface->version)
+        return mw__touch_none(MW_TOUCH_BAD);
     uint32_t seed = MW_NONE;
     search->steps = SEED_STEPS < search->steps ? SEED_STEPS : search->steps;
     if (search->last != MW_NONE && mw__probe_faces(search, search->last, work))
         seed = mw__probe_search_from(search, 0, search->last, NULL, work, trace);
     uint32_t t = mw__probe_certain(prober, &search->line, max_distance, seed, work);
-    return t == MW_NONE ? mw__touch_none(MW_TOUCH_NONE) : mw__touch_of(search->surface, &search->line, t);
+    return t == MW_NONE ? mw__touch_none(MW_TOUCH_NONE)
+                        : mw__touch_of(search->surface, &search->line, t);
 }
 
-static mw_touch probe_answer(const mw_prober *prober, mw_probe_cursor *cursor, const double q[3], const double m[3],
-                             mw_probe_trace *trace)
+static mw_touch probe_answer(const mw_prober *prober, mw_probe_cursor *cursor, const double q[3],
+                             const double m[3], mw_probe_trace *trace)
 {
     if (!cursor->prober) mw_probe_cursor_init(prober, NULL, cursor, NULL); /* was all zero */
-    bool counted = cursor->options.counters || trace;                      /* a walk with a trace counts */
+    /* a walk with a trace counts */
+    bool counted = cursor->options.counters || trace;
     mw_probe_counters work = {0};
     mw_touch touch = mw__touch_none(MW_TOUCH_BAD);
     if (mw__is_finite3(q) && mw__is_finite3(m) && (m[0] != 0 || m[1] != 0 || m[2] != 0)) {
         mw__surface_read_lock(prober->surface);
         mw_probe_search search = probe_plan(prober, cursor, q, m);
         mw_probe_counters *to = counted ? &work : NULL;
-        touch = cursor->options.certain ? probe_answer_certain(prober, &search, cursor->options.max_distance, to, trace)
-                                        : probe_answer_published(&search, to, trace);
+        touch = cursor->options.certain
+                    ? probe_answer_certain(prober, &search, cursor->options.max_distance, to, trace)
+                    : probe_answer_published(&search, to, trace);
         mw__surface_read_unlock(prober->surface);
     }
     bool hit = touch.state == MW_TOUCH_HIT;
@@ -166,15 +180,18 @@ static mw_touch probe_answer(const mw_prober *prober, mw_probe_cursor *cursor, c
     return touch;
 }
 
-mw_touch mw_probe(const mw_prober *prober, mw_probe_cursor *cursor, const double point[3], const double motion[3])
+mw_touch mw_probe(const mw_prober *prober, mw_probe_cursor *cursor, const double point[3],
+                  const double motion[3])
 {
     return probe_answer(prober, cursor, point, motion, NULL);
 }
 
-size_t mw_probe_path(const mw_prober *prober, mw_probe_cursor *cursor, const double point[3], const double motion[3],
-                     uint32_t *triangles, uint32_t *iteration, size_t capacity, mw_touch *touch)
+size_t mw_probe_path(const mw_prober *prober, mw_probe_cursor *cursor, const double point[3],
+                     const double motion[3], uint32_t *triangles, uint32_t *iteration,
+                     size_t capacity, mw_touch *touch)
 {
-    mw_probe_trace trace = {.triangles = triangles, .iteration = iteration, .capacity = triangles ? capacity : 0};
+    mw_probe_trace trace = {
+        .triangles = triangles, .iteration = iteration, .capacity = triangles ? capacity : 0};
     mw_touch end = probe_answer(prober, cursor, point, motion, &trace);
     if (touch) *touch = end;
     return trace.count;

@@ -62,14 +62,20 @@ static mw_probe_counters probe_batch_run(const probe_batch *b, mw_job *job)
 }
 
 mw_status mw_probe_batch(const mw_prober *prober, const double *queries, size_t n, size_t stride,
-                         const mw_probe_options *options, mw_touch *touches, mw_probe_counters *counters,
-                         mw_error *error)
+                         const mw_probe_options *options, mw_touch *touches,
+                         mw_probe_counters *counters, mw_error *error)
 {
-    probe_batch b = {.prober = prober, .queries = queries, .n = n, .stride = stride ? stride : 6, .touches = touches};
+    probe_batch b = {.prober = prober,
+                     .queries = queries,
+                     .n = n,
+                     .stride = stride ? stride : 6,
+                     .touches = touches};
     mw_status status = mw_probe_cursor_init(prober, options, &b.cursor, error);
     if (status) return status;
-    if (n && (!queries || !touches)) return mw__fail(error, MW_ERROR_ARGUMENT, "no queries, or no place for results");
-    if (b.stride < 6) return mw__fail(error, MW_ERROR_ARGUMENT, "a stride below 6 holds no point and motion");
+    if (n && (!queries || !touches))
+        return mw__fail(error, MW_ERROR_ARGUMENT, "no queries, or no place for results");
+    if (b.stride < 6)
+        return mw__fail(error, MW_ERROR_ARGUMENT, "a stride below 6 holds no point and motion");
     b.seed = b.cursor.options.seed;
     mw_job job = mw__job(b.cursor.options.threads, b.cursor.options.progress);
     mw_probe_counters sum = probe_batch_run(&b, &job);

@@ -49,7 +49,8 @@ typedef struct certain_search {
 
 static void beam_set_reach(beam *b, double distance)
 {
-    double reach = (distance + MW_BVH_TINY_LENGTH) * b->per_length * REACH_ERROR + MW_BVH_LEAST_WIDTH;
+    double reach =
+        (distance + MW_BVH_TINY_LENGTH) * b->per_length * REACH_ERROR + MW_BVH_LEAST_WIDTH;
     b->reach = reach < GREATEST_REACH ? reach : GREATEST_REACH;
 }
 
@@ -96,7 +97,8 @@ static void certain_look_at_triangle(certain_search *s, uint32_t t)
                                      : mw__touch_is_better(surface, s->line, t, s->best);
     if (!better) return;
     s->best = t;
-    const mw_corners corners = {mw__surface_corner(surface, t, 0), mw__surface_corner(surface, t, 1),
+    const mw_corners corners = {mw__surface_corner(surface, t, 0),
+                                mw__surface_corner(surface, t, 1),
                                 mw__surface_corner(surface, t, 2)};
     beam_set_reach(&s->beam, fmin(fabs(mw__hit_distance(s->line, corners)), s->max_distance));
 }
@@ -105,10 +107,12 @@ static void certain_look_at_triangle(certain_search *s, uint32_t t)
 static void certain_look_into(certain_search *s, mw_bvh_stack *stack, mw_bvh_visit visit)
 {
     const mw_bvh *bvh = &s->prober->bvh;
-    uint32_t first, end = mw__bvh_children(bvh, visit.level, visit.box, &first), floor = stack->count;
+    uint32_t first, end = mw__bvh_children(bvh, visit.level, visit.box, &first),
+                    floor = stack->count;
     if (visit.level == 0) {
         s->triangles += end - first;
-        for (uint32_t i = first; i < end; i++) certain_look_at_triangle(s, mw__bvh_triangle(bvh, i));
+        for (uint32_t i = first; i < end; i++)
+            certain_look_at_triangle(s, mw__bvh_triangle(bvh, i));
         return;
     }
     s->boxes += end - first;
@@ -118,8 +122,8 @@ static void certain_look_into(certain_search *s, mw_bvh_stack *stack, mw_bvh_vis
             mw__bvh_push(stack, floor, below);
 }
 
-uint32_t mw__probe_certain(const mw_prober *prober, const mw_line *line, double max_distance, uint32_t seed,
-                           mw_probe_counters *counters)
+uint32_t mw__probe_certain(const mw_prober *prober, const mw_line *line, double max_distance,
+                           uint32_t seed, mw_probe_counters *counters)
 {
     certain_search s = {.prober = prober,
                         .line = line,

@@ -23,7 +23,8 @@ static double squared_distance(const double a[3], const double b[3])
     return x * x + y * y + z * z;
 }
 
-uint32_t mw__probe_first_triangle(const mw_probe_search *search, uint64_t *random, mw_probe_counters *work)
+uint32_t mw__probe_first_triangle(const mw_probe_search *search, uint64_t *random,
+                                  mw_probe_counters *work)
 {
     const mw_surface *surface = search->surface;
     uint32_t best = MW_NONE;

@@ -10,8 +10,9 @@
 
 #include <pthread.h>
 
-uint32_t mw__probe_search_from(const mw_probe_search *search, uint64_t i, uint32_t first, const _Atomic uint32_t *found,
-                               mw_probe_counters *work, mw_probe_trace *trace)
+uint32_t mw__probe_search_from(const mw_probe_search *search, uint64_t i, uint32_t first,
+                               const _Atomic uint32_t *found, mw_probe_counters *work,
+                               mw_probe_trace *trace)
 {
     if (work) work->iterations++;
     if (first == MW_NONE) return MW_NONE;
@@ -22,16 +23,19 @@ uint32_t mw__probe_search_from(const mw_probe_search *search, uint64_t i, uint32
 }
 
 /* Run walk i from its first triangle. */
-static uint32_t race_search_once(const mw_probe_search *search, uint64_t i, const _Atomic uint32_t *found,
-                                 mw_probe_counters *work, mw_probe_trace *trace)
+static uint32_t race_search_once(const mw_probe_search *search, uint64_t i,
+                                 const _Atomic uint32_t *found, mw_probe_counters *work,
+                                 mw_probe_trace *trace)
 {
     uint64_t random = mw__random_seed(search->random, i);
-    bool coherent = i == 0 && search->last != MW_NONE && mw__probe_faces(search, search->last, work);
+    bool coherent =
+        i == 0 && search->last != MW_NONE && mw__probe_faces(search, search->last, work);
     uint32_t first = coherent ? search->last : mw__probe_first_triangle(search, &random, work);
     return mw__probe_search_from(search, i, first, found, work, trace);
 }
 
-static uint32_t race_in_turn(const mw_probe_search *search, mw_probe_counters *work, mw_probe_trace *trace)
+static uint32_t race_in_turn(const mw_probe_search *search, mw_probe_counters *work,
+                             mw_probe_trace *trace)
 {
     uint32_t found = MW_NONE;
     for (uint64_t i = 0; i < search->iterations && found == MW_NONE; i++)
@@ -58,9 +62,11 @@ static void race_member_run(void *race, uint32_t member)
     while (atomic_load_explicit(&r->found, memory_order_relaxed) == MW_NONE) {
         uint64_t i = atomic_fetch_add_explicit(&r->next, 1, memory_order_relaxed);
         if (i >= search->iterations) break;
-        uint32_t t = race_search_once(search, i, &r->found, search->count ? &work : NULL, NULL), none = MW_NONE;
+        uint32_t t = race_search_once(search, i, &r->found, search->count ? &work : NULL, NULL),
+                 none = MW_NONE;
         if (t == MW_NONE) continue;
-        atomic_compare_exchange_strong_explicit(&r->found, &none, t, memory_order_relaxed, memory_order_relaxed);
+        atomic_compare_exchange_strong_explicit(&r->found, &none, t, memory_order_relaxed,
+                                                memory_order_relaxed);
         break;
     }
     if (!r->work) return;
@@ -79,7 +85,8 @@ static uint32_t race_in_threads(const mw_probe_search *search, mw_probe_counters
     return atomic_load_explicit(&r.found, memory_order_relaxed);
 }
 
-uint32_t mw__probe_search_all(const mw_probe_search *search, mw_probe_counters *work, mw_probe_trace *trace)
+uint32_t mw__probe_search_all(const mw_probe_search *search, mw_probe_counters *work,
+                              mw_probe_trace *trace)
 {
     bool alone = trace || search->race < 2 || search->iterations < 2;
     return alone ? race_in_turn(search, work, trace) : race_in_threads(search, work);

@@ -120,10 +120,12 @@ static bool touch_is_parted(const touch_search *s, const double l[3], const doub
  * apart. */
 static bool edge_is_joined(const mw_surface *surface, uint32_t half, uint32_t link)
 {
-    uint32_t t = mw__link_triangle(half), e = mw__link_edge(half), u = mw__link_triangle(link), f = mw__link_edge(link);
+    uint32_t t = mw__link_triangle(half), e = mw__link_edge(half), u = mw__link_triangle(link),
+             f = mw__link_edge(link);
     const double *a = mw__surface_corner(surface, t, e), *b = mw__surface_corner(surface, t, e + 1);
     const double *c = mw__surface_corner(surface, u, f), *d = mw__surface_corner(surface, u, f + 1);
-    return (points_equal3(a, c) && points_equal3(b, d)) || (points_equal3(a, d) && points_equal3(b, c));
+    return (points_equal3(a, c) && points_equal3(b, d)) ||
+           (points_equal3(a, d) && points_equal3(b, c));
 }
 
 /* Cross a half-edge that has the point in its interior, and continue through flat triangles. A flat
@@ -134,7 +136,8 @@ static void touch_search_cross(touch_search *s, uint32_t half)
         uint32_t link = s->surface->tri[mw__link_triangle(half)].link[mw__link_edge(half)];
         if (link == MW_NONE || !edge_is_joined(s->surface, half, link)) return;
         uint32_t t = mw__link_triangle(link), e = mw__link_edge(link);
-        const double *l = mw__surface_corner(s->surface, t, e), *r = mw__surface_corner(s->surface, t, e + 1),
+        const double *l = mw__surface_corner(s->surface, t, e),
+                     *r = mw__surface_corner(s->surface, t, e + 1),
                      *d = mw__surface_corner(s->surface, t, mw__prev(e));
         if (!mw__is_finite3(d)) return;
         double side = mw__side(s->line, r, d);
@@ -159,7 +162,8 @@ static void touch_search_look(touch_search *s, uint32_t t, uint32_t corner)
     double side = mw__side(s->line, a, b);
     if (side < 0) touch_search_note(s, t);
     if (side != 0 || !mw__collinear3(p, a, b)) return;
-    if (touch_point_is_between(p, a, b) || points_equal3(p, a) || points_equal3(p, b)) touch_search_add_branch(s, t);
+    if (touch_point_is_between(p, a, b) || points_equal3(p, a) || points_equal3(p, b))
+        touch_search_add_branch(s, t);
 }
 
 /* Turn round the corner, over the given edge first, until the fan ends. Returns true if it
@@ -189,7 +193,8 @@ static void touch_search_turn(touch_search *s, uint32_t t, uint32_t corner)
 static void touch_search_branch_out(touch_search *s, uint32_t t)
 {
     for (uint32_t k = 0; k < 3; k++) {
-        const double *a = mw__surface_corner(s->surface, t, k), *b = mw__surface_corner(s->surface, t, k + 1);
+        const double *a = mw__surface_corner(s->surface, t, k),
+                     *b = mw__surface_corner(s->surface, t, k + 1);
         if (points_equal3(a, s->vertex)) touch_search_turn(s, t, k);
         if (touch_point_is_between(s->vertex, a, b)) touch_search_cross(s, mw__link(t, k));
     }
@@ -228,7 +233,8 @@ static mw_touch touch_inside(uint32_t triangle, double distance, const double si
                       .local = UINT8_MAX};
 }
 
-static mw_touch touch_make(const mw_line *line, uint32_t triangle, const mw_corners corners, const double side[3])
+static mw_touch touch_make(const mw_line *line, uint32_t triangle, const mw_corners corners,
+                           const double side[3])
 {
     mw_touch touch = touch_inside(triangle, mw__hit_distance(line, corners), side);
     uint32_t zeros = 0;
@@ -265,8 +271,8 @@ mw_touch mw__touch_of_lowest(const mw_surface *surface, const mw_line *line, uin
 /* Distances are off by less than 2^-40 of themselves, or by underflow. */
 #define REACH_ERROR (1 + 0x1p-38)
 
-bool mw__touch_surely_inside(const mw_surface *surface, const mw_line *line, uint32_t triangle, double d,
-                             mw_touch *touch)
+bool mw__touch_surely_inside(const mw_surface *surface, const mw_line *line, uint32_t triangle,
+                             double d, mw_touch *touch)
 {
     mw_corners c;
     double side[3];

@@ -44,7 +44,8 @@ static double prober_measure_spread(const mw_surface *surface)
     uint32_t stride = surface->tri_count / CORNERS + 1, count = 0;
     double sum[3] = {0, 0, 0}, squares = 0;
     for (uint32_t t = 0; t < surface->tri_count; t += stride) {
-        const double *p = mw__surface_corner(surface, t, 0), *origin = mw__surface_corner(surface, 0, 0);
+        const double *p = mw__surface_corner(surface, t, 0),
+                     *origin = mw__surface_corner(surface, 0, 0);
         if (!mw__is_finite3(p) || !mw__is_finite3(origin)) continue;
         for (int k = 0; k < 3; k++) {
             double x = p[k] - origin[k];
@@ -57,15 +58,16 @@ static double prober_measure_spread(const mw_surface *surface)
     return count ? (squares - mean2) / count : 0;
 }
 
-mw_status mw_prober_create(const mw_surface *surface, const mw_prober_options *options, mw_prober **out,
-                           mw_error *error)
+mw_status mw_prober_create(const mw_surface *surface, const mw_prober_options *options,
+                           mw_prober **out, mw_error *error)
 {
     static const mw_prober_options defaults;
     if (!options) options = &defaults;
     if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "no place for the prober");
     *out = NULL;
     if (!surface) return mw__fail(error, MW_ERROR_ARGUMENT, "no surface");
-    if (surface->tri_count == 0) return mw__fail(error, MW_ERROR_INPUT, "the surface has no triangle");
+    if (surface->tri_count == 0)
+        return mw__fail(error, MW_ERROR_INPUT, "the surface has no triangle");
     mw_status status = MW_RESERVED_CHECK(mw_prober_options, options, error);
     if (status) return status;
     mw_prober *prober = mw__calloc(1, sizeof *prober);
@@ -105,7 +107,8 @@ void mw_prober_update(mw_prober *prober, double moved, uint32_t threads)
 
 void mw_prober_describe(const mw_prober *prober, mw_prober_info *info)
 {
-    *info = (mw_prober_info){.bytes = sizeof *prober, .fits = prober->fits, .fit_seconds = prober->fit_seconds};
+    *info = (mw_prober_info){
+        .bytes = sizeof *prober, .fits = prober->fits, .fit_seconds = prober->fit_seconds};
     if (prober->has_bvh) info->box_bytes = mw__bvh_bytes(&prober->bvh);
     info->bytes += info->box_bytes;
 }

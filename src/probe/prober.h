@@ -34,7 +34,8 @@ bool mw__line_touches(const mw_surface *surface, const mw_line *line, uint32_t t
 bool mw__line_meets(const mw_surface *surface, const mw_line *line, uint32_t triangle);
 
 /* Is the touch of a triangle at most d away? Exact. d may be infinite. */
-bool mw__touch_in_reach(const mw_surface *surface, const mw_line *line, uint32_t triangle, double d);
+bool mw__touch_in_reach(const mw_surface *surface, const mw_line *line, uint32_t triangle,
+                        double d);
 
 /* Of two triangles that are touched, is s the better answer: nearer, or equally near with the lower
  * number? Exact. */
@@ -54,15 +55,15 @@ mw_touch mw__touch_of_lowest(const mw_surface *surface, const mw_line *line, uin
 
 /* Is the triangle touched in its interior, at most d away, and are doubles sure of it? Then *touch
  * becomes the answer. */
-bool mw__touch_surely_inside(const mw_surface *surface, const mw_line *line, uint32_t triangle, double d,
-                             mw_touch *touch);
+bool mw__touch_surely_inside(const mw_surface *surface, const mw_line *line, uint32_t triangle,
+                             double d, mw_touch *touch);
 
 /* --- probe_certain.c --- */
 
 /* The best triangle that is touched at most max_distance away (0: no limit), or MW_NONE: exact and
  * complete. `seed`: a triangle known to be touched in reach, or MW_NONE. Counts in *counters,
  * unless that is NULL. The BVH must be up to date. */
-uint32_t mw__probe_certain(const mw_prober *prober, const mw_line *line, double max_distance, uint32_t seed,
-                           mw_probe_counters *counters);
+uint32_t mw__probe_certain(const mw_prober *prober, const mw_line *line, double max_distance,
+                           uint32_t seed, mw_probe_counters *counters);
 
 #endif

@@ -24,8 +24,8 @@ static bool facet_is_flat(const mw_star *star, uint32_t t)
 static uint32_t facet_longest_edge(const mw_star *star, uint32_t t)
 {
     int axis = 0;
-    while (axis < 2 &&
-           mw__star_corner_point(star, star->tri[t].v, 0)[axis] == mw__star_corner_point(star, star->tri[t].v, 1)[axis])
+    while (axis < 2 && mw__star_corner_point(star, star->tri[t].v, 0)[axis] ==
+                           mw__star_corner_point(star, star->tri[t].v, 1)[axis])
         axis++;
     uint32_t middle = 0;
     for (uint32_t k = 0; k < 3; k++) {
@@ -56,7 +56,8 @@ static void flat_facet_flip(mw_star *star, uint32_t f, uint32_t edge)
     mw_triangle *flat = &star->tri[f];
     uint32_t link = flat->link[edge], g = mw__link_triangle(link), across = mw__link_edge(link);
     mw_triangle *whole = &star->tri[g];
-    uint32_t b = flat->v[edge], a = flat->v[edge + 1], v = flat->v[mw__prev(edge)], x = whole->v[mw__prev(across)];
+    uint32_t b = flat->v[edge], a = flat->v[edge + 1], v = flat->v[mw__prev(edge)],
+             x = whole->v[mw__prev(across)];
     uint32_t av = flat->link[mw__next(edge)], vb = flat->link[mw__prev(edge)];
     uint32_t bx = whole->link[mw__next(across)], xa = whole->link[mw__prev(across)];
     facet_set_corners(whole, a, v, x);
@@ -76,7 +77,8 @@ static void half_edges_glue(mw_star *star, uint32_t a, uint32_t b)
 {
     uint32_t across_a = star->tri[mw__link_triangle(a)].link[mw__link_edge(a)];
     uint32_t across_b = star->tri[mw__link_triangle(b)].link[mw__link_edge(b)];
-    if (across_a != b) facets_join(star, mw__link_triangle(across_a), mw__link_edge(across_a), across_b);
+    if (across_a != b)
+        facets_join(star, mw__link_triangle(across_a), mw__link_edge(across_a), across_b);
 }
 
 static void facet_make_void(mw_star *star, uint32_t t)
@@ -88,7 +90,8 @@ static void facet_make_void(mw_star *star, uint32_t t)
 static uint32_t facet_short_edge(const mw_star *star, uint32_t t)
 {
     uint32_t k = 0;
-    while (k < 3 && star->coincident[star->tri[t].v[k]] != star->coincident[star->tri[t].v[k + 1]]) k++;
+    while (k < 3 && star->coincident[star->tri[t].v[k]] != star->coincident[star->tri[t].v[k + 1]])
+        k++;
     return k;
 }
 
@@ -98,7 +101,8 @@ static uint32_t facet_short_edge(const mw_star *star, uint32_t t)
 static void facet_shrink(mw_star *star, uint32_t t, uint32_t edge)
 {
     uint32_t link = star->tri[t].link[edge];
-    if (mw__link_triangle(link) == t) link = star->tri[t].link[edge = 3 - edge - mw__link_edge(link)];
+    if (mw__link_triangle(link) == t)
+        link = star->tri[t].link[edge = 3 - edge - mw__link_edge(link)];
     uint32_t half = mw__link(t, edge);
     half_edges_glue(star, mw__half_next(half), mw__half_prev(half));
     half_edges_glue(star, mw__half_next(link), mw__half_prev(link));
@@ -130,13 +134,14 @@ static uint32_t flat_facet_reduce(mw_star *star, uint32_t t)
         facet_shrink(star, t, small);
         return t;
     }
-    uint32_t edge = facet_longest_edge(star, t), link = star->tri[t].link[edge], other = mw__link_triangle(link);
+    uint32_t edge = facet_longest_edge(star, t), link = star->tri[t].link[edge],
+             other = mw__link_triangle(link);
     if (apex_representative(star, link) == apex_representative(star, mw__link(t, edge))) {
         facet_pair_fold(star, t, edge);
         return t;
     }
-    if (facet_is_flat(star, other) &&
-        (facet_short_edge(star, other) != MW_STAR_NO_EDGE || facet_longest_edge(star, other) != mw__link_edge(link)))
+    if (facet_is_flat(star, other) && (facet_short_edge(star, other) != MW_STAR_NO_EDGE ||
+                                       facet_longest_edge(star, other) != mw__link_edge(link)))
         return other;
     flat_facet_flip(star, t, edge);
     uint32_t beside = mw__link_triangle(star->tri[t].link[0]);

@@ -21,7 +21,8 @@ typedef struct kernel_check {
     mw_job *job;
 } kernel_check;
 
-static bool kernel_defect_add(kernel_check *s, mw_defect_kind kind, uint32_t t, uint32_t other, uint32_t edge)
+static bool kernel_defect_add(kernel_check *s, mw_defect_kind kind, uint32_t t, uint32_t other,
+                              uint32_t edge)
 {
     mw_defect defect = mw__defect(kind, t);
     defect.other = other;
@@ -35,7 +36,8 @@ static bool kernel_defect_add(kernel_check *s, mw_defect_kind kind, uint32_t t, 
 static bool facet_vanishes(const mw_star *star, const mw_triangle *t)
 {
     const uint32_t *coincident = star->surface->coincident;
-    uint32_t a = mw__representative(coincident, t->v[0]), b = mw__representative(coincident, t->v[1]),
+    uint32_t a = mw__representative(coincident, t->v[0]),
+             b = mw__representative(coincident, t->v[1]),
              c = mw__representative(coincident, t->v[2]);
     return a == b || b == c || c == a;
 }
@@ -43,8 +45,9 @@ static bool facet_vanishes(const mw_star *star, const mw_triangle *t)
 static uint8_t facet_facing(const mw_star *star, const mw_triangle *t)
 {
     if (facet_vanishes(star, t)) return VOID;
-    double side = mw__orient3d(mw__star_corner_point(star, t->v, 0), mw__star_corner_point(star, t->v, 1),
-                               mw__star_corner_point(star, t->v, 2), star->centre);
+    double side =
+        mw__orient3d(mw__star_corner_point(star, t->v, 0), mw__star_corner_point(star, t->v, 1),
+                     mw__star_corner_point(star, t->v, 2), star->centre);
     return side < 0   ? FRONT
            : side > 0 ? BACK
                       /* orient3d > 0: seen from the centre, the facet is counter-clockwise. */
@@ -58,8 +61,9 @@ static bool kernel_look_at_corners(kernel_check *s, uint32_t i)
     const mw_star *star = s->star;
     for (uint32_t k = 0; k < 3; k++) {
         const double *p = mw__star_corner_point(star, star->tri[i].v, k),
-                     *at = mw__surface_point(star->surface,
-                                             mw__representative(star->surface->coincident, star->tri[i].v[k]));
+                     *at = mw__surface_point(
+                         star->surface,
+                         mw__representative(star->surface->coincident, star->tri[i].v[k]));
         if (!mw__is_finite3(p)) {
             if (!kernel_defect_add(s, MW_DEFECT_NOT_FINITE, i, MW_NONE, 3)) return false;
             s->defects->list[s->defects->count - 1].vertex = star->tri[i].v[k];
@@ -83,7 +87,8 @@ static bool kernel_look_at_facets(kernel_check *s)
         s->faces[i] = facet_facing(star, t);
         star->area_count += s->faces[i] == FRONT || s->faces[i] == BACK;
         if (s->faces[i] == LEVEL &&
-            !mw__collinear3(mw__star_corner_point(star, t->v, 0), mw__star_corner_point(star, t->v, 1),
+            !mw__collinear3(mw__star_corner_point(star, t->v, 0),
+                            mw__star_corner_point(star, t->v, 1),
                             mw__star_corner_point(star, t->v, 2)) &&
             !kernel_defect_add(s, MW_DEFECT_THROUGH_CENTRE, i, MW_NONE, 3))
             return false;
@@ -116,7 +121,8 @@ static bool component_collect(kernel_check *s, uint32_t first, uint32_t *count)
         for (uint32_t k = 0; k < 3; k++) {
             if (star->tri[t].link[k] == MW_NONE) continue;
             uint32_t other = mw__link_triangle(star->tri[t].link[k]);
-            int8_t turned = (int8_t)(s->turned[t] ^ !mw__surface_orientations_agree(star->surface, t, k));
+            int8_t turned =
+                (int8_t)(s->turned[t] ^ !mw__surface_orientations_agree(star->surface, t, k));
             if (s->turned[other] < 0) {
                 s->turned[other] = turned;
                 s->queue[end++] = other;
@@ -165,7 +171,8 @@ static bool component_judge(kernel_check *s, uint32_t count)
     bool outwards = fronts >= backs;
     for (uint32_t i = 0; i < count; i++) {
         uint32_t t = s->queue[i];
-        if (s->faces[t] != LEVEL && facet_is_front(s, t) != outwards && !kernel_defect_add_back_facing(s, t, outwards))
+        if (s->faces[t] != LEVEL && facet_is_front(s, t) != outwards &&
+            !kernel_defect_add_back_facing(s, t, outwards))
             return false;
     }
     for (uint32_t i = 0; i < count; i++) s->turned[s->queue[i]] ^= !outwards;
@@ -244,8 +251,10 @@ static bool kernel_look_along_ray(kernel_check *s)
         if (s->faces[i] == VOID || s->faces[i] == LEVEL) continue;
         bool meets = true;
         for (uint32_t k = 0; k < 3 && meets; k++)
-            meets = ray_is_left(star, mw__star_corner_point(star, t->v, k), mw__star_corner_point(star, t->v, k + 1));
-        if (meets && first != MW_NONE && !kernel_defect_add(s, MW_DEFECT_COVERED, first, i, 3)) return false;
+            meets = ray_is_left(star, mw__star_corner_point(star, t->v, k),
+                                mw__star_corner_point(star, t->v, k + 1));
+        if (meets && first != MW_NONE && !kernel_defect_add(s, MW_DEFECT_COVERED, first, i, 3))
+            return false;
         if (meets && first == MW_NONE) first = i;
     }
     return true;
@@ -254,7 +263,8 @@ static bool kernel_look_along_ray(kernel_check *s)
 static bool kernel_check_run(kernel_check *s)
 {
     size_t before = s->defects->count;
-    if (!kernel_look_at_facets(s) || !kernel_look_at_edges(s) || !kernel_look_at_components(s)) return false;
+    if (!kernel_look_at_facets(s) || !kernel_look_at_edges(s) || !kernel_look_at_components(s))
+        return false;
     if (s->defects->count > before) return true;
     facets_orient(s);
     return kernel_look_along_ray(s);
@@ -263,7 +273,8 @@ static bool kernel_check_run(kernel_check *s)
 bool mw__star_kernel_check(mw_star *star, mw_job *job, mw_defects *defects)
 {
     uint32_t n = star->tri_count;
-    kernel_check s = {star, defects, mw__alloc(n, 1), mw__alloc(n, 1), mw__alloc(n, sizeof *s.queue), job};
+    kernel_check s = {
+        star, defects, mw__alloc(n, 1), mw__alloc(n, 1), mw__alloc(n, sizeof *s.queue), job};
     bool done = s.faces && s.turned && s.queue;
     if (done) {
         for (uint32_t i = 0; i < n; i++) s.turned[i] = -1;

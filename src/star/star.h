@@ -60,7 +60,8 @@ struct mw_star {
 };
 
 /* Corner k of a facet with vertices v. */
-static MW_INLINE const double *mw__star_corner_point(const mw_star *star, const uint32_t *v, uint32_t k)
+static MW_INLINE const double *mw__star_corner_point(const mw_star *star, const uint32_t *v,
+                                                     uint32_t k)
 {
     return mw__surface_point(star->surface, v[k]);
 }
@@ -112,7 +113,8 @@ typedef struct mw_star_walk {
  * MW_STAR_GO: none yet) and replaces it with the next one. Returns false if there is no more for
  * this lane. */
 typedef struct mw_star_feed {
-    bool (*deliver)(struct mw_star_feed *feed, uint32_t lane, mw_star_walk *walk, mw_star_verdict verdict);
+    bool (*deliver)(struct mw_star_feed *feed, uint32_t lane, mw_star_walk *walk,
+                    mw_star_verdict verdict);
 } mw_star_feed;
 
 #define MW_STAR_LANES 16
@@ -124,7 +126,8 @@ typedef struct mw_star_kernels {
     mw_star_verdict (*step)(mw_star_walk *walk);           /* one counted step, for traces */
 } mw_star_kernels;
 
-#define MW_STAR_WALK_ENTRY(id, symbol, name, source, help) extern const mw_star_kernels mw__star_##symbol;
+#define MW_STAR_WALK_ENTRY(id, symbol, name, source, help)                                         \
+    extern const mw_star_kernels mw__star_##symbol;
 #include <meshwalk/star_walks.def>
 
 /* --- star_layout.c --- */
@@ -139,8 +142,8 @@ static MW_INLINE void mw__star_unfold(const double d[3], double *x, double *y)
     *y = below ? copysign(1 - fabs(u), v) : v;
 }
 
-/* Fill in star->facet and star->guide from star->tri. Steps of the present stage. Returns false when
- * out of memory, or cancelled. */
+/* Fill in star->facet and star->guide from star->tri. Steps of the present stage. Returns false
+ * when out of memory, or cancelled. */
 bool mw__star_lay_out(mw_star *star, mw_job *job);
 
 /* The number of bits of the guide: an entry for 2 to 4 facets. */
@@ -161,7 +164,8 @@ static MW_INLINE uint32_t mw__star_guide_facet(const mw_star *star, uint32_t key
 
 /* Choose the first facet of a walk by the cursor's start. `last`: where the previous query ended,
  * or MW_NONE. Uses q, d, random and work of the walk. The walk's t is not set yet. */
-uint32_t mw__star_start(const mw_star *star, const mw_star_cursor *cursor, uint32_t last, mw_star_walk *walk);
+uint32_t mw__star_start(const mw_star *star, const mw_star_cursor *cursor, uint32_t last,
+                        mw_star_walk *walk);
 
 /* --- star_angles.c --- */
 

@@ -26,7 +26,8 @@ static mw_point vertex_angles(const mw_star *star, uint32_t vertex)
  * compared: in all other facets they differ by less than a half turn. */
 static bool facet_is_seam(const mw_star *star, const mw_star_facet *t)
 {
-    mw_point a = vertex_angles(star, t->v[0]), b = vertex_angles(star, t->v[1]), c = vertex_angles(star, t->v[2]);
+    mw_point a = vertex_angles(star, t->v[0]), b = vertex_angles(star, t->v[1]),
+             c = vertex_angles(star, t->v[2]);
     double span = fmax(a.x, fmax(b.x, c.x)) - fmin(a.x, fmin(b.x, c.x));
     return !(mw__orient2d(a, b, c) < 0) || span > HALF_TURN;
 }

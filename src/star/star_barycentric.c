@@ -9,7 +9,8 @@
 
 static MW_INLINE mw_star_verdict star_barycentric_step(mw_star_walk *w, mw_star_policy P)
 {
-    double least = star_edge_orient(w, 0, P), one = star_edge_orient(w, 1, P), two = star_edge_orient(w, 2, P);
+    double least = star_edge_orient(w, 0, P), one = star_edge_orient(w, 1, P),
+           two = star_edge_orient(w, 2, P);
     uint32_t e = 0;
     if (one < least) {
         least = one;

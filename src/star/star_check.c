@@ -6,8 +6,9 @@
 #include <string.h>
 
 /* The arrays make a surface. Add the defects that keep it from being star-shaped. */
-static mw_status star_check_kernel(const mw_arrays *arrays, int weld, const mw_star_options *options, mw_job *job,
-                                   mw_defects *defects, bool *sound, mw_error *error)
+static mw_status star_check_kernel(const mw_arrays *arrays, int weld,
+                                   const mw_star_options *options, mw_job *job, mw_defects *defects,
+                                   bool *sound, mw_error *error)
 {
     mw_surface_options how = {.weld = weld};
     mw_surface *surface;
@@ -17,7 +18,8 @@ static mw_status star_check_kernel(const mw_arrays *arrays, int weld, const mw_s
     outer = mw__job_part(job, 0.5);
     if (status) return status;
     size_t before = defects->count;
-    mw_star star = {.surface = surface, .tri_count = surface->tri_count, .point_count = surface->point_count};
+    mw_star star = {
+        .surface = surface, .tri_count = surface->tri_count, .point_count = surface->point_count};
     memcpy(star.centre, options->centre, sizeof star.centre);
     star.tri = mw__alloc_lines(star.tri_count, sizeof *star.tri);
     if (star.tri) memcpy(star.tri, surface->tri, star.tri_count * sizeof *star.tri);
@@ -30,8 +32,8 @@ static mw_status star_check_kernel(const mw_arrays *arrays, int weld, const mw_s
 }
 
 /* The defects of the arrays as a surface, then those that keep it from being star-shaped. */
-static mw_status star_check_run(const mw_arrays *arrays, int weld, const mw_star_options *options, mw_job *job,
-                                mw_check *check, mw_error *error)
+static mw_status star_check_run(const mw_arrays *arrays, int weld, const mw_star_options *options,
+                                mw_job *job, mw_check *check, mw_error *error)
 {
     mw_job_span outer = mw__job_part(job, 0.5);
     mw_status status = mw__surface_check(arrays, weld, job, check, error);
@@ -46,7 +48,8 @@ static mw_status star_check_run(const mw_arrays *arrays, int weld, const mw_star
             status = mw__fail_memory(error);
     }
     outer = mw__job_part(job, 0.5);
-    if (status == MW_OK && usable) status = star_check_kernel(arrays, weld, options, job, &defects, &sound, error);
+    if (status == MW_OK && usable)
+        status = star_check_kernel(arrays, weld, options, job, &defects, &sound, error);
     mw__job_part_end(job, outer);
     mw_check_release(check);
     if (status) {
@@ -58,14 +61,15 @@ static mw_status star_check_run(const mw_arrays *arrays, int weld, const mw_star
     return MW_OK;
 }
 
-mw_status mw_star_check_arrays(const mw_arrays *arrays, int weld, const mw_star_options *options, mw_check *check,
-                               mw_error *error)
+mw_status mw_star_check_arrays(const mw_arrays *arrays, int weld, const mw_star_options *options,
+                               mw_check *check, mw_error *error)
 {
     static const mw_star_options defaults;
     if (!check) return mw__fail(error, MW_ERROR_ARGUMENT, "no place for the check");
     *check = (mw_check){0};
     if (!options) options = &defaults;
-    if (!mw__is_finite3(options->centre)) return mw__fail(error, MW_ERROR_ARGUMENT, "the centre is not finite");
+    if (!mw__is_finite3(options->centre))
+        return mw__fail(error, MW_ERROR_ARGUMENT, "the centre is not finite");
     mw_status status = MW_RESERVED_CHECK(mw_star_options, options, error);
     if (status) return status;
     mw_job job = mw__job(1, options->progress);

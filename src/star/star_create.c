@@ -13,7 +13,8 @@ static mw_status star_refuse(const mw_defects *defects, mw_error *error)
     char text[256];
     const mw_defect *d = &defects->list[0];
     mw_defect_describe(d, text, sizeof text);
-    return mw__fail_at(error, d->triangle, d->vertex == MW_NONE ? -1 : (int64_t)d->vertex, "%s", text);
+    return mw__fail_at(error, d->triangle, d->vertex == MW_NONE ? -1 : (int64_t)d->vertex, "%s",
+                       text);
 }
 
 /* Find coincident vertices, which flat facets may have, also those that did not coincide when the
@@ -21,7 +22,8 @@ static mw_status star_refuse(const mw_defects *defects, mw_error *error)
 static bool star_find_coincident(mw_star *star)
 {
     free(star->own_coincident);
-    star->coincident = star->own_coincident = mw__coincident_create(star->surface->point, star->point_count);
+    star->coincident = star->own_coincident =
+        mw__coincident_create(star->surface->point, star->point_count);
     return star->coincident != NULL;
 }
 
@@ -128,14 +130,16 @@ static bool star_allocate(mw_star *star, bool angles)
     return star->facet && star->owner && star->guide && (star->angle || !angles);
 }
 
-mw_status mw_star_create(const mw_surface *surface, const mw_star_options *options, mw_star **out, mw_error *error)
+mw_status mw_star_create(const mw_surface *surface, const mw_star_options *options, mw_star **out,
+                         mw_error *error)
 {
     static const mw_star_options defaults;
     if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "no place for the star");
     *out = NULL;
     if (!surface) return mw__fail(error, MW_ERROR_ARGUMENT, "no surface");
     if (!options) options = &defaults;
-    if (!mw__is_finite3(options->centre)) return mw__fail(error, MW_ERROR_ARGUMENT, "the centre is not finite");
+    if (!mw__is_finite3(options->centre))
+        return mw__fail(error, MW_ERROR_ARGUMENT, "the centre is not finite");
     mw_status status = MW_RESERVED_CHECK(mw_star_options, options, error);
     if (status) return status;
     mw_star *star = mw__calloc(1, sizeof *star);
@@ -146,7 +150,8 @@ mw_status mw_star_create(const mw_surface *surface, const mw_star_options *optio
     star->fuel = star_fuel(surface->tri_count);
     memcpy(star->centre, options->centre, sizeof star->centre);
     mw_job job = mw__job(1, options->progress);
-    status = star_allocate(star, options->angles) ? star_prepare(star, &job, error) : mw__fail_memory(error);
+    status = star_allocate(star, options->angles) ? star_prepare(star, &job, error)
+                                                  : mw__fail_memory(error);
     status = mw__job_end(&job, status, error);
     if (status)
         mw_star_destroy(star);
@@ -177,7 +182,8 @@ void mw_star_describe(const mw_star *star, mw_star_info *info)
     size_t coincident = star->own_coincident ? star->point_count * sizeof *star->own_coincident : 0;
     size_t guide = ((size_t)1 << star->guide_bits) * sizeof *star->guide;
     size_t angles = star->angle ? star->point_count * 2 * sizeof *star->angle : 0;
-    size_t facets = star->tri_count * sizeof *star->facet, owners = star->point_count * sizeof *star->owner;
+    size_t facets = star->tri_count * sizeof *star->facet,
+           owners = star->point_count * sizeof *star->owner;
     *info = (mw_star_info){
         .bytes = sizeof *star + facets + owners + guide + angles + coincident,
         .angle_bytes = angles,

@@ -54,7 +54,8 @@ static bool star_grid_fill(mw_star_grid *grid, const mw_star *star, mw_job *job)
     return true;
 }
 
-bool mw__star_grid_create(mw_star_grid *grid, const mw_star *star, uint32_t cells, bool uniform, mw_job *job)
+bool mw__star_grid_create(mw_star_grid *grid, const mw_star *star, uint32_t cells, bool uniform,
+                          mw_job *job)
 {
     grid->rows = grid_row_count(cells, uniform);
     grid->first = mw__calloc((size_t)grid->rows + 1, sizeof *grid->first);

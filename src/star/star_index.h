@@ -33,16 +33,19 @@ mw_star_start_kind mw__star_index_start(const mw_star_index *index);
 
 /* Make a grid of about `cells` cells, 1 to MW_STAR_MAX_CELLS. Steps of the present stage. Returns
  * false when out of memory, or cancelled. */
-bool mw__star_grid_create(mw_star_grid *grid, const mw_star *star, uint32_t cells, bool uniform, mw_job *job);
+bool mw__star_grid_create(mw_star_grid *grid, const mw_star *star, uint32_t cells, bool uniform,
+                          mw_job *job);
 void mw__star_grid_release(mw_star_grid *grid);
 uint32_t mw__star_grid_cell(const mw_star_grid *grid, double phi, double theta);
 
 /* Likewise. */
-bool mw__star_octahedron_create(mw_star_octahedron *octahedron, const mw_star *star, uint32_t levels, mw_job *job);
+bool mw__star_octahedron_create(mw_star_octahedron *octahedron, const mw_star *star,
+                                uint32_t levels, mw_job *job);
 void mw__star_octahedron_release(mw_star_octahedron *octahedron);
 /* The finest triangle that the ray along d meets. Counts triangles and tests in *work, unless that
  * is NULL. */
-uint32_t mw__star_octahedron_cell(const mw_star_octahedron *octahedron, const double d[3], mw_star_work *work);
+uint32_t mw__star_octahedron_cell(const mw_star_octahedron *octahedron, const double d[3],
+                                  mw_star_work *work);
 
 static MW_INLINE uint32_t mw__star_octahedron_cells(uint32_t levels)
 {

@@ -14,11 +14,13 @@
 
 /* The key of the direction to the middle of a facet. The direction is rounded, and halved so that
  * it does not overflow. */
-static uint32_t facet_curve_key(const mw_hilbert *hilbert, const mw_star *star, const mw_triangle *t)
+static uint32_t facet_curve_key(const mw_hilbert *hilbert, const mw_star *star,
+                                const mw_triangle *t)
 {
     double d[3], x, y;
     for (int k = 0; k < 3; k++) {
-        double middle = mw__star_corner_point(star, t->v, 0)[k] / 6 + mw__star_corner_point(star, t->v, 1)[k] / 6 +
+        double middle = mw__star_corner_point(star, t->v, 0)[k] / 6 +
+                        mw__star_corner_point(star, t->v, 1)[k] / 6 +
                         mw__star_corner_point(star, t->v, 2)[k] / 6;
         d[k] = middle - star->centre[k] / 2;
     }
@@ -59,8 +61,10 @@ static void facet_set_normal(const mw_star *star, const double *p, const double 
         b[k] = q[k] - star->centre[k];
         normal[k] = 0;
     }
-    for (uint32_t k = 0; k < 3; k++) n[k] = a[mw__next(k)] * b[mw__prev(k)] - a[mw__prev(k)] * b[mw__next(k)];
-    double from = layout_vector_length(a), to = layout_vector_length(b), size = layout_vector_length(n);
+    for (uint32_t k = 0; k < 3; k++)
+        n[k] = a[mw__next(k)] * b[mw__prev(k)] - a[mw__prev(k)] * b[mw__next(k)];
+    double from = layout_vector_length(a), to = layout_vector_length(b),
+           size = layout_vector_length(n);
     bool ordinary = from > SHORT && from < LONG && to > SHORT && to < LONG;
     if (!ordinary || !(size > LEAST_SINE * from * to)) return;
     for (int k = 0; k < 3; k++) normal[k] = (float)(n[k] / size);
@@ -78,8 +82,8 @@ static mw_star_facet facet_make(const mw_star *star, const mw_triangle *t, const
     for (uint32_t k = 0; k < 3; k++) {
         facet.v[k] = t->v[k];
         facet.link[k] = mw__link(slot[mw__link_triangle(t->link[k])], mw__link_edge(t->link[k]));
-        facet_set_normal(star, mw__star_corner_point(star, t->v, k), mw__star_corner_point(star, t->v, k + 1),
-                         facet.normal[k]);
+        facet_set_normal(star, mw__star_corner_point(star, t->v, k),
+                         mw__star_corner_point(star, t->v, k + 1), facet.normal[k]);
     }
     if (facet_is_altered(facet.v, &star->surface->tri[facet.user])) facet.user |= MW_FACET_ALTERED;
     return facet;

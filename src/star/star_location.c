@@ -40,7 +40,8 @@ static MW_INLINE double areas_shear(double w[3][3], const double d[3], double ar
 }
 
 /* Compute the areas by areas_shear. Returns whether they are certainly not 0, and accurate. */
-static MW_INLINE bool areas_refine(const mw_star *star, const uint32_t v[3], const double q[3], double area[3])
+static MW_INLINE bool areas_refine(const mw_star *star, const uint32_t v[3], const double q[3],
+                                   double area[3])
 {
     const double *c = star->centre, d[3] = {q[0] - c[0], q[1] - c[1], q[2] - c[2]};
     double w[3][3];
@@ -57,8 +58,8 @@ static MW_INLINE bool facet_is_wide(const mw_star *star, const uint32_t v[3])
 {
     double edge = 0, height = 0;
     for (int i = 0; i < 3; i++) {
-        double a = mw__star_corner_point(star, v, 0)[i], along = mw__star_corner_point(star, v, 1)[i] - a,
-               up = a - star->centre[i];
+        double a = mw__star_corner_point(star, v, 0)[i],
+               along = mw__star_corner_point(star, v, 1)[i] - a, up = a - star->centre[i];
         edge += along * along;
         height += up * up;
     }
@@ -88,7 +89,8 @@ void mw__star_areas(const mw_star *star, const uint32_t v[3], const double q[3],
 
 /* Rescale determinants beyond the range of doubles: those of facet and ray become about 1 each.
  * Exact zeros stay 0. */
-static void areas_rescale(const mw_star *star, const uint32_t facet[3], const double q[3], double area[3])
+static void areas_rescale(const mw_star *star, const uint32_t facet[3], const double q[3],
+                          double area[3])
 {
     const double *c = star->centre;
     double v[4][3], large[2] = {star->reach, 0}, most[2] = {0, 0}; /* of the facet, of the ray */
@@ -114,15 +116,16 @@ static void areas_rescale(const mw_star *star, const uint32_t facet[3], const do
     for (uint32_t k = 0; k < 3; k++) area[k] = exact[k] == 0 ? 0 : fmax(area[k], DBL_MIN);
 }
 
-void mw__star_location_in_facet(const mw_star *star, uint32_t number, const double q[3], double area[3],
-                                mw_location *location)
+void mw__star_location_in_facet(const mw_star *star, uint32_t number, const double q[3],
+                                double area[3], mw_location *location)
 {
     double sum = area[0] + area[1] + area[2];
     if (MW_UNLIKELY(!(fabs(sum) > 0x1p-900 && fabs(sum) < 0x1p900))) {
         areas_rescale(star, star->surface->tri[number].v, q, area);
         sum = area[0] + area[1] + area[2];
     }
-    *location = (mw_location){.triangle = number, .hole = MW_NONE, .where = MW_INSIDE, .local = 255};
+    *location =
+        (mw_location){.triangle = number, .hole = MW_NONE, .where = MW_INSIDE, .local = 255};
     uint32_t zeros = 0, on = 0, at = 0;
     for (uint32_t k = 0; k < 3; k++) {
         location->weight[k] = area[k] == 0 ? 0 : area[k] / sum; /* never -0 */
@@ -144,6 +147,9 @@ void mw__star_location_in_facet(const mw_star *star, uint32_t number, const doub
 
 mw_location mw__star_location_none(void)
 {
-    return (mw_location){
-        .weight = {NAN, NAN, NAN}, .triangle = MW_NONE, .hole = MW_NONE, .where = MW_BAD, .local = 255};
+    return (mw_location){.weight = {NAN, NAN, NAN},
+                         .triangle = MW_NONE,
+                         .hole = MW_NONE,
+                         .where = MW_BAD,
+                         .local = 255};
 }

@@ -12,8 +12,8 @@ void mw__star_areas(const mw_star *star, const uint32_t v[3], const double q[3],
 
 /* The location in a facet of the user that the ray meets. area: as above, of the facet as the user
  * gave it; is overwritten. */
-void mw__star_location_in_facet(const mw_star *star, uint32_t number, const double q[3], double area[3],
-                                mw_location *location);
+void mw__star_location_in_facet(const mw_star *star, uint32_t number, const double q[3],
+                                double area[3], mw_location *location);
 
 /* A location without a facet. */
 mw_location mw__star_location_none(void);

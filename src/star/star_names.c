@@ -6,7 +6,8 @@ static const struct {
     const char *name, *source, *help;
 } walks[MW_STAR_WALK_COUNT] = {
     [MW_STAR_WALK_AUTO] = {"auto", "", "chosen by the queries"},
-#define MW_STAR_WALK_ENTRY(id, symbol, name, source, help) [MW_STAR_WALK_##id] = {name, source, help},
+#define MW_STAR_WALK_ENTRY(id, symbol, name, source, help)                                         \
+    [MW_STAR_WALK_##id] = {name, source, help},
 #include <meshwalk/star_walks.def>
 };
 
@@ -15,7 +16,8 @@ static const struct {
     int has_index;
 } starts[MW_STAR_START_COUNT] = {
     [MW_STAR_START_AUTO] = {"auto", "chosen by the queries", 0},
-#define MW_STAR_START_ENTRY(id, name, source, index, help) [MW_STAR_START_##id] = {name, help, index},
+#define MW_STAR_START_ENTRY(id, name, source, index, help)                                         \
+    [MW_STAR_START_##id] = {name, help, index},
 #include <meshwalk/star_starts.def>
 };
 

@@ -31,7 +31,8 @@ static const octahedron_corners face = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 /* det(a, b, q): negative if q lies beyond the edge ab. */
 static double edge_determinant(const double a[3], const double b[3], const double q[3])
 {
-    return q[0] * (a[1] * b[2] - a[2] * b[1]) + q[1] * (a[2] * b[0] - a[0] * b[2]) + q[2] * (a[0] * b[1] - a[1] * b[0]);
+    return q[0] * (a[1] * b[2] - a[2] * b[1]) + q[1] * (a[2] * b[0] - a[0] * b[2]) +
+           q[2] * (a[0] * b[1] - a[1] * b[0]);
 }
 
 static void arc_middle(const double a[3], const double b[3], double m[3])
@@ -50,8 +51,8 @@ static octahedron_corners octahedron_middle_child(const octahedron_corners *pare
 }
 
 /* The corner child at corner k of a triangle. */
-static octahedron_corners octahedron_corner_child(const octahedron_corners *parent, const octahedron_corners *inner,
-                                                  uint32_t k)
+static octahedron_corners octahedron_corner_child(const octahedron_corners *parent,
+                                                  const octahedron_corners *inner, uint32_t k)
 {
     const double *part[3] = {parent->v[k], inner->v[k], inner->v[mw__prev(k)]};
     octahedron_corners child;
@@ -78,7 +79,8 @@ static void octahedron_cell_middle(const octahedron_corners *triangle, uint32_t 
 }
 
 /* Returns false if the job is to stop. */
-static bool octahedron_fill(octahedron_filling *f, const octahedron_corners *triangle, uint32_t level, uint32_t cell)
+static bool octahedron_fill(octahedron_filling *f, const octahedron_corners *triangle,
+                            uint32_t level, uint32_t cell)
 {
     if (level == f->octahedron->levels) {
         double d[3];
@@ -95,13 +97,15 @@ static bool octahedron_fill(octahedron_filling *f, const octahedron_corners *tri
     return done;
 }
 
-bool mw__star_octahedron_create(mw_star_octahedron *octahedron, const mw_star *star, uint32_t levels, mw_job *job)
+bool mw__star_octahedron_create(mw_star_octahedron *octahedron, const mw_star *star,
+                                uint32_t levels, mw_job *job)
 {
     octahedron->levels = levels;
     octahedron->facet = mw__alloc(mw__star_octahedron_cells(levels), sizeof *octahedron->facet);
     octahedron_filling filling = {.octahedron = octahedron, .star = star, .job = job};
     bool done = octahedron->facet;
-    for (uint32_t octant = 0; done && octant < 8; octant++) done = octahedron_fill(&filling, &face, 0, octant);
+    for (uint32_t octant = 0; done && octant < 8; octant++)
+        done = octahedron_fill(&filling, &face, 0, octant);
     return done;
 }
 
@@ -186,7 +190,8 @@ static void octahedron_find_child(octahedron_position *at, mw_star_work *work)
     while (octahedron_step(at));
 }
 
-uint32_t mw__star_octahedron_cell(const mw_star_octahedron *octahedron, const double d[3], mw_star_work *work)
+uint32_t mw__star_octahedron_cell(const mw_star_octahedron *octahedron, const double d[3],
+                                  mw_star_work *work)
 {
     octahedron_position at = {.q = {d[0], d[1], d[2]}};
     if (octahedron->levels == 0) {
@@ -196,11 +201,13 @@ uint32_t mw__star_octahedron_cell(const mw_star_octahedron *octahedron, const do
     octahedron_find_child(&at, work);
     uint32_t cell = 4 * at.octant + at.child;
     octahedron_corners inner = octahedron_middle_child(&face),
-                       triangle = at.child ? octahedron_corner_child(&face, &inner, at.child - 1) : inner;
+                       triangle =
+                           at.child ? octahedron_corner_child(&face, &inner, at.child - 1) : inner;
     for (uint32_t level = 1; level < octahedron->levels; level++) {
         double value[3];
         inner = octahedron_middle_child(&triangle);
-        for (uint32_t k = 0; k < 3; k++) value[k] = edge_determinant(inner.v[mw__prev(k)], inner.v[k], at.q);
+        for (uint32_t k = 0; k < 3; k++)
+            value[k] = edge_determinant(inner.v[mw__prev(k)], inner.v[k], at.q);
         uint32_t k = least_of(value); /* the edge that cuts off corner k */
         octahedron_visit(work);
         if (value[k] < 0) octahedron_visit(work);

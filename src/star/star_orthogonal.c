@@ -56,7 +56,8 @@ static MW_INLINE void star_count_comparison(mw_star_walk *w, mw_star_policy P)
 static MW_INLINE double leg_past(const mw_star_walk *w, uint32_t k)
 {
     if (w->phase & UPRIGHT)
-        return w->phase & NORTH ? w->theta - corner_polar_angle(w, k) : corner_polar_angle(w, k) - w->theta;
+        return w->phase & NORTH ? w->theta - corner_polar_angle(w, k)
+                                : corner_polar_angle(w, k) - w->theta;
     return w->phase & WEST ? w->phi - corner_longitude(w, k) : corner_longitude(w, k) - w->phi;
 }
 
@@ -114,8 +115,10 @@ static MW_INLINE mw_star_verdict star_orthogonal_start(mw_star_walk *w, mw_star_
     mw__star_angles(d, &phi, &theta);
     w->phi = phi;
     w->theta = theta;
-    w->height = (corner_polar_angle(w, 0) + corner_polar_angle(w, 1) + corner_polar_angle(w, 2)) / 3;
-    bool west = w->phi < (corner_longitude(w, 0) + corner_longitude(w, 1) + corner_longitude(w, 2)) / 3,
+    w->height =
+        (corner_polar_angle(w, 0) + corner_polar_angle(w, 1) + corner_polar_angle(w, 2)) / 3;
+    bool west = w->phi <
+                (corner_longitude(w, 0) + corner_longitude(w, 1) + corner_longitude(w, 2)) / 3,
          north = w->theta < w->height;
     w->phase = FOLLOW | (west ? WEST : 0) | (north ? NORTH : 0);
     uint32_t e = leg_set_out(w, P);
@@ -126,7 +129,8 @@ static MW_INLINE mw_star_verdict star_orthogonal_step(mw_star_walk *w, mw_star_p
 {
     if (MW_UNLIKELY(w->phase == 0)) return star_orthogonal_start(w, P);
     uint32_t s = mw__prev(w->e); /* entered over edge e = lr */
-    if (MW_UNLIKELY(leg_ends(w, s, P))) return w->phase & UPRIGHT ? MW_STAR_CLOSE : star_orthogonal_turn_upright(w, P);
+    if (MW_UNLIKELY(leg_ends(w, s, P)))
+        return w->phase & UPRIGHT ? MW_STAR_CLOSE : star_orthogonal_turn_upright(w, P);
     star_count_comparison(w, P);
     if (leg_is_left(w, s)) return star_cross(w, mw__next(w->e), P);
     return star_cross(w, s, P);

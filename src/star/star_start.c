@@ -12,7 +12,8 @@ static double facet_nearness(const mw_star *star, const double d[3], uint32_t t)
 }
 
 /* Jump and walk: the nearest of some random facets [Muecke, Saias, Zhu 1996]. */
-static uint32_t star_start_sample(const mw_star *star, uint32_t count, const double d[3], uint64_t *random)
+static uint32_t star_start_sample(const mw_star *star, uint32_t count, const double d[3],
+                                  uint64_t *random)
 {
     uint32_t best = mw__random_below(random, star->tri_count);
     double nearest = facet_nearness(star, d, best);
@@ -36,11 +37,13 @@ static uint32_t star_sample_count(const mw_star *star, uint32_t count)
 
 /* The facet that the cursor's index names, of this star, even if the index was made for another
  * star. */
-static uint32_t star_start_indexed(const mw_star *star, const mw_star_index *index, const mw_star_walk *walk)
+static uint32_t star_start_indexed(const mw_star *star, const mw_star_index *index,
+                                   const mw_star_walk *walk)
 {
     uint32_t t;
     if (index->start == MW_STAR_START_OCTAHEDRON) {
-        t = index->octahedron.facet[mw__star_octahedron_cell(&index->octahedron, walk->d, walk->work)];
+        t = index->octahedron
+                .facet[mw__star_octahedron_cell(&index->octahedron, walk->d, walk->work)];
     } else {
         double phi, theta;
         mw__star_angles(walk->d, &phi, &theta);
@@ -49,7 +52,8 @@ static uint32_t star_start_indexed(const mw_star *star, const mw_star_index *ind
     return MW_LIKELY(t < star->tri_count) ? t : t % star->tri_count;
 }
 
-uint32_t mw__star_start(const mw_star *star, const mw_star_cursor *cursor, uint32_t last, mw_star_walk *walk)
+uint32_t mw__star_start(const mw_star *star, const mw_star_cursor *cursor, uint32_t last,
+                        mw_star_walk *walk)
 {
     switch ((mw_star_start_kind)cursor->start) {
     case MW_STAR_START_RANDOM: return mw__random_below(&walk->random, star->tri_count);

@@ -13,23 +13,26 @@ typedef struct mw_star_policy {
 /* det(a - c, b - c, q - c), with d = q - c, rounded: > 0 if q lies to the left of the great circle
  * from a to b, seen from outside. The sign is exact. It is orient3d(a, b, q, c) with the opposite
  * sign, and one row precomputed. */
-static MW_INLINE double mw__star_orient(const double a[3], const double b[3], const double q[3], const double d[3],
-                                        const double c[3])
+static MW_INLINE double mw__star_orient(const double a[3], const double b[3], const double q[3],
+                                        const double d[3], const double c[3])
 {
     double ax = a[0] - c[0], ay = a[1] - c[1], az = a[2] - c[2];
     double bx = b[0] - c[0], by = b[1] - c[1], bz = b[2] - c[2];
-    double bd = bx * d[1], db = d[0] * by, da = d[0] * ay, ad = ax * d[1], ab = ax * by, ba = bx * ay;
+    double bd = bx * d[1], db = d[0] * by, da = d[0] * ay, ad = ax * d[1], ab = ax * by,
+           ba = bx * ay;
     double det = az * (bd - db) + bz * (da - ad) + d[2] * (ab - ba);
-    double permanent =
-        fabs(az) * (fabs(bd) + fabs(db)) + fabs(bz) * (fabs(da) + fabs(ad)) + fabs(d[2]) * (fabs(ab) + fabs(ba));
+    double permanent = fabs(az) * (fabs(bd) + fabs(db)) + fabs(bz) * (fabs(da) + fabs(ad)) +
+                       fabs(d[2]) * (fabs(ab) + fabs(ba));
     bool small = fabs(az) + fabs(bz) + fabs(d[2]) < MW_ORIENT3D_HEIGHTS;
-    if (MW_LIKELY(small && fabs(det) > MW_ORIENT3D_ERROR * permanent + MW_UNDERFLOW_ERROR)) return det;
+    if (MW_LIKELY(small && fabs(det) > MW_ORIENT3D_ERROR * permanent + MW_UNDERFLOW_ERROR))
+        return det;
     return -mw__orient3d_exact(a, b, q, c);
 }
 
 /* Does the ray through q lie strictly beyond edge e of a facet? Decides the rare cases where floats
  * are not sure. */
-bool mw__star_beyond(const mw_star *star, const mw_star_facet *facet, uint32_t e, const double q[3]);
+bool mw__star_beyond(const mw_star *star, const mw_star_facet *facet, uint32_t e,
+                     const double q[3]);
 
 static MW_INLINE const double *star_vertex(const mw_star_walk *w, uint32_t v)
 {
@@ -47,7 +50,8 @@ static MW_INLINE const double *star_apex(const mw_star_walk *w, uint32_t e)
 }
 
 /* The side of q relative to the great circle from a to b, counted. */
-static MW_INLINE double star_orient(mw_star_walk *w, const double a[3], const double b[3], mw_star_policy P)
+static MW_INLINE double star_orient(mw_star_walk *w, const double a[3], const double b[3],
+                                    mw_star_policy P)
 {
     if (P.count) w->work->orient[w->stage]++;
     return mw__star_orient(a, b, w->q, w->d, w->c);
@@ -114,7 +118,8 @@ static MW_INLINE mw_star_verdict star_leave(mw_star_walk *w, uint32_t e, mw_star
 
 /* Leave through edge `first`, else through edge `second`; otherwise the ray is here. Many walks in
  * flight hide the time of a second test, but not that of a mispredicted branch. */
-static MW_INLINE mw_star_verdict star_leave_either(mw_star_walk *w, uint32_t first, uint32_t second, mw_star_policy P)
+static MW_INLINE mw_star_verdict star_leave_either(mw_star_walk *w, uint32_t first, uint32_t second,
+                                                   mw_star_policy P)
 {
     if (!P.lanes) {
         if (star_beyond(w, first, P)) return star_cross(w, first, P);
@@ -126,7 +131,8 @@ static MW_INLINE mw_star_verdict star_leave_either(mw_star_walk *w, uint32_t fir
 }
 
 static MW_INLINE mw_star_verdict mw__star_drive(mw_star_walk *walk,
-                                                mw_star_verdict (*step)(mw_star_walk *walk, mw_star_policy P),
+                                                mw_star_verdict (*step)(mw_star_walk *walk,
+                                                                        mw_star_policy P),
                                                 mw_star_policy P)
 {
     mw_star_walk w = *walk; /* a local copy can stay in registers */
@@ -144,9 +150,9 @@ static MW_INLINE mw_star_verdict mw__star_drive(mw_star_walk *walk,
 /* Many walks in flight: while one waits for memory, the others continue. After a step the cache
  * line of the new facet is prefetched. After the last step the vertices are prefetched, which the
  * conclusion reads one lap later. */
-static MW_INLINE void mw__star_drive_ring(mw_star_feed *feed, uint32_t lane_count,
-                                          mw_star_verdict (*step)(mw_star_walk *walk, mw_star_policy P),
-                                          mw_star_policy P)
+static MW_INLINE void
+mw__star_drive_ring(mw_star_feed *feed, uint32_t lane_count,
+                    mw_star_verdict (*step)(mw_star_walk *walk, mw_star_policy P), mw_star_policy P)
 {
     mw_star_walk lane[MW_STAR_LANES];
     mw_star_verdict verdict[MW_STAR_LANES];
@@ -180,24 +186,25 @@ static MW_INLINE void mw__star_drive_ring(mw_star_feed *feed, uint32_t lane_coun
 }
 
 /* Makes the kernels of a walk from star_NAME_step, with literal policies. */
-#define MW_STAR_STAMP(name)                                                                                            \
-    static mw_star_verdict star_##name##_run(mw_star_walk *walk)                                                       \
-    {                                                                                                                  \
-        return mw__star_drive(walk, star_##name##_step, (mw_star_policy){false, false});                               \
-    }                                                                                                                  \
-    static mw_star_verdict star_##name##_run_count(mw_star_walk *walk)                                                 \
-    {                                                                                                                  \
-        return mw__star_drive(walk, star_##name##_step, (mw_star_policy){true, false});                                \
-    }                                                                                                                  \
-    static void star_##name##_ring(mw_star_feed *feed, uint32_t lane_count)                                            \
-    {                                                                                                                  \
-        mw__star_drive_ring(feed, lane_count, star_##name##_step, (mw_star_policy){false, true});                      \
-    }                                                                                                                  \
-    static mw_star_verdict star_##name##_step_count(mw_star_walk *walk)                                                \
-    {                                                                                                                  \
-        return star_##name##_step(walk, (mw_star_policy){true, false});                                                \
-    }                                                                                                                  \
-    const mw_star_kernels mw__star_##name = {                                                                          \
-        {star_##name##_run, star_##name##_run_count}, star_##name##_ring, star_##name##_step_count};
+#define MW_STAR_STAMP(name)                                                                        \
+    static mw_star_verdict star_##name##_run(mw_star_walk *walk)                                   \
+    {                                                                                              \
+        return mw__star_drive(walk, star_##name##_step, (mw_star_policy){false, false});           \
+    }                                                                                              \
+    static mw_star_verdict star_##name##_run_count(mw_star_walk *walk)                             \
+    {                                                                                              \
+        return mw__star_drive(walk, star_##name##_step, (mw_star_policy){true, false});            \
+    }                                                                                              \
+    static void star_##name##_ring(mw_star_feed *feed, uint32_t lane_count)                        \
+    {                                                                                              \
+        mw__star_drive_ring(feed, lane_count, star_##name##_step, (mw_star_policy){false, true});  \
+    }                                                                                              \
+    static mw_star_verdict star_##name##_step_count(mw_star_walk *walk)                            \
+    {                                                                                              \
+        return star_##name##_step(walk, (mw_star_policy){true, false});                            \
+    }                                                                                              \
+    const mw_star_kernels mw__star_##name = {{star_##name##_run, star_##name##_run_count},         \
+                                             star_##name##_ring,                                   \
+                                             star_##name##_step_count};
 
 #endif

@@ -1,7 +1,8 @@
 /* mw__star_walk_run.c - a walk from its first facet to the one that the ray meets. */
 #include "star/star_walk_run.h"
 
-mw_star_verdict mw__star_walk_run(mw_star_walk *walk, const mw_star_kernels *kernel, mw_star_trace *trace)
+mw_star_verdict mw__star_walk_run(mw_star_walk *walk, const mw_star_kernels *kernel,
+                                  mw_star_trace *trace)
 {
     mw_star_verdict verdict = MW_STAR_GO;
     if (MW_LIKELY(!trace)) return kernel->run[walk->work != NULL](walk);

@@ -21,8 +21,8 @@ static MW_INLINE bool mw__star_point_is_centre(const mw_star *star, const double
 #define MW_STAR_LONG 0x1p200
 
 /* Initialises the walk in place: its state is too large to return. */
-static MW_INLINE void mw__star_walk_begin(mw_star_walk *walk, const mw_star *star, const double q[3], uint64_t random,
-                                          mw_star_work *work)
+static MW_INLINE void mw__star_walk_begin(mw_star_walk *walk, const mw_star *star,
+                                          const double q[3], uint64_t random, mw_star_work *work)
 {
     double d[3], square = 0;
     walk->star = star;
@@ -36,13 +36,15 @@ static MW_INLINE void mw__star_walk_begin(mw_star_walk *walk, const mw_star *sta
         walk->d[k] = d[k] = q[k] - star->centre[k];
         square += d[k] * d[k];
     }
-    double scale =
-        square > MW_STAR_SHORT * MW_STAR_SHORT && square < MW_STAR_LONG * MW_STAR_LONG ? 1 / sqrt(square) : 0;
+    double scale = square > MW_STAR_SHORT * MW_STAR_SHORT && square < MW_STAR_LONG * MW_STAR_LONG
+                       ? 1 / sqrt(square)
+                       : 0;
     for (int k = 0; k < 3; k++) walk->f[k] = (float)(scale * d[k]);
 }
 
 /* Start the walk in facet t, or continue there with another kernel, in another stage. */
-static MW_INLINE void mw__star_walk_enter(mw_star_walk *walk, uint32_t t, uint32_t stage, uint32_t fuel)
+static MW_INLINE void mw__star_walk_enter(mw_star_walk *walk, uint32_t t, uint32_t stage,
+                                          uint32_t fuel)
 {
     walk->t = t;
     walk->e = MW_STAR_NO_EDGE;
@@ -55,11 +57,13 @@ static MW_INLINE void mw__star_walk_enter(mw_star_walk *walk, uint32_t t, uint32
 /* Write the current facet down. A facet that flips have cut is recorded once for each tile. */
 static MW_INLINE void mw__star_trace_add(mw_star_trace *trace, const mw_star_walk *walk)
 {
-    if (trace->count++ < trace->capacity) trace->facet[trace->count - 1] = walk->facet[walk->t].user & MW_USER_MASK;
+    if (trace->count++ < trace->capacity)
+        trace->facet[trace->count - 1] = walk->facet[walk->t].user & MW_USER_MASK;
 }
 
 /* Run a walk: step by step if there is a trace, else at full speed. */
-mw_star_verdict mw__star_walk_run(mw_star_walk *walk, const mw_star_kernels *kernel, mw_star_trace *trace);
+mw_star_verdict mw__star_walk_run(mw_star_walk *walk, const mw_star_kernels *kernel,
+                                  mw_star_trace *trace);
 
 /* Continue from where a walk ended to the facet that the ray meets. `finish` ends what a cheap walk
  * leaves. Returns true if the straight walk had to end what these could not. */

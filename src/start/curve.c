@@ -34,7 +34,8 @@ static uint32_t curve_buckets(const mw_curve *curve)
 }
 
 /* Put all tiles of the sample, every `stride`-th, between the two ends of the curve. */
-static bool curve_sample(mw_curve *curve, const mw_tiling *tiling, uint32_t stride, mw_key *scratch, mw_job *job)
+static bool curve_sample(mw_curve *curve, const mw_tiling *tiling, uint32_t stride, mw_key *scratch,
+                         mw_job *job)
 {
     enum { SOME = 1 << 12 };
     uint32_t n = curve->count - 2, follow = 0;
@@ -45,7 +46,8 @@ static bool curve_sample(mw_curve *curve, const mw_tiling *tiling, uint32_t stri
     mw__sort_keys(sample, scratch, n);
     sample[-1] = (mw_key){0, sample[0].item};
     sample[n] = (mw_key){UINT32_MAX, sample[n - 1].item};
-    for (uint32_t i = 1; i < n; i++) follow += curve_follows(curve, sample[i].item, sample[i - 1].item);
+    for (uint32_t i = 1; i < n; i++)
+        follow += curve_follows(curve, sample[i].item, sample[i - 1].item);
     curve->regular = follow >= n - n / 8 - 1;
     return true;
 }
@@ -58,18 +60,20 @@ static void curve_fill_buckets(mw_curve *curve)
     }
 }
 
-bool mw__curve_create(mw_curve *curve, const mw_tiling *tiling, const double low[2], const double high[2],
-                      uint32_t samples, mw_job *job)
+bool mw__curve_create(mw_curve *curve, const mw_tiling *tiling, const double low[2],
+                      const double high[2], uint32_t samples, mw_job *job)
 {
     mw__job_stage(job, "sampling along a curve", 1);
     uint32_t stride = samples ? (tiling->tri_count - 1) / samples + 1 : MW_CURVE_STRIDE;
     uint32_t n = (tiling->tri_count - 1) / stride + 1, bits = 1;
     while (UINT32_C(1) << bits < n) bits++;
-    *curve = (mw_curve){.hilbert = mw__hilbert(low, high), .count = n + 2, .shift = 32 - bits, .near = 4 * stride};
+    *curve = (mw_curve){
+        .hilbert = mw__hilbert(low, high), .count = n + 2, .shift = 32 - bits, .near = 4 * stride};
     curve->sample = mw__alloc_lines(curve->count, sizeof *curve->sample);
     curve->from = mw__alloc_lines((size_t)curve_buckets(curve) + 1, sizeof *curve->from);
     mw_key *scratch = mw__alloc_lines(n, sizeof *scratch);
-    bool done = curve->sample && curve->from && scratch && curve_sample(curve, tiling, stride, scratch, job);
+    bool done = curve->sample && curve->from && scratch &&
+                curve_sample(curve, tiling, stride, scratch, job);
     if (done) curve_fill_buckets(curve);
     free(scratch);
     return done;
@@ -85,5 +89,6 @@ void mw__curve_release(mw_curve *curve)
 size_t mw__curve_bytes(const mw_curve *curve)
 {
     size_t grid = curve->sparse.tile ? mw__grid_bytes(&curve->sparse) : 0;
-    return grid + curve->count * sizeof *curve->sample + ((size_t)curve_buckets(curve) + 1) * sizeof *curve->from;
+    return grid + curve->count * sizeof *curve->sample +
+           ((size_t)curve_buckets(curve) + 1) * sizeof *curve->from;
 }

@@ -9,20 +9,25 @@
 typedef struct mw_curve {
     mw_hilbert hilbert;
     mw_key
-        *sample; /* tiles by their keys, ascending; the first has key 0, the last, which is no query's, the largest */
+        /* tiles by their keys, ascending; the first has key 0, the last, which is no query's,
+         * the largest */
+        *sample;
     uint32_t *from; /* from[b]: how many samples have keys below b << shift, at least 1 */
     uint32_t count, shift;
-    uint32_t near; /* so many tiles at most lie between samples that are neighbours on the curve and in memory */
-    bool regular;  /* nearly all neighbours on the curve are such */
+    /* so many tiles at most lie between samples that are neighbours on the curve and in memory */
+    uint32_t near;
+    bool regular; /* nearly all neighbours on the curve are such */
     mw_grid
-        sparse; /* of a guide: its cells name a tile where few are; MW_NONE: ask the curve. Without it, tile is NULL */
+        /* of a guide: its cells name a tile where few are; MW_NONE: ask the curve. Without it,
+         * tile is NULL */
+        sparse;
 } mw_curve;
 
 /* Sample about `samples` tiles (0: MW_CURVE_STRIDE) of a tiling with the extent low..high. Returns
  * false when out of memory, or cancelled. A stage that takes the present part of the job. */
 #define MW_CURVE_STRIDE 32 /* one of so many tiles */
-bool mw__curve_create(mw_curve *curve, const mw_tiling *tiling, const double low[2], const double high[2],
-                      uint32_t samples, mw_job *job);
+bool mw__curve_create(mw_curve *curve, const mw_tiling *tiling, const double low[2],
+                      const double high[2], uint32_t samples, mw_job *job);
 void mw__curve_release(mw_curve *curve);
 size_t mw__curve_bytes(const mw_curve *curve);
 
@@ -36,9 +41,11 @@ static MW_INLINE uint32_t mw__curve_at(const mw_curve *curve, uint32_t key)
         s = s[half].key <= key ? s + half : s;
         n -= half;
     }
-    uint32_t tiles = s[1].item - s[0].item; /* a huge number where the next one comes before in memory */
+    /* a huge number where the next one comes before in memory */
+    uint32_t tiles = s[1].item - s[0].item;
     if (MW_UNLIKELY(tiles > curve->near)) return s->item;
-    return s->item + (uint32_t)((uint64_t)tiles * (key - s->key) / ((uint64_t)(s[1].key - s->key) + 1));
+    return s->item +
+           (uint32_t)((uint64_t)tiles * (key - s->key) / ((uint64_t)(s[1].key - s->key) + 1));
 }
 
 static MW_INLINE uint32_t mw__curve_first(const mw_curve *curve, mw_point q)

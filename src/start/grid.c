@@ -26,7 +26,9 @@
  *
  * Number of cells: with more of them walks are shorter, but time hardly is, since the grid itself
  * has to come from memory. 10^6 uniform points, one thread, ns per query, cells per vertex:
- *     1/8  alone 519, in a batch 82        1/2  alone 453, in a batch 69        1  alone 430, in a batch 63
+ *     1/8  alone 519, in a batch 82
+ *
+ * 1/2  alone 453, in a batch 69        1  alone 430, in a batch 63
  * So one cell for two vertices: 2 bytes a vertex. */
 #include "start/grid.h"
 
@@ -38,8 +40,10 @@
 enum {
     WORTHWHILE = 1 << 15, /* tiles for a thread to be worth it          */
     MOST_SHARES = 8,      /* of the tiles: each has its sites for all cells */
-    CROWDED = 48,         /* tiles in a cell from which on the curve is better                                    */
-    CROWD = 128,          /* the same, so much so that it pays to have it, if one tile in SHARE is in such a cell */
+    /* tiles in a cell from which on the curve is better */
+    CROWDED = 48,
+    /* the same, so much so that it pays to have it, if one tile in SHARE is in such a cell */
+    CROWD = 128,
     SHARE = 4
 };
 
@@ -55,9 +59,11 @@ static void shares_look(const mw_grid *grid, const mw_grid_plan *plan, uint32_t 
     for (uint64_t look = looks * i / shares; look < end; look++) {
         float off;
         uint32_t t = (uint32_t)(look * plan->stride);
-        mw_grid_site *site = &sites[mw__lattice_cell_off(&grid->lattice, mw__tile_middle(plan->tiling, t), &off)];
+        mw_grid_site *site =
+            &sites[mw__lattice_cell_off(&grid->lattice, mw__tile_middle(plan->tiling, t), &off)];
         site->count++;
-        const uint32_t nearer = 0 - (uint32_t)(off < site->off); /* no jump: every other one would be guessed wrong */
+        /* no jump: every other one would be guessed wrong */
+        const uint32_t nearer = 0 - (uint32_t)(off < site->off);
         site->tile ^= (site->tile ^ t) & nearer;
         site->off = off < site->off ? off : site->off;
     }
@@ -128,13 +134,15 @@ static bool grid_look(mw_grid *grid, mw_grid_plan *plan)
     grid->tile = mw__alloc_lines(count, sizeof *grid->tile);
     plan->site = mw__alloc_lines((size_t)shares * count, sizeof *plan->site);
     grid_looking looking = {grid, plan, shares};
-    bool done = grid->tile && plan->site && mw__job_chunks(plan->job, shares, shares, share_look, &looking) &&
+    bool done = grid->tile && plan->site &&
+                mw__job_chunks(plan->job, shares, shares, share_look, &looking) &&
                 mw__job_ranges(plan->job, count, cells_join, &looking);
     if (!done) free(plan->site);
     return done;
 }
 
-bool mw__grid_begin(mw_grid *grid, mw_grid_plan *plan, const double low[2], const double high[2], uint32_t cells)
+bool mw__grid_begin(mw_grid *grid, mw_grid_plan *plan, const double low[2], const double high[2],
+                    uint32_t cells)
 {
     if (cells == 0) cells = mw__lattice_choose(plan->tiling);
     mw__job_stage(plan->job, "laying a grid", 0.4);
@@ -174,7 +182,8 @@ static MW_INLINE bool tile_has_point(const mw_tiling *tiling, uint32_t t, mw_poi
 /* Give a cell that has none the tile at its middle: walk there from tile t; where that takes long,
  * as far as the fuel goes. Where the walk leaves the hull, and tiles are beside, one of these: the
  * hull may cross the cell, and from a long tile along it walks into the mesh are long. */
-static void cell_fill_gap(mw_grid *grid, const mw_grid_plan *plan, uint32_t x, uint32_t y, uint32_t t, uint32_t fuel)
+static void cell_fill_gap(mw_grid *grid, const mw_grid_plan *plan, uint32_t x, uint32_t y,
+                          uint32_t t, uint32_t fuel)
 {
     uint32_t cell = y * grid->lattice.columns + x, beside = cell;
     mw_point middle = mw__lattice_middle(&grid->lattice, x, y);
@@ -183,7 +192,8 @@ static void cell_fill_gap(mw_grid *grid, const mw_grid_plan *plan, uint32_t x, u
         return;
     }
     mw_walk walk = mw__walk_begin(plan->tiling, middle, t, fuel, 0, NULL);
-    bool left = isfinite(middle.x) && isfinite(middle.y) && mw__remembering.run[true][false](&walk) == MW_VERDICT_LEFT;
+    bool left = isfinite(middle.x) && isfinite(middle.y) &&
+                mw__remembering.run[true][false](&walk) == MW_VERDICT_LEFT;
     if (left && !cell_is_outermost(&grid->lattice, x, y)) beside = cell_settled(grid, plan, x, y);
     grid->tile[cell] = beside != cell ? grid->tile[beside] : walk.t;
 }
@@ -197,7 +207,8 @@ enum {
 /* A tile of the cell to the left or below, rather of one that was a gap too, where tiles are large.
  * Gaps below the band from line `first` on are not known, so that it does not matter which band is
  * filled first. MW_NONE: there is no such cell. */
-static uint32_t cell_tile_beside(const mw_grid *grid, const mw_grid_plan *plan, uint32_t x, uint32_t y, uint32_t first)
+static uint32_t cell_tile_beside(const mw_grid *grid, const mw_grid_plan *plan, uint32_t x,
+                                 uint32_t y, uint32_t first)
 {
     uint32_t columns = grid->lattice.columns, cell = y * columns + x;
     bool left = x > 1, below = y > first || (y > 1 && !cell_is_gap(plan, cell - columns));
@@ -234,7 +245,8 @@ static void grid_fill_band(void *work, uint64_t band, uint32_t member)
             if (!cell_is_gap(plan, y * columns + x)) continue;
             uint32_t t = cell_tile_beside(grid, plan, x, y, first);
             bool near = t != MW_NONE;
-            cell_fill_gap(grid, plan, x, y, near ? t : tile_after(grid, plan, y * columns + x), near ? FUEL : FAR);
+            cell_fill_gap(grid, plan, x, y, near ? t : tile_after(grid, plan, y * columns + x),
+                          near ? FUEL : FAR);
         }
 }
 
@@ -248,13 +260,16 @@ static uint32_t line_inwards(uint32_t line, uint32_t lines)
  * that near the one of the last cell there may be none of the next. */
 static bool grid_fill_gaps(mw_grid *grid, const mw_grid_plan *plan)
 {
-    uint32_t columns = grid->lattice.columns, rows = grid->lattice.rows, bands = rows > 2 ? (rows - 3) / BAND + 1 : 0;
+    uint32_t columns = grid->lattice.columns, rows = grid->lattice.rows,
+             bands = rows > 2 ? (rows - 3) / BAND + 1 : 0;
     uint32_t team = mw__job_team(plan->job, plan->tiling->tri_count / WORTHWHILE + 1);
     grid_filling filling = {grid, plan};
-    if (!mw__job_chunks(plan->job, team < bands ? team : bands, bands, grid_fill_band, &filling)) return false;
+    if (!mw__job_chunks(plan->job, team < bands ? team : bands, bands, grid_fill_band, &filling))
+        return false;
     for (uint32_t y = 0; y < rows; y++)
         for (uint32_t x = 0; x < columns; x++) {
-            if (!cell_is_outermost(&grid->lattice, x, y) || !cell_is_gap(plan, y * columns + x)) continue;
+            if (!cell_is_outermost(&grid->lattice, x, y) || !cell_is_gap(plan, y * columns + x))
+                continue;
             uint32_t t = grid->tile[line_inwards(y, rows) * columns + line_inwards(x, columns)];
             cell_fill_gap(grid, plan, x, y, t == MW_NONE ? 0 : t, FUEL);
         }
@@ -266,7 +281,9 @@ bool mw__grid_end(mw_grid *grid, mw_grid_plan *plan, bool sparse)
     mw__job_stage(plan->job, "filling a grid", 0.4);
     bool done = grid_fill_gaps(grid, plan);
     for (uint32_t c = 0, cells = mw__lattice_cells(&grid->lattice); c < cells && done; c++)
-        grid->tile[c] = sparse && cell_has(plan, c, CROWDED) ? MW_NONE : mw__tile_name(plan->tiling, grid->tile[c]);
+        grid->tile[c] = sparse && cell_has(plan, c, CROWDED)
+                            ? MW_NONE
+                            : mw__tile_name(plan->tiling, grid->tile[c]);
     free(plan->site);
     return done;
 }
@@ -283,15 +300,16 @@ void mw__grid_refine(mw_grid *grid, const mw_tiling *tiling, uint32_t stride, mw
     for (uint32_t y = 0, cell = 0; y < fine.lattice.rows; y++) {
         const uint32_t *coarse = grid->tile + (size_t)(y / 2) * grid->lattice.columns;
         for (uint32_t x = 0; x < fine.lattice.columns; x++, cell++)
-            fine.tile[cell] = cell_is_gap(&plan, cell) ? coarse[x / 2] : mw__tile_name(tiling, fine.tile[cell]);
+            fine.tile[cell] =
+                cell_is_gap(&plan, cell) ? coarse[x / 2] : mw__tile_name(tiling, fine.tile[cell]);
     }
     free(plan.site);
     mw__grid_release(grid);
     *grid = fine;
 }
 
-bool mw__grid_create(mw_grid *grid, const mw_tiling *tiling, const double low[2], const double high[2], uint32_t cells,
-                     mw_job *job)
+bool mw__grid_create(mw_grid *grid, const mw_tiling *tiling, const double low[2],
+                     const double high[2], uint32_t cells, mw_job *job)
 {
     mw_grid_plan plan = {.tiling = tiling, .stride = 1, .job = job};
     return mw__grid_begin(grid, &plan, low, high, cells) && mw__grid_end(grid, &plan, false);

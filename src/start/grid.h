@@ -12,15 +12,18 @@ typedef struct mw_grid {
 /* About `cells` cells (0: by the number of vertices, at most MW_MAX_CELLS) over low..high, the
  * extent of the tiling. Stages of the present part of the job. Returns false when out of memory, or
  * cancelled; the grid may be released in either case. */
-bool mw__grid_create(mw_grid *grid, const mw_tiling *tiling, const double low[2], const double high[2], uint32_t cells,
-                     mw_job *job);
+bool mw__grid_create(mw_grid *grid, const mw_tiling *tiling, const double low[2],
+                     const double high[2], uint32_t cells, mw_job *job);
 
 /* What is known of a cell while its grid is built. */
 typedef struct mw_grid_site {
-    float off; /* how far the middle of its tile is off its own, in widths of a cell, squared; infinite: it has none */
+    /* how far the middle of its tile is off its own, in widths of a cell, squared; infinite: it
+     * has none */
+    float off;
     uint32_t tile;
     uint32_t
-        count; /* tiles in it, of those that were looked at                                                          */
+        /* tiles in it, of those that were looked at */
+        count;
 } mw_grid_site;
 
 /* The same in two steps, so that between them the choice can be made by what was seen. Of the tiles
@@ -36,7 +39,8 @@ typedef struct mw_grid_plan {
 
 /* Each is a stage that takes 0.4 of the present part. Returns false when out of memory, or
  * cancelled. */
-bool mw__grid_begin(mw_grid *grid, mw_grid_plan *plan, const double low[2], const double high[2], uint32_t cells);
+bool mw__grid_begin(mw_grid *grid, mw_grid_plan *plan, const double low[2], const double high[2],
+                    uint32_t cells);
 /* With `sparse` crowded cells are left without a tile: MW_NONE. */
 bool mw__grid_end(mw_grid *grid, mw_grid_plan *plan, bool sparse);
 /* Make of each cell of a grid that ended four. Those in which no tile is, of every stride-th, have

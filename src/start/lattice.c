@@ -13,7 +13,8 @@ mw_lattice mw__lattice(const double low[2], const double high[2], uint32_t cells
         uint32_t lines = k == 0 ? lattice.columns : lattice.rows;
         double scale = lines / 2.0 / half[k];
         lattice.middle[k] = low[k] / 2 + high[k] / 2;
-        lattice.along[k][k] = isfinite(scale) ? scale : 0; /* no width, or too little: all in the line in the middle */
+        /* no width, or too little: all in the line in the middle */
+        lattice.along[k][k] = isfinite(scale) ? scale : 0;
         lattice.half[k] = lines / 2.0;
     }
     return lattice;
@@ -60,20 +61,26 @@ static double tiles_shape(const mw_tiling *tiling, double direction[2])
     enum { PROBES = 1024 };
     double shape[3] = {0};
     for (uint32_t i = 0; i < PROBES && i < tiling->tri_count; i++)
-        tile_add_shape(tiling, (uint32_t)((uint64_t)i * tiling->tri_count / PROBES % tiling->tri_count), shape);
-    if (!(shape[0] + shape[2] > 0 && shape[0] + shape[2] < INFINITY)) return 1; /* beyond the doubles */
-    double half = (shape[0] - shape[2]) / 2, root = hypot(half, shape[1]), sum = shape[0] + shape[2];
+        tile_add_shape(tiling,
+                       (uint32_t)((uint64_t)i * tiling->tri_count / PROBES % tiling->tri_count),
+                       shape);
+    /* beyond the doubles */
+    if (!(shape[0] + shape[2] > 0 && shape[0] + shape[2] < INFINITY)) return 1;
+    double half = (shape[0] - shape[2]) / 2, root = hypot(half, shape[1]),
+           sum = shape[0] + shape[2];
     double angle = atan2(shape[1], half) / 2;
     direction[0] = cos(angle);
     direction[1] = sin(angle);
-    double least = (shape[0] * shape[2] - shape[1] * shape[1]) / (sum / 2 + root); /* by the product of both */
+    /* by the product of both */
+    double least = (shape[0] * shape[2] - shape[1] * shape[1]) / (sum / 2 + root);
     return least > 0 ? sqrt((sum / 2 + root) / least) : INFINITY;
 }
 
-static mw_lattice lattice_shape(const mw_tiling *tiling, const double low[2], const double high[2], uint32_t cells,
-                                mw_job *job)
+static mw_lattice lattice_shape(const mw_tiling *tiling, const double low[2], const double high[2],
+                                uint32_t cells, mw_job *job)
 {
-    static const double common = 4, most = 0x1p20; /* tiles that are less long than the first are common */
+    /* tiles that are less long than the first are common */
+    static const double common = 4, most = 0x1p20;
     mw_lattice lattice = mw__lattice(low, high, cells);
     double d[2], aspect = fmin(tiles_shape(tiling, d), most);
     if (!(aspect > common)) return lattice;
@@ -96,8 +103,8 @@ static mw_lattice lattice_shape(const mw_tiling *tiling, const double low[2], co
 }
 
 /* A line of cells beyond each side of the extent, unless there are few. */
-mw_lattice mw__lattice_of(const mw_tiling *tiling, const double low[2], const double high[2], uint32_t cells,
-                          mw_job *job)
+mw_lattice mw__lattice_of(const mw_tiling *tiling, const double low[2], const double high[2],
+                          uint32_t cells, mw_job *job)
 {
     enum { FEW = 8 };
     mw_lattice lattice = lattice_shape(tiling, low, high, cells, job);

@@ -19,8 +19,8 @@ mw_lattice mw__lattice(const double low[2], const double high[2], uint32_t cells
 /* The same for a tiling of that extent: where tiles are long and thin in one direction cells are so
  * too. Where there are more than a few, a margin of further cells surrounds the extent, to which
  * all points outside of it belong. Steps of the present stage. */
-mw_lattice mw__lattice_of(const mw_tiling *tiling, const double low[2], const double high[2], uint32_t cells,
-                          mw_job *job);
+mw_lattice mw__lattice_of(const mw_tiling *tiling, const double low[2], const double high[2],
+                          uint32_t cells, mw_job *job);
 
 /* The same with cells half as wide and half as high. */
 mw_lattice mw__lattice_finer(const mw_lattice *lattice);
@@ -77,7 +77,8 @@ static MW_INLINE uint32_t mw__lattice_cell_off(const mw_lattice *lattice, mw_poi
     double at[2];
     mw__lattice_offset(lattice, p, at);
     double x = at[0] + lattice->half[0], y = at[1] + lattice->half[1];
-    uint32_t column = mw__lattice_line(x, lattice->columns), row = mw__lattice_line(y, lattice->rows);
+    uint32_t column = mw__lattice_line(x, lattice->columns),
+             row = mw__lattice_line(y, lattice->rows);
     float dx = (float)(x - column) - 0.5f, dy = (float)(y - row) - 0.5f;
     *off = dx * dx + dy * dy;
     return row * lattice->columns + column;
@@ -92,7 +93,8 @@ typedef struct mw_cell_entry {
 
 /* Give the cell of e->p another tile, if that is near its middle: else what it has is likely to be
  * nearer. */
-static MW_INLINE void mw__lattice_put(const mw_lattice *lattice, uint32_t *entry, const mw_cell_entry *e)
+static MW_INLINE void mw__lattice_put(const mw_lattice *lattice, uint32_t *entry,
+                                      const mw_cell_entry *e)
 {
     const float near = 1.0f / 16; /* a quarter of a cell's width, squared */
     float off;
@@ -103,7 +105,8 @@ static MW_INLINE void mw__lattice_put(const mw_lattice *lattice, uint32_t *entry
 static MW_INLINE mw_point mw__middle(mw_point a, mw_point b, mw_point c)
 {
     const double third = 1.0 / 3;
-    return (mw_point){a.x * third + b.x * third + c.x * third, a.y * third + b.y * third + c.y * third};
+    return (mw_point){a.x * third + b.x * third + c.x * third,
+                      a.y * third + b.y * third + c.y * third};
 }
 
 /* The middle of a tile, rounded. */

@@ -37,8 +37,8 @@ static uint32_t layer_size_above(uint32_t vertices, double ratio)
 
 /* Fill point and below of *layer with `size` of the `vertices` vertices that have a tile, every set
  * of them with the same chance [Fan, Muller, Rezucha 1962]. Returns false when out of memory. */
-static bool layer_choose(const mw_tiling *tiling, const uint32_t *at, uint32_t vertices, uint32_t size, uint64_t random,
-                         mw_layer *layer)
+static bool layer_choose(const mw_tiling *tiling, const uint32_t *at, uint32_t vertices,
+                         uint32_t size, uint64_t random, mw_layer *layer)
 {
     layer->tiling.point = mw__alloc_lines(size, sizeof *layer->tiling.point);
     layer->below = mw__alloc(size, sizeof *layer->below);
@@ -90,8 +90,8 @@ static mw_status layer_order_vertices(mw_layer *layer, mw_error *error)
 static mw_status layer_triangulate(mw_layer *layer, mw_job *job, mw_error *error)
 {
     mw_tiling *tiling = &layer->tiling;
-    mw_status status = mw__delaunay_triangles(tiling->point, tiling->point_count, job, NULL, NULL, &tiling->tri,
-                                              &tiling->tri_count, error);
+    mw_status status = mw__delaunay_triangles(tiling->point, tiling->point_count, job, NULL, NULL,
+                                              &tiling->tri, &tiling->tri_count, error);
     if (!status) status = layer_order_vertices(layer, error);
     if (!status) status = mw__tiling_areas(tiling, error);
     return status;
@@ -107,17 +107,19 @@ static void layer_release(mw_layer *layer)
 /* Vertices of layer i, the mesh being 0. */
 static uint32_t layer_vertex_count(const mw_layers *layers, uint32_t i)
 {
-    return i == 0 ? layers->vertices : layers->layer[i - 1].tiling.point_count - layers->layer[i - 1].vacant;
+    return i == 0 ? layers->vertices
+                  : layers->layer[i - 1].tiling.point_count - layers->layer[i - 1].vacant;
 }
 
 /* Put a layer of `size` vertices above the highest, `tiling`, of which `at` has the tiles. */
-static mw_status layers_add(mw_layers *layers, const mw_tiling *tiling, const uint32_t *at, uint32_t size,
-                            uint64_t seed, mw_job *job, mw_error *error)
+static mw_status layers_add(mw_layers *layers, const mw_tiling *tiling, const uint32_t *at,
+                            uint32_t size, uint64_t seed, mw_job *job, mw_error *error)
 {
     mw_layer *layer = &layers->layer[layers->count - 1];
     uint32_t vertices = layer_vertex_count(layers, layers->count - 1);
     layer->tiling.embedding = true;
-    bool chosen = layer_choose(tiling, at, vertices, size, mw__random_seed(seed, layers->count), layer);
+    bool chosen =
+        layer_choose(tiling, at, vertices, size, mw__random_seed(seed, layers->count), layer);
     mw_status status = chosen ? layer_triangulate(layer, job, error) : mw__fail_memory(error);
     if (status)
         layer_release(layer);
@@ -131,7 +133,8 @@ static uint32_t layers_by_size(uint32_t vertices, double ratio)
 {
     if (vertices <= LARGE_MESH) return 1;
     uint32_t layers = 2;
-    for (uint32_t size = layer_size_above(vertices, ratio); size > LARGE_LAYER && layers < MW_MAX_LAYERS; layers++)
+    for (uint32_t size = layer_size_above(vertices, ratio);
+         size > LARGE_LAYER && layers < MW_MAX_LAYERS; layers++)
         size = layer_size_above(size, ratio);
     return layers;
 }
@@ -146,7 +149,8 @@ static uint32_t layer_vertices_in_use(const uint32_t *at, uint32_t n)
 static mw_status layers_check(const mw_layers_options *options, mw_error *error)
 {
     if (options->layers > MW_MAX_LAYERS)
-        return mw__fail(error, MW_ERROR_ARGUMENT, "%u layers, at most %d are possible", options->layers, MW_MAX_LAYERS);
+        return mw__fail(error, MW_ERROR_ARGUMENT, "%u layers, at most %d are possible",
+                        options->layers, MW_MAX_LAYERS);
     if (!(options->ratio >= 0 && options->ratio < 1))
         return mw__fail(error, MW_ERROR_ARGUMENT, "the ratio of layers is not between 0 and 1");
     if ((unsigned)options->descent > MW_DESCENT_COORDINATE)
@@ -154,21 +158,23 @@ static mw_status layers_check(const mw_layers_options *options, mw_error *error)
     return MW_OK;
 }
 
-mw_status mw__layers_create(const mw_tiling *tiling, const mw_layers_options *options, mw_job *job, mw_layers *out,
-                            mw_error *error)
+mw_status mw__layers_create(const mw_tiling *tiling, const mw_layers_options *options, mw_job *job,
+                            mw_layers *out, mw_error *error)
 {
     *out = (mw_layers){.count = 1, .tiles = tiling->tri_count, .descent = options->descent};
     mw_status status = layers_check(options, error);
     if (status) return status;
     double ratio = options->ratio > 0 ? options->ratio : MW_LAYER_RATIO;
-    uint32_t *at = mw__tile_of_vertices(tiling), size = at ? layer_vertices_in_use(at, tiling->point_count) : 0;
+    uint32_t *at = mw__tile_of_vertices(tiling),
+             size = at ? layer_vertices_in_use(at, tiling->point_count) : 0;
     uint32_t wanted = options->layers ? options->layers : layers_by_size(size, ratio);
     out->vertices = size;
     mw_error reason;
     double left = 1; /* of the job; the lowest layer has most of the vertices */
     while (at && !status && out->count < wanted && layer_size_above(size, ratio) < size) {
         mw_job_span outer = mw__job_part(job, left * (1 - ratio));
-        status = layers_add(out, tiling, at, layer_size_above(size, ratio), options->seed, job, &reason);
+        status =
+            layers_add(out, tiling, at, layer_size_above(size, ratio), options->seed, job, &reason);
         mw__job_part_end(job, outer);
         if (status) break;
         left *= ratio;
@@ -206,7 +212,8 @@ size_t mw__layers_bytes(const mw_layers *layers)
 
 void mw__layers_describe(const mw_layers *layers, uint32_t vertices[MW_MAX_LAYERS])
 {
-    for (uint32_t i = 0; i < MW_MAX_LAYERS; i++) vertices[i] = i < layers->count ? layer_vertex_count(layers, i) : 0;
+    for (uint32_t i = 0; i < MW_MAX_LAYERS; i++)
+        vertices[i] = i < layers->count ? layer_vertex_count(layers, i) : 0;
 }
 
 /* --- the search --- */
@@ -234,20 +241,23 @@ static uint32_t layer_nearest(const mw_walk *walk)
     const uint32_t *v = walk->tri[walk->t].v;
     uint32_t best = v[0];
     for (int k = 1; k < 3; k++)
-        if (mw__distance2(walk->point[v[k]], walk->q) < mw__distance2(walk->point[best], walk->q)) best = v[k];
+        if (mw__distance2(walk->point[v[k]], walk->q) < mw__distance2(walk->point[best], walk->q))
+            best = v[k];
     return best;
 }
 
 /* The vertex with the largest orientation coordinate: opposite to the edge that makes the largest
- * triangle with q. The walks that know the coordinates hand it down; others make the tests, two, and
- * one for the area where none is stored. */
+ * triangle with q. The walks that know the coordinates hand it down; others make the tests, two,
+ * and one for the area where none is stored. */
 static uint32_t layer_heaviest(mw_walk *walk, const mw_layer_walk *how)
 {
     const uint32_t *v = walk->tri[walk->t].v;
     if (walk_has_coordinates(how->walk)) return v[walk->heaviest];
     const mw_point *p = walk->point;
-    double at0 = mw__orient2d_double(p[v[1]], p[v[2]], walk->q), at1 = mw__orient2d_double(p[v[2]], p[v[0]], walk->q);
-    double all = walk->tiling->area ? walk->tiling->area[walk->t] : mw__orient2d_double(p[v[0]], p[v[1]], p[v[2]]);
+    double at0 = mw__orient2d_double(p[v[1]], p[v[2]], walk->q),
+           at1 = mw__orient2d_double(p[v[2]], p[v[0]], walk->q);
+    double all = walk->tiling->area ? walk->tiling->area[walk->t]
+                                    : mw__orient2d_double(p[v[0]], p[v[1]], p[v[2]]);
     if (how->count) walk->work->orient[MW_STAGE_WALK] += walk->tiling->area ? 2 : 3;
     return v[heaviest_corner(at0, at1, all - at0 - at1)];
 }
@@ -256,32 +266,36 @@ static uint32_t layer_heaviest(mw_walk *walk, const mw_layer_walk *how)
  * vertex. */
 static uint32_t name_below(const mw_layers *layers, const mw_tiling *beneath, uint32_t below)
 {
-    if (!layers->live || below >= beneath->point_count || beneath->tile_at[below] == MW_NONE) return below;
+    if (!layers->live || below >= beneath->point_count || beneath->tile_at[below] == MW_NONE)
+        return below;
     return mw__tile_name(beneath, beneath->tile_at[below]);
 }
 
-uint32_t mw__layers_descend(const mw_layers *layers, mw_point q, const mw_layer_walk *how, uint64_t *random,
-                            mw_work *work, uint32_t *tile)
+uint32_t mw__layers_descend(const mw_layers *layers, mw_point q, const mw_layer_walk *how,
+                            uint64_t *random, mw_work *work, uint32_t *tile)
 {
     bool by_weight = layers->descent == MW_DESCENT_COORDINATE;
     mw_arithmetic arithmetic = how->exact ? MW_EXACT : MW_DOUBLE;
     uint32_t top = layers->count - 1;
-    uint32_t t = mw__random_below(random, top ? layers->layer[top - 1].tiling.tri_count : layers->tiles);
+    uint32_t t =
+        mw__random_below(random, top ? layers->layer[top - 1].tiling.tri_count : layers->tiles);
     for (uint32_t i = top; i-- > 0;) {
         const mw_layer *layer = &layers->layer[i];
         const mw_tiling *beneath = i > 0 ? &layers->layer[i - 1].tiling : how->mesh;
         uint32_t fuel = mw__walk_fuel(how->walk, arithmetic, &layer->tiling);
-        mw_walk walk = mw__walk_begin(&layer->tiling, q, t, fuel, mw__random(random), how->count ? work : NULL);
+        mw_walk walk = mw__walk_begin(&layer->tiling, q, t, fuel, mw__random(random),
+                                      how->count ? work : NULL);
         layer_find(&layer->tiling, how, &walk);
         if (tile) tile[i] = walk.t;
-        t = name_below(layers, beneath, layer->below[by_weight ? layer_heaviest(&walk, how) : layer_nearest(&walk)]);
+        t = name_below(layers, beneath,
+                       layer->below[by_weight ? layer_heaviest(&walk, how) : layer_nearest(&walk)]);
         if (i > 0) t = mw__tile_named(beneath, t);
     }
     return t;
 }
 
-uint32_t mw__layers_first(const mw_layers *layers, mw_point q, const mw_layer_walk *how, uint64_t *random,
-                          mw_work *work)
+uint32_t mw__layers_first(const mw_layers *layers, mw_point q, const mw_layer_walk *how,
+                          uint64_t *random, mw_work *work)
 {
     return mw__layers_descend(layers, q, how, random, work, NULL);
 }

@@ -11,8 +11,9 @@
  * (edit/live_layers.h): with owners, without areas. */
 typedef struct mw_layer {
     mw_tiling tiling;
-    uint32_t *below; /* per vertex: the name of a tile that has it, in the layer below; at last, in the mesh.
-                        Live: its slot there */
+    /* per vertex: the name of a tile that has it, in the layer below; at last, in the mesh. Live:
+     * its slot there */
+    uint32_t *below;
     uint32_t vacant; /* live: slots of vertices that are gone */
 } mw_layer;
 
@@ -25,7 +26,8 @@ typedef struct mw_layers {
     bool live;
 } mw_layers;
 
-#define MW_LAYER_RATIO 0.025 /* the best exchange of time for memory on random vertices [Devillers 2002] */
+#define MW_LAYER_RATIO                                                                             \
+    0.025 /* the best exchange of time for memory on random vertices [Devillers 2002] */
 
 typedef struct mw_layers_options {
     uint32_t layers; /* the mesh itself counted, at most MW_MAX_LAYERS; 0 = by its size       */
@@ -39,8 +41,8 @@ typedef struct mw_layers_options {
  * on one line or be no fewer than those below. MW_ERROR_ARGUMENT for options out of range,
  * MW_ERROR_MEMORY (also if cancelled). *out may be released in either case. Stages of the present
  * part of the job. */
-mw_status mw__layers_create(const mw_tiling *tiling, const mw_layers_options *options, mw_job *job, mw_layers *out,
-                            mw_error *error);
+mw_status mw__layers_create(const mw_tiling *tiling, const mw_layers_options *options, mw_job *job,
+                            mw_layers *out, mw_error *error);
 void mw__layers_release(mw_layers *layers);
 void mw__layers_cut(mw_layers *layers, uint32_t count); /* keep so many, the mesh itself counted */
 size_t mw__layers_bytes(const mw_layers *layers);       /* what it owns, beside *layers */
@@ -59,12 +61,12 @@ typedef struct mw_layer_walk {
  * the layers did is added to *work (else NULL will do). A layer in which a walk ran out of steps is
  * left where it stopped. The fast stochastic walk makes no steps with one test: the walks are
  * short. */
-uint32_t mw__layers_first(const mw_layers *layers, mw_point q, const mw_layer_walk *how, uint64_t *random,
-                          mw_work *work);
+uint32_t mw__layers_first(const mw_layers *layers, mw_point q, const mw_layer_walk *how,
+                          uint64_t *random, mw_work *work);
 
 /* The same, which also tells the tile of each layer where its walk ended; tile: NULL, or room for
  * all layers but the mesh. */
-uint32_t mw__layers_descend(const mw_layers *layers, mw_point q, const mw_layer_walk *how, uint64_t *random,
-                            mw_work *work, uint32_t *tile);
+uint32_t mw__layers_descend(const mw_layers *layers, mw_point q, const mw_layer_walk *how,
+                            uint64_t *random, mw_work *work, uint32_t *tile);
 
 #endif

@@ -3,7 +3,8 @@
 #include "base/random.h"
 #include "start/start.h"
 
-uint32_t mw__start_sample(const mw_tiling *tiling, mw_point q, uint32_t count, uint32_t rival, uint64_t *random)
+uint32_t mw__start_sample(const mw_tiling *tiling, mw_point q, uint32_t count, uint32_t rival,
+                          uint64_t *random)
 {
     uint32_t best = rival != MW_NONE ? rival : mw__random_below(random, tiling->tri_count);
     double best2 = mw__distance2(tiling->point[tiling->tri[best].v[0]], q);
@@ -23,6 +24,7 @@ uint32_t mw__sample_count(const mw_tiling *tiling, uint32_t sample)
 {
     const double vertices = tiling->point_count;
     if (sample == MW_SAMPLE_CUBE_ROOT_OF_VERTICES) sample = (uint32_t)lround(cbrt(vertices));
-    if (sample == MW_SAMPLE_FOURTH_ROOT_OF_VERTICES) sample = (uint32_t)lround(2 * sqrt(sqrt(vertices)));
+    if (sample == MW_SAMPLE_FOURTH_ROOT_OF_VERTICES)
+        sample = (uint32_t)lround(2 * sqrt(sqrt(vertices)));
     return sample < tiling->tri_count ? sample : tiling->tri_count;
 }

@@ -2,8 +2,8 @@
  * ended [thesis App. E, sec. 4.1; Amenta, Choi, Rote 2003 for the order]. */
 #include "start/start.h"
 
-void mw__sort_queries(const double *points, size_t n, size_t stride, const double low[2], const double high[2],
-                      mw_key *order, mw_key *scratch)
+void mw__sort_queries(const double *points, size_t n, size_t stride, const double low[2],
+                      const double high[2], mw_key *order, mw_key *scratch)
 {
     /* The extent of the queries within that of the mesh: a stray query must not make the cells
      * coarse. */
@@ -20,6 +20,7 @@ void mw__sort_queries(const double *points, size_t n, size_t stride, const doubl
     }
     mw_hilbert hilbert = mw__hilbert(from, to);
     for (size_t i = 0; i < n; i++)
-        order[i] = (mw_key){mw__hilbert_key(&hilbert, points[i * stride], points[i * stride + 1]), (uint32_t)i};
+        order[i] = (mw_key){mw__hilbert_key(&hilbert, points[i * stride], points[i * stride + 1]),
+                            (uint32_t)i};
     mw__sort_keys(order, scratch, n);
 }

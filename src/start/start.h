@@ -13,7 +13,8 @@ uint32_t mw__start_random(const mw_tiling *tiling, uint64_t *random);
 
 /* The nearest to q, by its vertex 0, of `count` random tiles, and of `rival` unless that is
  * MW_NONE. */
-uint32_t mw__start_sample(const mw_tiling *tiling, mw_point q, uint32_t count, uint32_t rival, uint64_t *random);
+uint32_t mw__start_sample(const mw_tiling *tiling, mw_point q, uint32_t count, uint32_t rival,
+                          uint64_t *random);
 
 /* How many to sample: `sample` itself, or by its rule, but no more than there are tiles. The cube
  * root of the number of vertices balances sampling and walking [Devroye, Muecke, Zhu 1998]. */
@@ -26,8 +27,8 @@ uint32_t mw__start_centre(const mw_tiling *tiling, const double low[2], const do
 /* The order of queries along a Hilbert curve over that part of their extent which lies within
  * low..high, the extent of the mesh: order[i].item is the query that comes i-th. scratch: room for
  * n keys. */
-void mw__sort_queries(const double *points, size_t n, size_t stride, const double low[2], const double high[2],
-                      mw_key *order, mw_key *scratch);
+void mw__sort_queries(const double *points, size_t n, size_t stride, const double low[2],
+                      const double high[2], mw_key *order, mw_key *scratch);
 
 /* For each finite vertex the name of a tile that has it, the lowest unless tiles are edited;
  * MW_NONE for the other ones. NULL when out of memory. Release with free(). */

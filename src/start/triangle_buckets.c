@@ -1,10 +1,11 @@
 /* triangle_buckets.c - buckets with all incident triangles [thesis App. D, sec. 3.2].
  *
  * Each cell of a uniform grid, a bucket, keeps every tile that reaches into it, and a query tests
- * these one after the other: the one that has it is the first tile, and the last. No walk is needed,
- * whatever the shape of the domain; but where vertices are crowded a bucket keeps many, and where
- * tiles are long they are kept in many buckets. The paper warns of that memory. Here it is bounded:
- * where tiles would be kept more than MOST times on the average, buckets are made larger.
+ * these one after the other: the one that has it is the first tile, and the last. No walk is
+ * needed, whatever the shape of the domain; but where vertices are crowded a bucket keeps many,
+ * and where tiles are long they are kept in many buckets. The paper warns of that memory. Here it
+ * is bounded: where tiles would be kept more than MOST times on the average, buckets are made
+ * larger.
  *
  * Outside of all tiles, or in a bucket where rounding hides the right one, the walk begins at the
  * last tile tested, or, where the bucket is empty, at one of the first bucket of a spiral round it
@@ -21,8 +22,9 @@ enum { MOST = 12 }; /* buckets that a tile is kept in, on the average */
 /* A tile in units of cells, and what is done with the cells that it reaches into. */
 typedef struct mw_bucket_pass {
     const mw_lattice *lattice;
-    uint32_t *from, *tile; /* without tile: cells are counted in from[c + 1]; else it is put at from[c]++ */
-    uint64_t steps, most;  /* rows and cells looked at, at most so many */
+    /* without tile: cells are counted in from[c + 1]; else it is put at from[c]++ */
+    uint32_t *from, *tile;
+    uint64_t steps, most; /* rows and cells looked at, at most so many */
     mw_job *job;
 } mw_bucket_pass;
 
@@ -44,7 +46,8 @@ static void bucket_row(mw_bucket_pass *p, const double corner[3][2], uint32_t ro
 {
     const double slack = 1e-9; /* a tile that touches a cell reaches into it */
     double span[2] = {INFINITY, -INFINITY};
-    for (int k = 0; k < 3; k++) edge_span(corner[k], corner[(k + 1) % 3], row - slack, row + 1 + slack, span);
+    for (int k = 0; k < 3; k++)
+        edge_span(corner[k], corner[(k + 1) % 3], row - slack, row + 1 + slack, span);
     if (!(span[0] <= span[1])) return;
     uint32_t first = mw__lattice_line(span[0] - slack, p->lattice->columns);
     uint32_t last = mw__lattice_line(span[1] + slack, p->lattice->columns);
@@ -68,9 +71,11 @@ static void bucket_tile(mw_bucket_pass *p, const mw_tiling *tiling, uint32_t t)
         low = fmin(low, corner[k][1]);
         high = fmax(high, corner[k][1]);
     }
-    uint32_t first = mw__lattice_line(low, p->lattice->rows), last = mw__lattice_line(high, p->lattice->rows);
+    uint32_t first = mw__lattice_line(low, p->lattice->rows),
+             last = mw__lattice_line(high, p->lattice->rows);
     uint32_t name = p->tile ? mw__tile_name(tiling, t) : 0;
-    for (uint32_t row = first; row <= last && p->steps <= p->most; row++, p->steps++) bucket_row(p, corner, row, name);
+    for (uint32_t row = first; row <= last && p->steps <= p->most; row++, p->steps++)
+        bucket_row(p, corner, row, name);
 }
 
 /* Before tile t: is the job to go on? */
@@ -90,7 +95,8 @@ static bool buckets_count(mw_triangle_buckets *buckets, const mw_tiling *tiling,
                            .job = job};
     if (pass.most > UINT32_MAX / 2 && cells > 1) pass.most = UINT32_MAX / 2;
     memset(buckets->from, 0, ((size_t)cells + 1) * sizeof *buckets->from);
-    for (uint32_t t = 0; t < tiling->tri_count && pass.steps <= pass.most && pass_goes_on(&pass, tiling, t); t++)
+    for (uint32_t t = 0;
+         t < tiling->tri_count && pass.steps <= pass.most && pass_goes_on(&pass, tiling, t); t++)
         bucket_tile(&pass, tiling, t);
     return pass.steps <= pass.most;
 }
@@ -101,20 +107,26 @@ static bool buckets_fill(mw_triangle_buckets *buckets, const mw_tiling *tiling, 
     for (uint32_t c = 0; c < cells; c++) from[c + 1] += from[c];
     buckets->tile = mw__alloc_lines(from[cells] + 1, sizeof *buckets->tile);
     if (!buckets->tile) return false;
-    mw_bucket_pass pass = {
-        .lattice = &buckets->lattice, .from = from, .tile = buckets->tile, .most = UINT64_MAX, .job = job};
-    for (uint32_t t = 0; t < tiling->tri_count && pass_goes_on(&pass, tiling, t); t++) bucket_tile(&pass, tiling, t);
+    mw_bucket_pass pass = {.lattice = &buckets->lattice,
+                           .from = from,
+                           .tile = buckets->tile,
+                           .most = UINT64_MAX,
+                           .job = job};
+    for (uint32_t t = 0; t < tiling->tri_count && pass_goes_on(&pass, tiling, t); t++)
+        bucket_tile(&pass, tiling, t);
     memmove(from + 1, from, cells * sizeof *from); /* each has come to the beginning of the next */
     from[0] = 0;
     return !mw__job_stopped(job);
 }
 
-bool mw__triangle_buckets_create(mw_triangle_buckets *buckets, const mw_tiling *tiling, const double low[2],
-                                 const double high[2], uint32_t cells, mw_job *job)
+bool mw__triangle_buckets_create(mw_triangle_buckets *buckets, const mw_tiling *tiling,
+                                 const double low[2], const double high[2], uint32_t cells,
+                                 mw_job *job)
 {
     if (cells == 0) cells = mw__lattice_choose(tiling);
     *buckets = (mw_triangle_buckets){.lattice = mw__lattice(low, high, cells)};
-    buckets->from = mw__alloc_lines(mw__lattice_cells(&buckets->lattice) + 1, sizeof *buckets->from);
+    buckets->from =
+        mw__alloc_lines(mw__lattice_cells(&buckets->lattice) + 1, sizeof *buckets->from);
     if (!buckets->from) return false;
     mw__job_stage(job, "counting triangles of buckets", 0.4);
     while (!buckets_count(buckets, tiling, job)) {
@@ -135,7 +147,8 @@ void mw__triangle_buckets_release(mw_triangle_buckets *buckets)
 size_t mw__triangle_buckets_bytes(const mw_triangle_buckets *buckets)
 {
     uint32_t cells = mw__lattice_cells(&buckets->lattice);
-    return ((size_t)cells + 1) * sizeof *buckets->from + ((size_t)buckets->from[cells] + 1) * sizeof *buckets->tile;
+    return ((size_t)cells + 1) * sizeof *buckets->from +
+           ((size_t)buckets->from[cells] + 1) * sizeof *buckets->tile;
 }
 
 /* --- the query --- */
@@ -157,12 +170,14 @@ static bool bucket_has_triangle(const void *self, uint32_t cell)
     return buckets->from[cell] < buckets->from[cell + 1];
 }
 
-uint32_t mw__triangle_buckets_first(const mw_triangle_buckets *buckets, const mw_tiling *tiling, mw_point q,
-                                    mw_work *work)
+uint32_t mw__triangle_buckets_first(const mw_triangle_buckets *buckets, const mw_tiling *tiling,
+                                    mw_point q, mw_work *work)
 {
-    uint32_t cell = mw__lattice_spiral(&buckets->lattice, q, bucket_has_triangle, buckets), name = 0;
+    uint32_t cell = mw__lattice_spiral(&buckets->lattice, q, bucket_has_triangle, buckets),
+             name = 0;
     uint64_t tests = 0;
-    for (uint32_t i = cell == MW_NONE ? 1 : buckets->from[cell]; cell != MW_NONE && i < buckets->from[cell + 1]; i++) {
+    for (uint32_t i = cell == MW_NONE ? 1 : buckets->from[cell];
+         cell != MW_NONE && i < buckets->from[cell + 1]; i++) {
         name = buckets->tile[i];
         if (bucket_tile_has(tiling, mw__tile_named(tiling, name), q, &tests)) break;
     }

@@ -15,14 +15,15 @@ typedef struct mw_triangle_buckets {
 /* About `cells` buckets (0: by the number of vertices, at most MW_MAX_CELLS) over low..high, the
  * extent of the tiling; fewer where tiles would be in many each. Stages of the present part of
  * the job. Returns false when out of memory, or cancelled. */
-bool mw__triangle_buckets_create(mw_triangle_buckets *buckets, const mw_tiling *tiling, const double low[2],
-                                 const double high[2], uint32_t cells, mw_job *job);
+bool mw__triangle_buckets_create(mw_triangle_buckets *buckets, const mw_tiling *tiling,
+                                 const double low[2], const double high[2], uint32_t cells,
+                                 mw_job *job);
 void mw__triangle_buckets_release(mw_triangle_buckets *buckets);
 size_t mw__triangle_buckets_bytes(const mw_triangle_buckets *buckets);
 
 /* The name of the tile in the bucket of q that has q, as far as doubles tell; else of one near. The
  * tests that this takes are counted in *work, unless that is NULL. */
-uint32_t mw__triangle_buckets_first(const mw_triangle_buckets *buckets, const mw_tiling *tiling, mw_point q,
-                                    mw_work *work);
+uint32_t mw__triangle_buckets_first(const mw_triangle_buckets *buckets, const mw_tiling *tiling,
+                                    mw_point q, mw_work *work);
 
 #endif

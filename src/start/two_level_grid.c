@@ -106,7 +106,8 @@ static bool two_level_fill(mw_two_level_grid *grid, two_level_build *y)
         uint32_t *entry = &grid->coarse[coarse_cell(grid, y, v)];
         if (*entry != MW_NONE && *entry & MW_FINE) {
             const mw_fine_grid *fine = &grid->grid[*entry - MW_FINE];
-            entry = &grid->fine[fine->first + mw__lattice_cell(&fine->lattice, y->tiling->point[v])];
+            entry =
+                &grid->fine[fine->first + mw__lattice_cell(&fine->lattice, y->tiling->point[v])];
         }
         *entry = y->tile[v];
     }
@@ -117,15 +118,16 @@ static bool two_level_fill(mw_two_level_grid *grid, two_level_build *y)
     return true;
 }
 
-bool mw__two_level_grid_create(mw_two_level_grid *grid, const mw_tiling *tiling, const double low[2],
-                               const double high[2], uint32_t cells, mw_job *job)
+bool mw__two_level_grid_create(mw_two_level_grid *grid, const mw_tiling *tiling,
+                               const double low[2], const double high[2], uint32_t cells,
+                               mw_job *job)
 {
     two_level_build y = {.tiling = tiling, .job = job};
     mw__job_stage(job, "laying a grid", 0.1);
     uint32_t wanted = cells ? cells : mw__lattice_choose(tiling);
     *grid = (mw_two_level_grid){.lattice = mw__lattice_of(tiling, low, high, wanted, job)};
-    bool done = two_level_find_crowded(grid, &y) && two_level_find_extents(grid, &y) && two_level_lay_out(grid, &y) &&
-                two_level_fill(grid, &y);
+    bool done = two_level_find_crowded(grid, &y) && two_level_find_extents(grid, &y) &&
+                two_level_lay_out(grid, &y) && two_level_fill(grid, &y);
     free(y.tile);
     free(y.vertices);
     free(y.extent);
@@ -136,7 +138,8 @@ bool mw__two_level_grid_create(mw_two_level_grid *grid, const mw_tiling *tiling,
 /* Is the grid that a cell has its own? An empty cell may have that of a crowded one near by. */
 static bool fine_grid_is_own(const mw_two_level_grid *grid, uint32_t cell, const mw_fine_grid *fine)
 {
-    return mw__lattice_cell(&grid->lattice, (mw_point){fine->lattice.middle[0], fine->lattice.middle[1]}) == cell;
+    return mw__lattice_cell(&grid->lattice,
+                            (mw_point){fine->lattice.middle[0], fine->lattice.middle[1]}) == cell;
 }
 
 void mw__two_level_grid_put(mw_two_level_grid *grid, const mw_cell_entry *e)
@@ -169,6 +172,6 @@ void mw__two_level_grid_release(mw_two_level_grid *grid)
 
 size_t mw__two_level_grid_bytes(const mw_two_level_grid *grid)
 {
-    return mw__lattice_cells(&grid->lattice) * sizeof *grid->coarse + grid->grid_count * sizeof *grid->grid +
-           grid->fine_count * sizeof *grid->fine;
+    return mw__lattice_cells(&grid->lattice) * sizeof *grid->coarse +
+           grid->grid_count * sizeof *grid->grid + grid->fine_count * sizeof *grid->fine;
 }

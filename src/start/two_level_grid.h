@@ -15,17 +15,20 @@ typedef struct mw_fine_grid {
 
 typedef struct mw_two_level_grid {
     mw_lattice lattice;
-    uint32_t *coarse; /* of each cell: the name of a tile, as in mw_grid; or MW_FINE and the number of its fine grid */
+    /* of each cell: the name of a tile, as in mw_grid; or MW_FINE and the number of its fine
+     * grid */
+    uint32_t *coarse;
     mw_fine_grid *grid;
     uint32_t *fine; /* the cells of the fine grids: the name of a tile each */
     uint32_t grid_count, fine_count;
 } mw_two_level_grid;
 
 /* About `cells` coarse cells (0: by the number of vertices, at most MW_MAX_CELLS) over low..high,
- * the extent of the tiling. Stages of the present part of the job. Returns false when out of memory,
- * or cancelled. */
-bool mw__two_level_grid_create(mw_two_level_grid *grid, const mw_tiling *tiling, const double low[2],
-                               const double high[2], uint32_t cells, mw_job *job);
+ * the extent of the tiling. Stages of the present part of the job. Returns false when out of
+ * memory, or cancelled. */
+bool mw__two_level_grid_create(mw_two_level_grid *grid, const mw_tiling *tiling,
+                               const double low[2], const double high[2], uint32_t cells,
+                               mw_job *job);
 /* See mw__lattice_put. */
 void mw__two_level_grid_put(mw_two_level_grid *grid, const mw_cell_entry *e);
 /* Does p lie in a cell of its own level, and not beyond the outermost cells of a grid? */

@@ -1,22 +1,29 @@
 /* vertex_buckets.c - the bucketing of Su and Drysdale as published [Su, Drysdale 1997; thesis App.
  * E, sec. 4.1; App. D, sec. 3.2].
  *
- *      . . . . .         A uniform grid; each of its cells, a bucket, holds one of the vertices in it at most. A query
- *      . 2 2 2 .         begins at the vertex in its own bucket, in any tile that has it. Where that bucket is empty
- *      . 2 1 2 .         the rings of buckets round it are searched, for this query alone, until one is not: the
- *      . 2 2 2 .         spiral search. So nothing is prepared but a pass over the vertices, and a query costs as many
- *      . . . . .         looks as there are empty buckets nearer: few among vertices of even density, and up to all
- *                        buckets where most of the extent is empty.
- * The grid of this library (grid.c) fills empty cells once, and names the tile at the middle of each
- * cell; this is what it is measured against. */
+ *      . . . . .
+ *      . 2 2 2 .
+ *      . 2 1 2 .
+ *      . 2 2 2 .
+ *      . . . . .
+ *
+ * A uniform grid; each of its cells, a bucket, holds one of the vertices in it at most. A query
+ * begins at the vertex in its own bucket, in any tile that has it. Where that bucket is empty the
+ * rings of buckets round it are searched, for this query alone, until one is not: the spiral
+ * search. So nothing is prepared but a pass over the vertices, and a query costs as many looks as
+ * there are empty buckets nearer: few among vertices of even density, and up to all buckets where
+ * most of the extent is empty.
+ * The grid of this library (grid.c) fills empty cells once, and names the tile at the middle of
+ * each cell; this is what it is measured against. */
 #include "start/vertex_buckets.h"
 
 #include "start/start.h"
 
 #include <stdlib.h>
 
-bool mw__vertex_buckets_create(mw_vertex_buckets *buckets, const mw_tiling *tiling, const double low[2],
-                               const double high[2], uint32_t cells, mw_job *job)
+bool mw__vertex_buckets_create(mw_vertex_buckets *buckets, const mw_tiling *tiling,
+                               const double low[2], const double high[2], uint32_t cells,
+                               mw_job *job)
 {
     enum { SOME = 1 << 12 }; /* vertices between two steps of the job */
     mw__job_stage(job, "filling buckets", 1);
@@ -63,9 +70,11 @@ static uint32_t ring_side(const mw_ring *r, bool column, int64_t off, int64_t re
     int64_t along = column ? r->lattice->rows : r->lattice->columns;
     int64_t line = (column ? r->x : r->y) + off, middle = column ? r->y : r->x;
     if (line < 0 || line >= lines) return MW_NONE;
-    int64_t begin = middle - reach > 0 ? middle - reach : 0, end = middle + reach < along ? middle + reach : along - 1;
+    int64_t begin = middle - reach > 0 ? middle - reach : 0,
+            end = middle + reach < along ? middle + reach : along - 1;
     for (int64_t i = begin; i <= end; i++) {
-        uint32_t cell = (uint32_t)(column ? i * r->lattice->columns + line : line * r->lattice->columns + i);
+        uint32_t cell =
+            (uint32_t)(column ? i * r->lattice->columns + line : line * r->lattice->columns + i);
         if (r->holds(r->self, cell)) return cell;
     }
     return MW_NONE;
@@ -80,7 +89,8 @@ static uint32_t ring_search(const mw_ring *r)
     return cell == MW_NONE ? ring_side(r, true, far, far - 1) : cell;
 }
 
-uint32_t mw__lattice_spiral(const mw_lattice *lattice, mw_point q, mw_cell_holds *holds, const void *self)
+uint32_t mw__lattice_spiral(const mw_lattice *lattice, mw_point q, mw_cell_holds *holds,
+                            const void *self)
 {
     uint32_t cell = mw__lattice_cell(lattice, q),
              most = lattice->columns > lattice->rows ? lattice->columns : lattice->rows;

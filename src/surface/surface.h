@@ -27,7 +27,8 @@ static MW_INLINE const double *mw__surface_point(const mw_surface *surface, uint
 }
 
 /* Corner k of a triangle, 0 to 3: corner 3 is corner 0. */
-static MW_INLINE const double *mw__surface_corner(const mw_surface *surface, uint32_t triangle, uint32_t k)
+static MW_INLINE const double *mw__surface_corner(const mw_surface *surface, uint32_t triangle,
+                                                  uint32_t k)
 {
     return mw__surface_point(surface, surface->tri[triangle].v[k]);
 }
@@ -62,11 +63,13 @@ static MW_INLINE void mw__surface_read_unlock(const mw_surface *surface)
     if (surface->rwlock) mw__rwlock_read_unlock(surface->rwlock);
 }
 
-/* As mw_surface_create, as stages of the present part of the job. *out is not changed on failure. */
-mw_status mw__surface_create(const mw_arrays *arrays, const mw_surface_options *options, mw_job *job, mw_surface **out,
-                             mw_error *error);
+/* As mw_surface_create, as stages of the present part of the job. *out is not changed on failure.
+ * */
+mw_status mw__surface_create(const mw_arrays *arrays, const mw_surface_options *options,
+                             mw_job *job, mw_surface **out, mw_error *error);
 
 /* As mw_surface_check_arrays, likewise; the check may hold something on failure. */
-mw_status mw__surface_check(const mw_arrays *arrays, int weld, mw_job *job, mw_check *check, mw_error *error);
+mw_status mw__surface_check(const mw_arrays *arrays, int weld, mw_job *job, mw_check *check,
+                            mw_error *error);
 
 #endif

@@ -23,7 +23,9 @@ static bool surface_check_orientation(const mw_surface *surface, uint32_t t, mw_
 {
     for (uint32_t k = 0; k < 3; k++) {
         uint32_t link = surface->tri[t].link[k];
-        if (link == MW_NONE || mw__link_triangle(link) < t || mw__surface_orientations_agree(surface, t, k)) continue;
+        if (link == MW_NONE || mw__link_triangle(link) < t ||
+            mw__surface_orientations_agree(surface, t, k))
+            continue;
         mw_defect defect = mw__defect(MW_DEFECT_CLASHING, t);
         defect.edge = (uint8_t)k;
         defect.other = mw__link_triangle(link);
@@ -38,20 +40,22 @@ static bool surface_check_sharing(mw_surface *surface, mw_defects *defects)
 {
     if (!surface->tolerant) return true;
     for (uint32_t t = 0; t < surface->tri_count && surface->coincident; t++)
-        for (uint32_t k = 0; k < 4; k++) surface->tri[t].v[k] = surface->coincident[surface->tri[t].v[k]];
+        for (uint32_t k = 0; k < 4; k++)
+            surface->tri[t].v[k] = surface->coincident[surface->tri[t].v[k]];
     return mw__find_non_manifold_edges(surface->tri, surface->tri_count, defects);
 }
 
 /* Find all defects, except those of replaced triangles (NULL: none are replaced), which have no
  * links. Afterwards the triangles name the representatives of their vertices. */
-static mw_status surface_find_defects(mw_surface *surface, const uint8_t *replaced, mw_job *job, mw_defects *defects,
-                                      mw_error *error)
+static mw_status surface_find_defects(mw_surface *surface, const uint8_t *replaced, mw_job *job,
+                                      mw_defects *defects, mw_error *error)
 {
     mw__job_stage(job, "looking for defects", 0.5);
     for (uint32_t t = 0; t < surface->tri_count; t++) {
         if (replaced && replaced[t]) continue;
         if (!mw__job_step(job, t, surface->tri_count)) return mw__fail_memory(error);
-        if (!surface_check_triangle(surface, t, defects) || !surface_check_orientation(surface, t, defects))
+        if (!surface_check_triangle(surface, t, defects) ||
+            !surface_check_orientation(surface, t, defects))
             return mw__fail_memory(error);
     }
     return surface_check_sharing(surface, defects) ? MW_OK : mw__fail_memory(error);
@@ -59,8 +63,8 @@ static mw_status surface_find_defects(mw_surface *surface, const uint8_t *replac
 
 /* Check arrays that mw_surface_create refuses: list the unusable triangles, and make a tolerant
  * surface of the rest. */
-static mw_status surface_check_damaged(const mw_arrays *arrays, int weld, mw_job *job, mw_defects *defects,
-                                       mw_error *error)
+static mw_status surface_check_damaged(const mw_arrays *arrays, int weld, mw_job *job,
+                                       mw_defects *defects, mw_error *error)
 {
     mw_repair repair;
     mw_surface *surface = NULL;
@@ -77,12 +81,14 @@ static mw_status surface_check_damaged(const mw_arrays *arrays, int weld, mw_job
     return status;
 }
 
-mw_status mw__surface_check(const mw_arrays *arrays, int weld, mw_job *job, mw_check *check, mw_error *error)
+mw_status mw__surface_check(const mw_arrays *arrays, int weld, mw_job *job, mw_check *check,
+                            mw_error *error)
 {
     mw_defects defects = {0};
     mw_surface *surface = NULL;
     mw_job_span outer = mw__job_part(job, 0.5);
-    mw_status status = mw__surface_create(arrays, &(mw_surface_options){.weld = weld}, job, &surface, error);
+    mw_status status =
+        mw__surface_create(arrays, &(mw_surface_options){.weld = weld}, job, &surface, error);
     mw__job_part_end(job, outer);
     outer = mw__job_part(job, 0.5);
     if (status == MW_OK)
@@ -97,12 +103,13 @@ mw_status mw__surface_check(const mw_arrays *arrays, int weld, mw_job *job, mw_c
     }
     mw__defects_sort(&defects);
     *check = (mw_check){.defects = defects.list, .defect_count = defects.count, .valid = 1};
-    for (size_t i = 0; i < defects.count; i++) check->valid &= defects.list[i].kind == MW_DEFECT_FLAT;
+    for (size_t i = 0; i < defects.count; i++)
+        check->valid &= defects.list[i].kind == MW_DEFECT_FLAT;
     return MW_OK;
 }
 
-mw_status mw_surface_check_arrays(const mw_arrays *arrays, int weld, const mw_check_options *options, mw_check *check,
-                                  mw_error *error)
+mw_status mw_surface_check_arrays(const mw_arrays *arrays, int weld,
+                                  const mw_check_options *options, mw_check *check, mw_error *error)
 {
     static const mw_check_options defaults;
     if (!check) return mw__fail(error, MW_ERROR_ARGUMENT, "no place for the check");

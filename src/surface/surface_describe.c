@@ -14,7 +14,8 @@ static bool surface_triangle_is_usable(const mw_surface *surface, uint32_t t)
 
 /* Triangles with two coincident vertices have no edges. Returns the number of the others; *edges
  * becomes the number of their edges. */
-static uint32_t surface_count_edges(const mw_surface *surface, mw_surface_info *info, uint64_t *edges)
+static uint32_t surface_count_edges(const mw_surface *surface, mw_surface_info *info,
+                                    uint64_t *edges)
 {
     uint32_t count = 0;
     uint64_t linked = 0;
@@ -56,9 +57,10 @@ static bool surface_count(const mw_surface *surface, mw_surface_info *info)
     uint64_t edges;
     uint32_t faces = surface_count_edges(surface, info, &edges), corners, used;
     if (!surface_count_pinched(surface, info, &corners) ||
-        !mw__count_components(surface->tri, surface->tri_count, surface->point_count, surface->coincident, &used,
-                              &info->components) ||
-        !mw__count_border_loops(surface->tri, surface->tri_count, surface->coincident, &info->border_loops))
+        !mw__count_components(surface->tri, surface->tri_count, surface->point_count,
+                              surface->coincident, &used, &info->components) ||
+        !mw__count_border_loops(surface->tri, surface->tri_count, surface->coincident,
+                                &info->border_loops))
         return false;
     for (uint32_t v = 0; v < surface->point_count; v++)
         info->vertices += mw__representative(surface->coincident, v) == v;
@@ -81,7 +83,8 @@ static void surface_extent_widen(mw_surface_info *info, const double p[3])
 }
 
 /* The normal (b - a) x (c - a), on the front side. Its length is twice the area. */
-static void triangle_normal(const double a[3], const double b[3], const double c[3], double normal[3])
+static void triangle_normal(const double a[3], const double b[3], const double c[3],
+                            double normal[3])
 {
     for (int i = 0, j = 1, k = 2; i < 3; i++, j = k, k = (j + 1) % 3)
         normal[i] = (b[j] - a[j]) * (c[k] - a[k]) - (b[k] - a[k]) * (c[j] - a[j]);
@@ -102,7 +105,8 @@ static void surface_measure(const mw_surface *surface, mw_surface_info *info)
         }
         triangle_normal(corner[0], corner[1], corner[2], normal);
         for (int i = 0; i < 3; i++) mw__sum_add(&volume, normal[i] * (corner[0][i] - apex[i]) / 6);
-        if (!surface_triangle_is_usable(surface, t) || mw__collinear3(corner[0], corner[1], corner[2]))
+        if (!surface_triangle_is_usable(surface, t) ||
+            mw__collinear3(corner[0], corner[1], corner[2]))
             info->flat_triangles++;
         else
             mw__sum_add(&area, hypot(hypot(normal[0], normal[1]), normal[2]) / 2);
@@ -113,8 +117,10 @@ static void surface_measure(const mw_surface *surface, mw_surface_info *info)
 
 mw_status mw_surface_describe(const mw_surface *surface, mw_surface_info *info, mw_error *error)
 {
-    if (!surface || !info) return mw__fail(error, MW_ERROR_ARGUMENT, "no surface, or no place for its description");
-    *info = (mw_surface_info){.triangles = surface->tri_count, .low = {NAN, NAN, NAN}, .high = {NAN, NAN, NAN}};
+    if (!surface || !info)
+        return mw__fail(error, MW_ERROR_ARGUMENT, "no surface, or no place for its description");
+    *info = (mw_surface_info){
+        .triangles = surface->tri_count, .low = {NAN, NAN, NAN}, .high = {NAN, NAN, NAN}};
     mw__surface_read_lock(surface);
     bool done = surface_count(surface, info);
     if (done) surface_measure(surface, info);

@@ -13,7 +13,8 @@ static bool vertices_are_joined(const mw_surface *surface, uint32_t t, uint32_t 
     for (int way = 0; way < 2; way++) /* a fan that is not closed is searched in both directions */
         for (mw_edge_end e = first[way];;) {
             uint32_t far = surface->tri[mw__link_triangle(e.half)].v[mw__far_corner(e)];
-            if (mw__representative(surface->coincident, far) == mw__representative(surface->coincident, other))
+            if (mw__representative(surface->coincident, far) ==
+                mw__representative(surface->coincident, other))
                 return true;
             if (mw__link_of(surface->tri, e) == MW_NONE) break;
             e = mw__other_edge(mw__across(surface->tri, surface->coincident, e));
@@ -28,23 +29,26 @@ static void half_edges_link(mw_triangle *tri, uint32_t half, uint32_t other)
     if (other != MW_NONE) tri[mw__link_triangle(other)].link[mw__link_edge(other)] = half;
 }
 
-mw_status mw_surface_flip(mw_surface *surface, uint32_t triangle, unsigned local_edge, mw_error *error)
+mw_status mw_surface_flip(mw_surface *surface, uint32_t triangle, unsigned local_edge,
+                          mw_error *error)
 {
     mw_triangle *abc = &surface->tri[triangle];
     uint32_t ab = local_edge, link = abc->link[ab];
     if (link == MW_NONE)
-        return mw__fail_at(error, triangle, -1, "triangle %" PRIu32 ": edge %u has no neighbour", triangle, local_edge);
+        return mw__fail_at(error, triangle, -1, "triangle %" PRIu32 ": edge %u has no neighbour",
+                           triangle, local_edge);
     if (!mw__surface_orientations_agree(surface, triangle, ab))
         return mw__fail_at(error, triangle, -1,
-                           "triangle %" PRIu32 ": its neighbour at edge %u is oriented differently", triangle,
-                           local_edge);
+                           "triangle %" PRIu32 ": its neighbour at edge %u is oriented differently",
+                           triangle, local_edge);
     uint32_t neighbour = mw__link_triangle(link), ba = mw__link_edge(link);
     mw_triangle *bad = &surface->tri[neighbour];
     uint32_t ca = mw__prev(ab), db = mw__prev(ba), c = abc->v[ca], d = bad->v[db];
     if (mw__representative(surface->coincident, c) == mw__representative(surface->coincident, d) ||
         vertices_are_joined(surface, triangle, ca, d))
         return mw__fail_at(error, triangle, c,
-                           "triangle %" PRIu32 ": vertices %" PRIu32 " and %" PRIu32 " are the same, or joined already",
+                           "triangle %" PRIu32 ": vertices %" PRIu32 " and %" PRIu32
+                           " are the same, or joined already",
                            triangle, c, d);
     uint32_t beyond_ca = abc->link[ca], beyond_db = bad->link[db];
     abc->v[ab] = d;

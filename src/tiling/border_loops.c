@@ -15,10 +15,11 @@ void mw__border_loops_release(mw_border_loops *loops)
 
 size_t mw__border_loops_bytes(const mw_border_loops *loops, uint32_t vertex_count)
 {
-    size_t bytes = loops->jump_count * sizeof *loops->jump + loops->loop_count * sizeof *loops->loop;
+    size_t bytes =
+        loops->jump_count * sizeof *loops->jump + loops->loop_count * sizeof *loops->loop;
     if (!loops->component_of) return bytes;
-    return bytes + loops->component_count * sizeof *loops->component + vertex_count * sizeof *loops->component_of +
-           mw__box_tree_bytes(&loops->tree);
+    return bytes + loops->component_count * sizeof *loops->component +
+           vertex_count * sizeof *loops->component_of + mw__box_tree_bytes(&loops->tree);
 }
 
 /* Both tables are pairs of numbers, sorted by the first one. */
@@ -30,12 +31,14 @@ static int compare_first_numbers(const void *left, const void *right)
 
 uint32_t mw__border_loops_hole(const mw_border_loops *loops, uint32_t lowest)
 {
-    const mw_hole_loop *loop = bsearch(&lowest, loops->loop, loops->loop_count, sizeof *loop, compare_first_numbers);
+    const mw_hole_loop *loop =
+        bsearch(&lowest, loops->loop, loops->loop_count, sizeof *loop, compare_first_numbers);
     return loop ? loop->hole : MW_NONE;
 }
 
 uint32_t mw__border_loops_jump(const mw_border_loops *loops, uint32_t half)
 {
-    const mw_loop_jump *jump = bsearch(&half, loops->jump, loops->jump_count, sizeof *jump, compare_first_numbers);
+    const mw_loop_jump *jump =
+        bsearch(&half, loops->jump, loops->jump_count, sizeof *jump, compare_first_numbers);
     return jump ? jump->to : MW_NONE;
 }

@@ -43,7 +43,8 @@ typedef struct mw_border_loops {
 } mw_border_loops;
 
 void mw__border_loops_release(mw_border_loops *loops);
-size_t mw__border_loops_bytes(const mw_border_loops *loops, uint32_t vertex_count); /* of its tiling */
+/* of its tiling */
+size_t mw__border_loops_bytes(const mw_border_loops *loops, uint32_t vertex_count);
 
 /* The hole along the loop with this lowest edge; MW_NONE if the loop bounds no bounded face. */
 uint32_t mw__border_loops_hole(const mw_border_loops *loops, uint32_t lowest);

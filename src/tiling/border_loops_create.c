@@ -20,7 +20,8 @@ static uint32_t half_edge_end(const mw_tiling *tiling, uint32_t half)
 
 /* Find the jumps. At a vertex where only one border edge arrives, turning round it through tiles
  * leads to the only border edge that leaves: no jump is needed. */
-static bool loop_jumps_find(mw_border_loops *loops, const mw_tiling *tiling, const mw_loop_edge *edges, uint32_t count)
+static bool loop_jumps_find(mw_border_loops *loops, const mw_tiling *tiling,
+                            const mw_loop_edge *edges, uint32_t count)
 {
     uint8_t *arriving = mw__calloc(tiling->point_count, sizeof *arriving);
     if (!arriving) return false;
@@ -67,8 +68,8 @@ static void loop_turning_add(loop_turning *t, mw_point u, mw_point v, mw_point w
 }
 
 /* Follow the loop of edge i and mark its edges. Does it bound a bounded face? */
-static bool loop_bounds_face(const mw_tiling *tiling, const mw_loop_edge *edges, uint32_t count, uint32_t i,
-                             uint8_t *seen)
+static bool loop_bounds_face(const mw_tiling *tiling, const mw_loop_edge *edges, uint32_t count,
+                             uint32_t i, uint8_t *seen)
 {
     loop_turning t = {{INFINITY, INFINITY}, false};
     const mw_loop_edge *edge = &edges[i];
@@ -76,7 +77,8 @@ static bool loop_bounds_face(const mw_tiling *tiling, const mw_loop_edge *edges,
         seen[edge - edges] = 1;
         const mw_loop_edge key = {.half = edge->next};
         const mw_loop_edge *next = bsearch(&key, edges, count, sizeof key, compare_loop_edges);
-        loop_turning_add(&t, half_edge_start(tiling, edge->half), half_edge_start(tiling, next->half),
+        loop_turning_add(&t, half_edge_start(tiling, edge->half),
+                         half_edge_start(tiling, next->half),
                          tiling->point[half_edge_end(tiling, next->half)]);
         edge = next;
     }
@@ -84,7 +86,8 @@ static bool loop_bounds_face(const mw_tiling *tiling, const mw_loop_edge *edges,
 }
 
 /* The edges are sorted, so the lowest edge of a loop comes first. */
-static bool hole_loops_find(mw_border_loops *loops, const mw_tiling *tiling, const mw_loop_edge *edges, uint32_t count)
+static bool hole_loops_find(mw_border_loops *loops, const mw_tiling *tiling,
+                            const mw_loop_edge *edges, uint32_t count)
 {
     uint8_t *seen = mw__calloc(count, sizeof *seen);
     /* One component surrounds each hole. */
@@ -154,7 +157,8 @@ static uint64_t component_rank(const mw_hilbert *hilbert, const mw_box *box)
 {
     int size;
     frexp(fmax(box->high[0] / 2 - box->low[0] / 2, box->high[1] / 2 - box->low[1] / 2), &size);
-    uint32_t key = mw__hilbert_key(hilbert, box->low[0] / 2 + box->high[0] / 2, box->low[1] / 2 + box->high[1] / 2);
+    uint32_t key = mw__hilbert_key(hilbert, box->low[0] / 2 + box->high[0] / 2,
+                                   box->low[1] / 2 + box->high[1] / 2);
     return (uint64_t)(size + 4096) / 2 << 32 | key;
 }
 
@@ -179,7 +183,8 @@ static bool components_sort(mw_border_loops *loops, const mw_tiling *tiling)
     bool done = order && number && sorted;
     if (done) {
         mw_box all = mw__box_empty();
-        for (uint32_t i = 0; i < loops->component_count; i++) mw__box_join(&all, loops->component[i].box);
+        for (uint32_t i = 0; i < loops->component_count; i++)
+            mw__box_join(&all, loops->component[i].box);
         mw_hilbert hilbert = mw__hilbert(all.low, all.high);
         for (uint32_t i = 0; i < loops->component_count; i++)
             order[i] = (ranked_component){component_rank(&hilbert, &loops->component[i].box), i};
@@ -189,7 +194,8 @@ static bool components_sort(mw_border_loops *loops, const mw_tiling *tiling)
             number[order[i].component] = i;
         }
         for (uint32_t v = 0; v < tiling->point_count; v++)
-            if (loops->component_of[v] != MW_NONE) loops->component_of[v] = number[loops->component_of[v]];
+            if (loops->component_of[v] != MW_NONE)
+                loops->component_of[v] = number[loops->component_of[v]];
         free(loops->component);
         loops->component = sorted;
     } else {
@@ -211,7 +217,8 @@ static bool components_list(mw_border_loops *loops, const mw_tiling *tiling)
     if (!loops->component) return false;
     components_measure(loops, tiling);
     return components_sort(loops, tiling) &&
-           mw__box_tree_create(&loops->tree, loops->component_count, component_box, loops->component);
+           mw__box_tree_create(&loops->tree, loops->component_count, component_box,
+                               loops->component);
 }
 
 static bool components_find(mw_border_loops *loops, const mw_tiling *tiling)
@@ -233,10 +240,11 @@ static bool components_find(mw_border_loops *loops, const mw_tiling *tiling)
 
 /* --- all --- */
 
-bool mw__border_loops_create(mw_border_loops *loops, const mw_tiling *tiling, mw_loop_edge *edges, uint32_t count)
+bool mw__border_loops_create(mw_border_loops *loops, const mw_tiling *tiling, mw_loop_edge *edges,
+                             uint32_t count)
 {
     *loops = (mw_border_loops){.edge_count = count};
     qsort(edges, count, sizeof *edges, compare_loop_edges);
-    return loop_jumps_find(loops, tiling, edges, count) && hole_loops_find(loops, tiling, edges, count) &&
-           components_find(loops, tiling);
+    return loop_jumps_find(loops, tiling, edges, count) &&
+           hole_loops_find(loops, tiling, edges, count) && components_find(loops, tiling);
 }

@@ -3,20 +3,22 @@
 
 #include <stdlib.h>
 
-static void box_tree_build_level(mw_box_tree *b, uint32_t level, mw_box (*box_of)(const void *things, uint32_t i),
+static void box_tree_build_level(mw_box_tree *b, uint32_t level,
+                                 mw_box (*box_of)(const void *things, uint32_t i),
                                  const void *things)
 {
     uint32_t below = level ? b->level_boxes[level - 1] : b->count;
     for (uint32_t i = 0; i < b->level_boxes[level]; i++) {
         mw_box box = mw__box_empty();
-        for (uint32_t j = i * MW_BOX_TREE_FANOUT; j < below && j < (i + 1) * MW_BOX_TREE_FANOUT; j++)
+        for (uint32_t j = i * MW_BOX_TREE_FANOUT; j < below && j < (i + 1) * MW_BOX_TREE_FANOUT;
+             j++)
             mw__box_join(&box, level ? b->box[b->first[level - 1] + j] : box_of(things, j));
         b->box[b->first[level] + i] = box;
     }
 }
 
-bool mw__box_tree_create(mw_box_tree *tree, uint32_t count, mw_box (*box_of)(const void *things, uint32_t i),
-                         const void *things)
+bool mw__box_tree_create(mw_box_tree *tree, uint32_t count,
+                         mw_box (*box_of)(const void *things, uint32_t i), const void *things)
 {
     *tree = (mw_box_tree){.count = count};
     uint32_t sum = 0, below = count;
@@ -29,7 +31,8 @@ bool mw__box_tree_create(mw_box_tree *tree, uint32_t count, mw_box (*box_of)(con
     } while (below > 1);
     tree->box = mw__alloc(sum, sizeof *tree->box);
     if (!tree->box) return false;
-    for (uint32_t level = 0; level < tree->level_count; level++) box_tree_build_level(tree, level, box_of, things);
+    for (uint32_t level = 0; level < tree->level_count; level++)
+        box_tree_build_level(tree, level, box_of, things);
     return true;
 }
 
@@ -63,7 +66,8 @@ uint32_t mw__box_tree_next(const mw_box_tree *tree, uint32_t i, mw_point q)
         uint64_t passed = 0;
         for (uint32_t level = box_tree_levels_begun(tree, (uint32_t)at); level-- > 0 && !passed;) {
             uint32_t shift = MW_BOX_TREE_BITS * (level + 1);
-            if (!mw__box_contains(&tree->box[tree->first[level] + (at >> shift)], q)) passed = UINT64_C(1) << shift;
+            if (!mw__box_contains(&tree->box[tree->first[level] + (at >> shift)], q))
+                passed = UINT64_C(1) << shift;
         }
         if (!passed) return (uint32_t)at;
         at += passed;

@@ -23,8 +23,8 @@ typedef struct mw_box_tree {
 
 /* Make a tree over `count` things; box_of(things, i) is the box of thing i. Returns false when out
  * of memory. Release in either case. */
-bool mw__box_tree_create(mw_box_tree *tree, uint32_t count, mw_box (*box_of)(const void *things, uint32_t i),
-                         const void *things);
+bool mw__box_tree_create(mw_box_tree *tree, uint32_t count,
+                         mw_box (*box_of)(const void *things, uint32_t i), const void *things);
 void mw__box_tree_release(mw_box_tree *tree);
 size_t mw__box_tree_bytes(const mw_box_tree *tree);
 

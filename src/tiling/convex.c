@@ -95,5 +95,6 @@ bool mw__mesh_is_convex(const mw_mesh *mesh)
     /* Unusable triangles count as flat. */
     if (mesh->flat_count > 0 || mesh->tri_count == 0) return false;
     uint32_t count;
-    return mesh_is_unfolded(mesh, &count) && count > 0 && loop_is_convex(mesh, mesh_any_border_edge(mesh), count);
+    return mesh_is_unfolded(mesh, &count) && count > 0 &&
+           loop_is_convex(mesh, mesh_any_border_edge(mesh), count);
 }

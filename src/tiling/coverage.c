@@ -14,7 +14,8 @@ static uint32_t outline_user_edge(const mw_mesh *mesh, uint32_t half)
 }
 
 /* A defect of outline edge `edge`, and of edge `other` unless that is MW_NONE. */
-static mw_defect outline_edges_defect(const mw_coverage *c, mw_defect_kind kind, uint32_t edge, uint32_t other)
+static mw_defect outline_edges_defect(const mw_coverage *c, mw_defect_kind kind, uint32_t edge,
+                                      uint32_t other)
 {
     const mw_outline *o = c->outline;
     mw_defect defect = mw__defect(kind, mw__link_triangle(o->half[edge]));
@@ -73,7 +74,8 @@ static bool coverage_spread_left_out(mw_coverage *c)
         const mw_triangle *t = &mesh->tri[stack[--top]];
         for (int k = 0; k < 3; k++) {
             uint32_t other = mw__link_triangle(t->link[k]);
-            if (t->link[k] == MW_NONE || c->left_out[other] || mw__is_flat(c->outline, other)) continue;
+            if (t->link[k] == MW_NONE || c->left_out[other] || mw__is_flat(c->outline, other))
+                continue;
             c->left_out[other] = 1;
             stack[top++] = other;
         }
@@ -98,14 +100,16 @@ static bool coverage_force_edge(mw_coverage *c, uint32_t edge, mw_defects *defec
         uint32_t *ways = &c->edge_along[2 * (size_t)subsegment.number];
         if (result == MW_SUBSEGMENT_CROSSES)
             return coverage_leave_out(c, edge) &&
-                   mw__defects_add(defects,
-                                   outline_edges_defect(c, MW_DEFECT_CROSSING, edge, ways[ways[0] == MW_NONE]));
+                   mw__defects_add(defects, outline_edges_defect(c, MW_DEFECT_CROSSING, edge,
+                                                                 ways[ways[0] == MW_NONE]));
         uint32_t *along = &ways[subsegment.from > subsegment.to];
         if (*along != MW_NONE)
             return coverage_leave_out(c, edge) &&
-                   mw__defects_add(defects, outline_edges_defect(c, MW_DEFECT_OVERLAP, edge, *along));
+                   mw__defects_add(defects,
+                                   outline_edges_defect(c, MW_DEFECT_OVERLAP, edge, *along));
         *along = edge;
-        if (from != to && !coverage_pass_node(c, edge, from != before ? from : to, defects)) return false;
+        if (from != to && !coverage_pass_node(c, edge, from != before ? from : to, defects))
+            return false;
     }
     return true;
 }
@@ -130,7 +134,8 @@ static bool coverage_force_edges(mw_coverage *c, mw_job *job, mw_defects *defect
     uint32_t *order = mw__brio_order(c->outline->half_count);
     bool done = order;
     for (uint32_t i = 0; i < c->outline->half_count && done; i++) {
-        done = coverage_force_edge(c, order[i], defects) && mw__job_step(job, i, c->outline->half_count);
+        done = coverage_force_edge(c, order[i], defects) &&
+               mw__job_step(job, i, c->outline->half_count);
         if (c->net.wasted / PATIENCE > c->cell_count) c->net.reach = NEAR;
     }
     free(order);
@@ -164,9 +169,9 @@ static bool splits_sort(mw_coverage *c)
     if (!keyed) return false;
     for (size_t i = 0; i < c->split_count; i++) {
         uint32_t half = o->half[c->split[i].edge];
-        keyed[i] =
-            (keyed_split){c->split[i], o->point[c->split[i].node],
-                          point_is_before(o->point[mw__outline_to(o, half)], o->point[mw__outline_from(o, half)])};
+        keyed[i] = (keyed_split){c->split[i], o->point[c->split[i].node],
+                                 point_is_before(o->point[mw__outline_to(o, half)],
+                                                 o->point[mw__outline_from(o, half)])};
     }
     qsort(keyed, c->split_count, sizeof *keyed, compare_splits);
     for (size_t i = 0; i < c->split_count; i++) c->split[i] = keyed[i].split;
@@ -179,7 +184,8 @@ static bool splits_sort(mw_coverage *c)
 static uint32_t coverage_edge_along(const mw_coverage *c, uint32_t half, bool backwards)
 {
     const mw_triangle *t = &c->cell[mw__link_triangle(half)];
-    uint32_t k = mw__link_edge(half), subsegment = c->net.subsegment[3 * (size_t)mw__link_triangle(half) + k];
+    uint32_t k = mw__link_edge(half),
+             subsegment = c->net.subsegment[3 * (size_t)mw__link_triangle(half) + k];
     if (subsegment == MW_NONE) return MW_NONE;
     uint32_t edge = c->edge_along[2 * (size_t)subsegment + ((t->v[k] > t->v[k + 1]) != backwards)];
     if (edge == MW_NONE || !c->left_out) return edge;
@@ -240,19 +246,20 @@ static bool coverage_find_degrees(mw_coverage *c)
     return true;
 }
 
-mw_status mw__coverage_create(mw_coverage *coverage, const mw_outline *outline, mw_job *job, mw_defects *defects,
-                              mw_error *error)
+mw_status mw__coverage_create(mw_coverage *coverage, const mw_outline *outline, mw_job *job,
+                              mw_defects *defects, mw_error *error)
 {
     *coverage = (mw_coverage){.outline = outline};
     mw_job_span outer = mw__job_part(job, 0.5);
-    mw_status status = mw__delaunay_triangles(outline->point, outline->node_count, job, NULL, NULL, &coverage->cell,
-                                              &coverage->cell_count, error);
+    mw_status status = mw__delaunay_triangles(outline->point, outline->node_count, job, NULL, NULL,
+                                              &coverage->cell, &coverage->cell_count, error);
     mw__job_part_end(job, outer);
     if (status) return status;
-    bool done = mw__segment_insertion_create(&coverage->net, outline->point, outline->node_count, coverage->cell,
-                                             coverage->cell_count) &&
-                coverage_force_edges(coverage, job, defects) && coverage_spread_left_out(coverage) &&
-                splits_sort(coverage) && coverage_find_degrees(coverage);
+    bool done = mw__segment_insertion_create(&coverage->net, outline->point, outline->node_count,
+                                             coverage->cell, coverage->cell_count) &&
+                coverage_force_edges(coverage, job, defects) &&
+                coverage_spread_left_out(coverage) && splits_sort(coverage) &&
+                coverage_find_degrees(coverage);
     return done ? MW_OK : mw__fail_memory(error);
 }
 

@@ -38,8 +38,8 @@ typedef struct mw_coverage {
 /* Cover the plane with the triangles of an outline that has edges. Adds crossings, vertices inside
  * edges, and edges that lie on one another to `defects`. MW_ERROR_MEMORY (also if cancelled),
  * MW_ERROR_LIMIT. Release in either case. Stages of the present part of the job. */
-mw_status mw__coverage_create(mw_coverage *coverage, const mw_outline *outline, mw_job *job, mw_defects *defects,
-                              mw_error *error);
+mw_status mw__coverage_create(mw_coverage *coverage, const mw_outline *outline, mw_job *job,
+                              mw_defects *defects, mw_error *error);
 void mw__coverage_release(mw_coverage *coverage);
 
 /* The counted outline edge that has its inner side, or its outer side, in the cell of this

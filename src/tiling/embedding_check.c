@@ -24,7 +24,8 @@ static bool overlaps_find(mw_embedding_check *s)
         if (region->degree < 2 || region->lowest == MW_NONE) continue;
         uint32_t half = o->half[region->lowest];
         mw_defect defect = mw__defect(MW_DEFECT_OVERLAP, mw__link_triangle(half));
-        defect.edge = (uint8_t)mw__user_local_edge(o->mesh->tri[defect.triangle].user, mw__link_edge(half));
+        defect.edge =
+            (uint8_t)mw__user_local_edge(o->mesh->tri[defect.triangle].user, mw__link_edge(half));
         if (!mw__defects_add(&s->defects, defect)) return false;
     }
     return true;
@@ -58,17 +59,20 @@ static mw_status embedding_check_cover(mw_embedding_check *s, mw_job *job, mw_er
     mw__job_part_end(job, outer);
     if (status) return status;
     mw__job_stage(job, "looking for overlaps", 0.1);
-    if (!mw__regions_create(&s->regions, &s->coverage) || !overlaps_find(s)) return mw__fail_memory(error);
+    if (!mw__regions_create(&s->regions, &s->coverage) || !overlaps_find(s))
+        return mw__fail_memory(error);
     return MW_OK;
 }
 
-mw_status mw__embedding_check_create(mw_embedding_check *check, const mw_mesh *mesh, mw_job *job, mw_error *error)
+mw_status mw__embedding_check_create(mw_embedding_check *check, const mw_mesh *mesh, mw_job *job,
+                                     mw_error *error)
 {
     *check = (mw_embedding_check){.mesh = mesh};
     mw__job_stage(job, "looking for defects", 0.2);
     check->convex = check->embedding = mw__mesh_is_convex(mesh);
     if (check->convex) return MW_OK;
-    if (!mw__outline_create(&check->outline, mesh) || !mw__find_local_defects(&check->outline, &check->defects))
+    if (!mw__outline_create(&check->outline, mesh) ||
+        !mw__find_local_defects(&check->outline, &check->defects))
         return mw__fail_memory(error);
     if (check->outline.half_count > 0) {
         mw_status status = embedding_check_cover(check, job, error);
@@ -76,8 +80,10 @@ mw_status mw__embedding_check_create(mw_embedding_check *check, const mw_mesh *m
     }
     check->embedding = embedding_has_no_defect(check);
     /* triangles that turn round a vertex more than once overlap: then there is a defect already */
-    if (!check->embedding && !mw__find_winding_defects(&check->outline, &check->defects)) return mw__fail_memory(error);
-    for (size_t i = 0; i < check->defects.count; i++) defect_to_user_numbers(mesh, &check->defects.list[i]);
+    if (!check->embedding && !mw__find_winding_defects(&check->outline, &check->defects))
+        return mw__fail_memory(error);
+    for (size_t i = 0; i < check->defects.count; i++)
+        defect_to_user_numbers(mesh, &check->defects.list[i]);
     mw__defects_sort(&check->defects);
     return MW_OK;
 }

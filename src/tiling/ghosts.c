@@ -39,7 +39,8 @@ typedef struct edge_splits {
 } edge_splits;
 
 /* Add tiles from `tip` to the segments of the edge from a to b. */
-static void tiles_add_fan(tile_maker *m, uint32_t user, uint32_t tip, uint32_t a, uint32_t b, edge_splits inside)
+static void tiles_add_fan(tile_maker *m, uint32_t user, uint32_t tip, uint32_t a, uint32_t b,
+                          edge_splits inside)
 {
     for (size_t i = 0; i < inside.count; i++) {
         uint32_t next = m->outline->vertex[inside.first[i].node];
@@ -49,7 +50,8 @@ static void tiles_add_fan(tile_maker *m, uint32_t user, uint32_t tip, uint32_t a
     tile_add(m->tiling, user, tip, a, b);
 }
 
-static void tiles_add_cut(tile_maker *m, uint32_t user, const uint32_t v[3], const edge_splits inside[3])
+static void tiles_add_cut(tile_maker *m, uint32_t user, const uint32_t v[3],
+                          const edge_splits inside[3])
 {
     uint32_t k = 0;
     while (inside[k].count == 0) k++;
@@ -58,7 +60,8 @@ static void tiles_add_cut(tile_maker *m, uint32_t user, const uint32_t v[3], con
     uint32_t first = m->outline->vertex[middle.first[0].node];
     uint32_t last = m->outline->vertex[middle.first[middle.count - 1].node];
     tiles_add_fan(m, user, first, c, a, inside[mw__prev(k)]);
-    if (middle.count > 1) tiles_add_fan(m, user, c, first, last, (edge_splits){middle.first + 1, middle.count - 2});
+    if (middle.count > 1)
+        tiles_add_fan(m, user, c, first, last, (edge_splits){middle.first + 1, middle.count - 2});
     tiles_add_fan(m, user, last, b, c, inside[mw__next(k)]);
     m->tiling->cut = true;
 }
@@ -72,10 +75,12 @@ static void tiles_add_user(tile_maker *m, uint32_t t)
     edge_splits inside[3] = {{0}};
     bool cut = false;
     for (int k = 0; k < 3; k++) v[k] = node_representative(m->outline, tri->v[k]);
-    for (; m->edge < m->outline->half_count && mw__link_triangle(m->outline->half[m->edge]) == t; m->edge++) {
+    for (; m->edge < m->outline->half_count && mw__link_triangle(m->outline->half[m->edge]) == t;
+         m->edge++) {
         edge_splits *here = &inside[mw__link_edge(m->outline->half[m->edge])];
         size_t begin = m->split;
-        while (m->split < m->coverage->split_count && m->coverage->split[m->split].edge == m->edge) m->split++;
+        while (m->split < m->coverage->split_count && m->coverage->split[m->split].edge == m->edge)
+            m->split++;
         if (m->split == begin) continue;
         *here = (edge_splits){m->coverage->split + begin, m->split - begin};
         cut = true;
@@ -103,7 +108,8 @@ uint32_t mw__ghosts_count(const mw_coverage *coverage)
     return count;
 }
 
-mw_status mw__ghosts_fill(const mw_embedding_check *check, bool fill, mw_job *job, mw_tiling *tiling, mw_error *error)
+mw_status mw__ghosts_fill(const mw_embedding_check *check, bool fill, mw_job *job,
+                          mw_tiling *tiling, mw_error *error)
 {
     const mw_mesh *mesh = check->mesh;
     mw__job_stage(job, "filling holes", 0.3);
@@ -112,15 +118,18 @@ mw_status mw__ghosts_fill(const mw_embedding_check *check, bool fill, mw_job *jo
     tiling->hole_count = check->regions.hole_count;
     tiling->point_count = mesh->point_count;
     /* each split adds a tile */
-    uint64_t most = (uint64_t)mesh->tri_count - mesh->flat_count + m.coverage->split_count + tiling->ghost_count;
+    uint64_t most = (uint64_t)mesh->tri_count - mesh->flat_count + m.coverage->split_count +
+                    tiling->ghost_count;
     if (most > MW_MAX_TRIANGLES)
         return mw__fail(error, MW_ERROR_LIMIT,
-                        "%" PRIu64 " triangles fill the hull of the mesh, at most %" PRIu32 " are possible", most,
-                        MW_MAX_TRIANGLES);
+                        "%" PRIu64 " triangles fill the hull of the mesh, at most %" PRIu32
+                        " are possible",
+                        most, MW_MAX_TRIANGLES);
     tiling->tri = mw__alloc_lines(most, sizeof *tiling->tri);
     tiling->point = mw__alloc_lines(mesh->point_count, sizeof *tiling->point);
     if (!tiling->tri || !tiling->point) return mw__fail_memory(error);
-    if (mesh->point_count > 0) memcpy(tiling->point, mesh->point, mesh->point_count * sizeof *tiling->point);
+    if (mesh->point_count > 0)
+        memcpy(tiling->point, mesh->point, mesh->point_count * sizeof *tiling->point);
     for (uint32_t t = 0; t < mesh->tri_count; t++)
         if (!mw__is_flat(m.outline, t)) tiles_add_user(&m, t);
     if (fill) tiles_add_ghosts(&m, &check->regions);

@@ -12,6 +12,7 @@ uint32_t mw__ghosts_count(const mw_coverage *coverage);
 /* Make the tiles and points of *tiling from the check of an embedding that is not `convex`, with
  * ghosts if `fill`. Does not find the owners. MW_ERROR_MEMORY; MW_ERROR_LIMIT: more than
  * MW_MAX_TRIANGLES tiles. Release *tiling in either case. Stages of the present part of the job. */
-mw_status mw__ghosts_fill(const mw_embedding_check *check, bool fill, mw_job *job, mw_tiling *tiling, mw_error *error);
+mw_status mw__ghosts_fill(const mw_embedding_check *check, bool fill, mw_job *job,
+                          mw_tiling *tiling, mw_error *error);
 
 #endif

@@ -36,7 +36,8 @@ static bool folds_check(const mw_outline *o, mw_defects *defects)
         mw_defect defect = mw__defect(MW_DEFECT_FOLDED, t);
         defect.edge = (uint8_t)mw__user_local_edge(o->mesh->tri[t].user, k);
         defect.other = mw__link_triangle(link);
-        defect.other_edge = (uint8_t)mw__user_local_edge(o->mesh->tri[defect.other].user, mw__link_edge(link));
+        defect.other_edge =
+            (uint8_t)mw__user_local_edge(o->mesh->tri[defect.other].user, mw__link_edge(link));
         if (!mw__defects_add(defects, defect)) return false;
     }
     return true;

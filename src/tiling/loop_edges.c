@@ -95,7 +95,8 @@ typedef struct loop_edge_maker {
 /* The border edge along a half-edge of a cell. */
 static uint32_t border_edge_along(const loop_edge_maker *m, uint32_t half, bool reversed)
 {
-    const uint32_t *v = m->check->coverage.cell[mw__link_triangle(half)].v, *vertex = m->check->outline.vertex;
+    const uint32_t *v = m->check->coverage.cell[mw__link_triangle(half)].v,
+                   *vertex = m->check->outline.vertex;
     uint32_t k = mw__link_edge(half), from = vertex[v[k + reversed]], to = vertex[v[k + !reversed]];
     border_edge key = {(uint64_t)from << 32 | to, 0};
     const border_edge *found = bsearch(&key, m->border, m->count, sizeof key, compare_border_edges);
@@ -109,7 +110,8 @@ static void loop_edge_add_inside(loop_edge_maker *m, uint32_t half)
     bool reversed;
     uint32_t next = turn_to_border(&s->coverage, half, &reversed);
     uint32_t hole = s->regions.list[s->regions.of[mw__link_triangle(half)]].hole;
-    m->edge[m->made++] = (mw_loop_edge){border_edge_along(m, half, true), border_edge_along(m, next, reversed), hole};
+    m->edge[m->made++] = (mw_loop_edge){border_edge_along(m, half, true),
+                                        border_edge_along(m, next, reversed), hole};
 }
 
 /* Add the loop edge along `half`, an edge of the hull, whose cell a triangle covers. */
@@ -119,8 +121,8 @@ static void loop_edge_add_hull(loop_edge_maker *m, uint32_t half)
     bool reversed = false;
     uint32_t next = hull_edge_from(c, mw__half_next(half));
     if (cell_is_empty(c, next)) next = turn_to_border(c, next, &reversed);
-    m->edge[m->made++] =
-        (mw_loop_edge){border_edge_along(m, half, false), border_edge_along(m, next, reversed), MW_POCKET};
+    m->edge[m->made++] = (mw_loop_edge){border_edge_along(m, half, false),
+                                        border_edge_along(m, next, reversed), MW_POCKET};
 }
 
 static void loop_edges_add_all(loop_edge_maker *m)
@@ -137,7 +139,8 @@ static void loop_edges_add_all(loop_edge_maker *m)
         }
 }
 
-mw_loop_edge *mw__loop_edges_create(const mw_embedding_check *check, const mw_tiling *tiling, uint32_t *count)
+mw_loop_edge *mw__loop_edges_create(const mw_embedding_check *check, const mw_tiling *tiling,
+                                    uint32_t *count)
 {
     border_edge *border = border_edges_collect(tiling, count);
     loop_edge_maker m = {.check = check, .border = border, .count = *count};

@@ -7,6 +7,7 @@
 
 /* The *count border edges of the tiling without ghosts that belongs to a checked mesh. Release with
  * free(). NULL when out of memory. */
-mw_loop_edge *mw__loop_edges_create(const mw_embedding_check *check, const mw_tiling *tiling, uint32_t *count);
+mw_loop_edge *mw__loop_edges_create(const mw_embedding_check *check, const mw_tiling *tiling,
+                                    uint32_t *count);
 
 #endif

@@ -6,8 +6,8 @@
 
 /* Append the defects of a mesh to `defects`, except those of replaced triangles (NULL: none are
  * replaced). */
-static mw_status mesh_find_defects(const mw_mesh *mesh, const uint8_t *replaced, mw_job *job, mw_defects *defects,
-                                   mw_error *error)
+static mw_status mesh_find_defects(const mw_mesh *mesh, const uint8_t *replaced, mw_job *job,
+                                   mw_defects *defects, mw_error *error)
 {
     mw_embedding_check check_of_mesh;
     mw_status status = mw__embedding_check_create(&check_of_mesh, mesh, job, error);
@@ -22,7 +22,8 @@ static mw_status mesh_find_defects(const mw_mesh *mesh, const uint8_t *replaced,
 
 /* Check arrays that mw_mesh_create refuses: list the unusable triangles, and make a tolerant mesh
  * of the rest. */
-static mw_status mesh_check_damaged(const mw_arrays *arrays, mw_job *job, mw_defects *defects, mw_error *error)
+static mw_status mesh_check_damaged(const mw_arrays *arrays, mw_job *job, mw_defects *defects,
+                                    mw_error *error)
 {
     mw_repair repair;
     mw_mesh *mesh = NULL;
@@ -42,7 +43,8 @@ static mw_status mesh_check_damaged(const mw_arrays *arrays, mw_job *job, mw_def
 }
 
 /* The mesh takes 0.3 of the whole, its check the rest. A damaged mesh is made again. */
-static mw_status mesh_check(const mw_arrays *arrays, mw_job *job, mw_defects *defects, mw_error *error)
+static mw_status mesh_check(const mw_arrays *arrays, mw_job *job, mw_defects *defects,
+                            mw_error *error)
 {
     static const mw_mesh_options plain;
     mw_mesh *mesh = NULL;
@@ -59,7 +61,8 @@ static mw_status mesh_check(const mw_arrays *arrays, mw_job *job, mw_defects *de
     return status;
 }
 
-mw_status mw_check_arrays(const mw_arrays *arrays, const mw_check_options *options, mw_check *check, mw_error *error)
+mw_status mw_check_arrays(const mw_arrays *arrays, const mw_check_options *options, mw_check *check,
+                          mw_error *error)
 {
     static const mw_check_options defaults;
     if (!check) return mw__fail(error, MW_ERROR_ARGUMENT, "no place for the check");

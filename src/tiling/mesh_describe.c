@@ -32,7 +32,8 @@ static void mesh_sum_areas(const mw_mesh *mesh, mw_mesh_info *info)
     mw_sum sum = {0};
     for (uint32_t t = 0; t < mesh->tri_count; t++) {
         const uint32_t *v = mesh->tri[t].v;
-        mw__sum_add(&sum, mw__orient2d(mesh->point[v[0]], mesh->point[v[1]], mesh->point[v[2]]) / 2);
+        mw__sum_add(&sum,
+                    mw__orient2d(mesh->point[v[0]], mesh->point[v[1]], mesh->point[v[2]]) / 2);
     }
     info->area = mw__sum_value(&sum);
 }
@@ -55,7 +56,8 @@ static void mesh_find_extent(const mw_mesh *mesh, mw_mesh_info *info)
 static bool mesh_count_components(const mw_mesh *mesh, mw_mesh_info *info)
 {
     uint32_t used;
-    if (!mw__count_components(mesh->tri, mesh->tri_count, mesh->point_count, NULL, &used, &info->components))
+    if (!mw__count_components(mesh->tri, mesh->tri_count, mesh->point_count, NULL, &used,
+                              &info->components))
         return false;
     info->unused_vertices = mesh->point_count - used;
     return mw__count_border_loops(mesh->tri, mesh->tri_count, NULL, &info->border_loops);
@@ -73,17 +75,20 @@ static bool tiling_is_delaunay(const mw_tiling *tiling)
             const mw_triangle *b = &tiling->tri[mw__link_triangle(a->link[k])];
             mw_point apex = tiling->point[b->v[mw__prev(mw__link_edge(a->link[k]))]];
             if (b->user & MW_GHOST) continue;
-            if (mw__incircle(tiling->point[a->v[0]], tiling->point[a->v[1]], tiling->point[a->v[2]], apex) > 0)
+            if (mw__incircle(tiling->point[a->v[0]], tiling->point[a->v[1]], tiling->point[a->v[2]],
+                             apex) > 0)
                 return false;
         }
     }
     return true;
 }
 
-static mw_status mesh_describe_tiling(const mw_mesh *mesh, mw_job *job, mw_mesh_info *info, mw_error *error)
+static mw_status mesh_describe_tiling(const mw_mesh *mesh, mw_job *job, mw_mesh_info *info,
+                                      mw_error *error)
 {
     mw_tiling tiling;
-    mw_status status = mw__tiling_create(mesh, (mw_tiling_options){.any = true}, job, &tiling, error);
+    mw_status status =
+        mw__tiling_create(mesh, (mw_tiling_options){.any = true}, job, &tiling, error);
     if (status) return status;
     info->embedding = tiling.embedding;
     if (tiling.embedding && tiling.tri_count > 0) {
@@ -95,10 +100,12 @@ static mw_status mesh_describe_tiling(const mw_mesh *mesh, mw_job *job, mw_mesh_
     return MW_OK;
 }
 
-mw_status mw_mesh_describe(const mw_mesh *mesh, const mw_check_options *options, mw_mesh_info *info, mw_error *error)
+mw_status mw_mesh_describe(const mw_mesh *mesh, const mw_check_options *options, mw_mesh_info *info,
+                           mw_error *error)
 {
     static const mw_check_options defaults;
-    if (!mesh || !info) return mw__fail(error, MW_ERROR_ARGUMENT, "no mesh, or no place for its description");
+    if (!mesh || !info)
+        return mw__fail(error, MW_ERROR_ARGUMENT, "no mesh, or no place for its description");
     if (!options) options = &defaults;
     mw_status status = MW_RESERVED_CHECK(mw_check_options, options, error);
     if (status) return status;

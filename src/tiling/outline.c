@@ -9,7 +9,8 @@ static bool outline_find_flat(mw_outline *o)
     if (mesh->flat_count == 0) return true;
     o->flat = mw__alloc(mesh->tri_count, sizeof *o->flat);
     if (!o->flat) return false;
-    for (uint32_t t = 0; t < mesh->tri_count; t++) o->flat[t] = !mw__has_area(mesh->point, &mesh->tri[t]);
+    for (uint32_t t = 0; t < mesh->tri_count; t++)
+        o->flat[t] = !mw__has_area(mesh->point, &mesh->tri[t]);
     return true;
 }
 
@@ -66,7 +67,8 @@ static uint32_t outline_mark_vertices(mw_outline *o)
     for (uint32_t v = 0; v < mesh->point_count; v++) o->node[v] = MW_NONE;
     for (uint32_t i = 0; i < o->half_count; i++)
         for (uint32_t end = 0; end < 2; end++) {
-            uint32_t v = mesh->tri[mw__link_triangle(o->half[i])].v[mw__link_edge(o->half[i]) + end];
+            uint32_t v =
+                mesh->tri[mw__link_triangle(o->half[i])].v[mw__link_edge(o->half[i]) + end];
             count += o->node[v] == MW_NONE;
             o->node[v] = ON_OUTLINE;
         }
@@ -96,7 +98,8 @@ static void outline_number_nodes(mw_outline *o, const node_vertex *vertices, uin
             for (end = i; end < count && vertices_coincide(&vertices[i], &vertices[end]); end++)
                 if (vertices[end].kind == ON_OUTLINE) lowest = ON_OUTLINE;
             if (lowest != kind) continue;
-            for (uint32_t j = i; j < end; j++) o->node[mw__vertex_slot(o->mesh, vertices[j].vertex)] = next;
+            for (uint32_t j = i; j < end; j++)
+                o->node[mw__vertex_slot(o->mesh, vertices[j].vertex)] = next;
             if (kind == ON_OUTLINE) {
                 o->point[next] = vertices[i].point;
                 o->vertex[next] = mw__vertex_slot(o->mesh, vertices[i].vertex);
@@ -119,7 +122,8 @@ static bool outline_find_nodes(mw_outline *o)
     if (done) {
         for (uint32_t v = 0; v < o->mesh->point_count; v++)
             if (o->node[v] != MW_NONE)
-                vertices[n++] = (node_vertex){o->mesh->point[v], mw__vertex_number(o->mesh, v), o->node[v]};
+                vertices[n++] =
+                    (node_vertex){o->mesh->point[v], mw__vertex_number(o->mesh, v), o->node[v]};
         qsort(vertices, count, sizeof *vertices, compare_node_vertices);
         outline_number_nodes(o, vertices, count);
     }
@@ -148,7 +152,8 @@ static bool outline_find_bridges(mw_outline *o)
     for (uint32_t t = 0; t < o->mesh->tri_count; t++)
         for (uint32_t k = 0; k < 3 && o->flat[t]; k++) {
             uint32_t a = o->node[o->mesh->tri[t].v[k]], b = o->node[o->mesh->tri[t].v[k + 1]];
-            if (a != b && a != MW_NONE && b != MW_NONE) o->bridge[o->bridge_count++] = node_pair(a, b);
+            if (a != b && a != MW_NONE && b != MW_NONE)
+                o->bridge[o->bridge_count++] = node_pair(a, b);
         }
     qsort(o->bridge, o->bridge_count, sizeof *o->bridge, compare_node_pairs);
     return true;
@@ -164,8 +169,8 @@ bool mw__is_bridged(const mw_outline *o, uint32_t half)
 bool mw__outline_create(mw_outline *outline, const mw_mesh *mesh)
 {
     *outline = (mw_outline){.mesh = mesh};
-    return outline_find_flat(outline) && outline_find_edges(outline) && outline_find_nodes(outline) &&
-           outline_find_bridges(outline);
+    return outline_find_flat(outline) && outline_find_edges(outline) &&
+           outline_find_nodes(outline) && outline_find_bridges(outline);
 }
 
 void mw__outline_release(mw_outline *outline)

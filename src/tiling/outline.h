@@ -61,7 +61,8 @@ static MW_INLINE uint32_t mw__outline_to(const mw_outline *outline, uint32_t hal
 static MW_INLINE uint64_t mw__outline_rank(const mw_outline *outline, uint32_t edge)
 {
     uint32_t half = outline->half[edge];
-    return (uint64_t)mw__triangle_number(outline->mesh, mw__link_triangle(half)) << 2 | mw__link_edge(half);
+    return (uint64_t)mw__triangle_number(outline->mesh, mw__link_triangle(half)) << 2 |
+           mw__link_edge(half);
 }
 
 #endif

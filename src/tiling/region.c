@@ -14,7 +14,8 @@ static void region_flood(mw_regions *r, const mw_coverage *c, uint32_t t, uint32
         t = stack[--top];
         for (uint32_t k = 0; k < 3; k++) {
             uint32_t link = c->cell[t].link[k], other = mw__link_triangle(link);
-            if (link == MW_NONE || r->of[other] != MW_NONE || c->degree[other] != c->degree[t]) continue;
+            if (link == MW_NONE || r->of[other] != MW_NONE || c->degree[other] != c->degree[t])
+                continue;
             r->of[other] = region;
             stack[top++] = other;
         }
@@ -25,7 +26,8 @@ static void region_flood(mw_regions *r, const mw_coverage *c, uint32_t t, uint32
 static void region_look_along(mw_region *region, const mw_coverage *c, uint32_t t, uint32_t k)
 {
     uint32_t half = mw__link(t, k);
-    uint32_t edge = region->degree == 0 ? mw__coverage_outer_edge(c, half) : mw__coverage_inner_edge(c, half);
+    uint32_t edge =
+        region->degree == 0 ? mw__coverage_outer_edge(c, half) : mw__coverage_inner_edge(c, half);
     if (c->cell[t].link[k] == MW_NONE && region->degree == 0) region->unbounded = true;
     if (edge == MW_NONE || mw__outline_rank(c->outline, edge) >= region->rank) return;
     if (region->degree != 0 && mw__is_fold(c->outline, c->outline->half[edge])) return;
@@ -74,7 +76,8 @@ bool mw__regions_create(mw_regions *regions, const mw_coverage *coverage)
     }
     for (uint32_t t = 0; t < coverage->cell_count; t++) regions->of[t] = MW_NONE;
     for (uint32_t t = 0; t < coverage->cell_count; t++)
-        if (regions->of[t] == MW_NONE && coverage->degree[t] != 1) region_flood(regions, coverage, t, stack);
+        if (regions->of[t] == MW_NONE && coverage->degree[t] != 1)
+            region_flood(regions, coverage, t, stack);
     free(stack);
     regions->list = mw__alloc(regions->count, sizeof *regions->list);
     if (!regions->list) return false;

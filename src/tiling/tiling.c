@@ -12,7 +12,8 @@ uint32_t mw__lowest_around_vertex(const mw_tiling *tiling, uint32_t first, uint3
         do {
             const mw_triangle *tile = &tiling->tri[t];
             uint32_t k = tile->v[0] == v ? 0 : tile->v[1] == v ? 1 : 2;
-            if (!(tile->user & MW_GHOST) && (tile->user & MW_USER_MASK) < best) best = tile->user & MW_USER_MASK;
+            if (!(tile->user & MW_GHOST) && (tile->user & MW_USER_MASK) < best)
+                best = tile->user & MW_USER_MASK;
             link = tile->link[clockwise ? k : mw__prev(k)];
             t = mw__link_triangle(link);
         } while (link != MW_NONE && t != first);
@@ -63,8 +64,8 @@ static void tiling_measure(void *work, uint64_t from, uint64_t to)
 {
     tiling_measuring *m = work;
     const mw_tiling *tiling = m->tiling;
-    const double middle[2] = {m->middle[0], m->middle[1]}, ax = m->axis[0][0], ay = m->axis[0][1], bx = m->axis[1][0],
-                 by = m->axis[1][1];
+    const double middle[2] = {m->middle[0], m->middle[1]}, ax = m->axis[0][0], ay = m->axis[0][1],
+                 bx = m->axis[1][0], by = m->axis[1][1];
     double left = INFINITY, bottom = INFINITY, right = -INFINITY, top = -INFINITY;
     for (uint32_t v = (uint32_t)from; v < to; v++) {
         if (!mw__vertex_is_used(tiling, v)) continue;
@@ -83,11 +84,14 @@ static void tiling_measure(void *work, uint64_t from, uint64_t to)
     pthread_mutex_unlock(&m->lock);
 }
 
-void mw__tiling_extent(const mw_tiling *tiling, const double middle[2], const double axis[2][2], mw_job *job,
-                       double low[2], double high[2])
+void mw__tiling_extent(const mw_tiling *tiling, const double middle[2], const double axis[2][2],
+                       mw_job *job, double low[2], double high[2])
 {
-    tiling_measuring m = {
-        .tiling = tiling, .middle = middle, .axis = axis, .low = {INFINITY, INFINITY}, .high = {-INFINITY, -INFINITY}};
+    tiling_measuring m = {.tiling = tiling,
+                          .middle = middle,
+                          .axis = axis,
+                          .low = {INFINITY, INFINITY},
+                          .high = {-INFINITY, -INFINITY}};
     pthread_mutex_init(&m.lock, NULL);
     mw__job_ranges(job, tiling->point_count, tiling_measure, &m);
     pthread_mutex_destroy(&m.lock);
@@ -105,7 +109,8 @@ size_t mw__tiling_bytes(const mw_tiling *tiling)
     bytes += tiling->number_count * sizeof *tiling->tile_of;
     if (tiling->area) bytes += tiling->tri_count * sizeof *tiling->area;
     if (tiling->border_loops)
-        bytes += sizeof *tiling->border_loops + mw__border_loops_bytes(tiling->border_loops, tiling->point_count);
+        bytes += sizeof *tiling->border_loops +
+                 mw__border_loops_bytes(tiling->border_loops, tiling->point_count);
     return bytes;
 }
 

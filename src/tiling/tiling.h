@@ -63,7 +63,8 @@ static MW_INLINE bool mw__slot_is_number(const mw_tiling *tiling, uint32_t t)
  * outdated or belongs to another tiling. */
 static MW_INLINE uint32_t mw__tile_named(const mw_tiling *tiling, uint32_t name)
 {
-    if (MW_UNLIKELY(tiling->tile_of) && (name < tiling->number_count || name < tiling->name_count)) {
+    if (MW_UNLIKELY(tiling->tile_of) &&
+        (name < tiling->number_count || name < tiling->name_count)) {
         do name = tiling->tile_of[name & ~MW_GONE];
         while (name & MW_GONE);
     }
@@ -90,15 +91,16 @@ static MW_INLINE uint32_t mw__tile_name(const mw_tiling *tiling, uint32_t t)
 {
     if (!tiling->tile_of) return t;
     const mw_triangle *tile = &tiling->tri[t];
-    return tile->user & MW_GHOST ? mw__lowest_around_vertex(tiling, t, tile->v[0]) : tile->user & MW_USER_MASK;
+    return tile->user & MW_GHOST ? mw__lowest_around_vertex(tiling, t, tile->v[0])
+                                 : tile->user & MW_USER_MASK;
 }
 
 void mw__tiling_release(mw_tiling *tiling);
 
 /* The extent along two axes, seen from `middle`, of the vertices of all triangles with an area. The
  * same for any number of threads. Steps of the present stage; unspecified if it is cancelled. */
-void mw__tiling_extent(const mw_tiling *tiling, const double middle[2], const double axis[2][2], mw_job *job,
-                       double low[2], double high[2]);
+void mw__tiling_extent(const mw_tiling *tiling, const double middle[2], const double axis[2][2],
+                       mw_job *job, double low[2], double high[2]);
 
 size_t mw__tiling_bytes(const mw_tiling *tiling);      /* of everything that it owns */
 size_t mw__tiling_copy_bytes(const mw_tiling *tiling); /* of its own tiles and points */

@@ -1,4 +1,5 @@
-/* tiling_create.c - makes the tiling of a mesh: borrows the arrays of the mesh or makes new ones. */
+/* tiling_create.c - makes the tiling of a mesh: borrows the arrays of the mesh or makes new ones.
+ * */
 #include "tiling/tiling_create.h"
 
 #include "tiling/ghosts.h"
@@ -9,12 +10,14 @@
 
 /* For each vertex, find the lowest-numbered triangle of the user with an area among the tiles from
  * `tile` up to, not including, `end`. */
-static void tiling_find_lowest(const mw_tiling *tiling, uint32_t tile, uint32_t end, uint32_t *lowest)
+static void tiling_find_lowest(const mw_tiling *tiling, uint32_t tile, uint32_t end,
+                               uint32_t *lowest)
 {
     for (uint32_t v = 0; v < tiling->point_count; v++) lowest[v] = MW_NONE;
     for (uint32_t t = tile; t < end; t++) {
         const mw_triangle *tri = &tiling->tri[t];
-        if (tri->user & MW_GHOST || (!tiling->embedding && !mw__has_area(tiling->point, tri))) continue;
+        if (tri->user & MW_GHOST || (!tiling->embedding && !mw__has_area(tiling->point, tri)))
+            continue;
         uint32_t user = tri->user & MW_USER_MASK;
         for (int k = 0; k < 3; k++) {
             uint32_t known = lowest[tri->v[k]];
@@ -55,12 +58,15 @@ static void owner_search_join(void *work, uint64_t from, uint64_t to)
 static bool tiling_find_owners(mw_tiling *tiling, mw_job *job)
 {
     enum { WORTHWHILE = 1 << 15, MOST_SHARES = 8 }; /* each share has an array over all vertices */
-    uint32_t n = tiling->point_count, shares = mw__job_team(job, tiling->tri_count / WORTHWHILE + 1);
+    uint32_t n = tiling->point_count,
+             shares = mw__job_team(job, tiling->tri_count / WORTHWHILE + 1);
     if (shares > MOST_SHARES) shares = MOST_SHARES;
     mw__job_stage(job, "finding the owners of vertices", 0.2);
     tiling->owner = mw__alloc(n, sizeof *tiling->owner);
-    owner_search search = {tiling, shares, mw__alloc((size_t)(shares - 1) * n, sizeof *search.others)};
-    bool done = tiling->owner && search.others && mw__job_chunks(job, shares, shares, owner_search_share, &search) &&
+    owner_search search = {tiling, shares,
+                           mw__alloc((size_t)(shares - 1) * n, sizeof *search.others)};
+    bool done = tiling->owner && search.others &&
+                mw__job_chunks(job, shares, shares, owner_search_share, &search) &&
                 (shares == 1 || mw__job_ranges(job, n, owner_search_join, &search));
     free(search.others);
     return done;
@@ -81,7 +87,8 @@ static mw_status tiling_refuse(const mw_embedding_check *check, mw_error *error)
     const mw_defect *first = check->defects.list;
     char text[256];
     mw_defect_describe(first, text, sizeof text);
-    return mw__fail_at(error, first->triangle, first->vertex == MW_NONE ? -1 : (int64_t)first->vertex, "%s", text);
+    return mw__fail_at(error, first->triangle,
+                       first->vertex == MW_NONE ? -1 : (int64_t)first->vertex, "%s", text);
 }
 
 /* Without ghosts, is the mesh its own tiling: no flat triangles, and no coincident vertices on the
@@ -95,8 +102,8 @@ static bool mesh_is_own_tiling(const mw_embedding_check *check)
     return true;
 }
 
-static mw_status tiling_make_without_ghosts(const mw_embedding_check *check, mw_job *job, mw_tiling *tiling,
-                                            mw_error *error)
+static mw_status tiling_make_without_ghosts(const mw_embedding_check *check, mw_job *job,
+                                            mw_tiling *tiling, mw_error *error)
 {
     if (mesh_is_own_tiling(check)) {
         tiling_borrow(check->mesh, tiling);
@@ -109,8 +116,8 @@ static mw_status tiling_make_without_ghosts(const mw_embedding_check *check, mw_
     return tiling->loop_edges ? MW_OK : mw__fail_memory(error);
 }
 
-static mw_status tiling_make(const mw_embedding_check *check, mw_tiling_options options, mw_job *job, mw_tiling *tiling,
-                             mw_error *error)
+static mw_status tiling_make(const mw_embedding_check *check, mw_tiling_options options,
+                             mw_job *job, mw_tiling *tiling, mw_error *error)
 {
     tiling->embedding = check->embedding;
     if (!check->embedding && !options.any) return tiling_refuse(check, error);
@@ -123,8 +130,8 @@ static mw_status tiling_make(const mw_embedding_check *check, mw_tiling_options 
     return MW_OK;
 }
 
-mw_status mw__tiling_create(const mw_mesh *mesh, mw_tiling_options options, mw_job *job, mw_tiling *tiling,
-                            mw_error *error)
+mw_status mw__tiling_create(const mw_mesh *mesh, mw_tiling_options options, mw_job *job,
+                            mw_tiling *tiling, mw_error *error)
 {
     *tiling = (mw_tiling){0};
     mw_embedding_check check;
@@ -145,7 +152,8 @@ mw_status mw__tiling_finish(mw_tiling *tiling, mw_error *error)
     if (!tiling->loop_edges) return MW_OK;
     tiling->border_loops = mw__calloc(1, sizeof *tiling->border_loops);
     bool done = tiling->border_loops &&
-                mw__border_loops_create(tiling->border_loops, tiling, tiling->loop_edges, tiling->loop_edge_count);
+                mw__border_loops_create(tiling->border_loops, tiling, tiling->loop_edges,
+                                        tiling->loop_edge_count);
     free(tiling->loop_edges);
     tiling->loop_edges = NULL;
     return done ? MW_OK : mw__fail_memory(error);

@@ -35,11 +35,14 @@ static MW_INLINE uint32_t mw__link_of(const mw_triangle *tri, mw_edge_end e)
 
 /* The same edge as an edge of the neighbour, which must exist, and the same end: the same vertex,
  * or one that coincides with it (coincident.h). */
-static MW_INLINE mw_edge_end mw__across(const mw_triangle *tri, const uint32_t *coincident, mw_edge_end e)
+static MW_INLINE mw_edge_end mw__across(const mw_triangle *tri, const uint32_t *coincident,
+                                        mw_edge_end e)
 {
-    uint32_t link = mw__link_of(tri, e), vertex = tri[mw__link_triangle(e.half)].v[mw__near_corner(e)];
+    uint32_t link = mw__link_of(tri, e),
+             vertex = tri[mw__link_triangle(e.half)].v[mw__near_corner(e)];
     uint32_t start = tri[mw__link_triangle(link)].v[mw__link_edge(link)];
-    return (mw_edge_end){link, mw__representative(coincident, start) == mw__representative(coincident, vertex)};
+    return (mw_edge_end){link, mw__representative(coincident, start) ==
+                                   mw__representative(coincident, vertex)};
 }
 
 #endif

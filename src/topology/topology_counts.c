@@ -12,8 +12,8 @@ static uint32_t vertex_root(uint32_t *parent, uint32_t v)
     return v;
 }
 
-bool mw__count_components(const mw_triangle *tri, uint32_t n, uint32_t vertex_count, const uint32_t *coincident,
-                          uint32_t *used, uint32_t *components)
+bool mw__count_components(const mw_triangle *tri, uint32_t n, uint32_t vertex_count,
+                          const uint32_t *coincident, uint32_t *used, uint32_t *components)
 {
     uint32_t *parent = mw__alloc(vertex_count, sizeof *parent);
     if (!parent) return false;
@@ -27,7 +27,8 @@ bool mw__count_components(const mw_triangle *tri, uint32_t n, uint32_t vertex_co
                 ++*used;
                 ++*components;
             }
-            uint32_t a = vertex_root(parent, v), b = vertex_root(parent, mw__representative(coincident, tri[t].v[0]));
+            uint32_t a = vertex_root(parent, v),
+                     b = vertex_root(parent, mw__representative(coincident, tri[t].v[0]));
             if (a == b) continue;
             parent[a < b ? b : a] = a < b ? a : b;
             --*components;
@@ -41,7 +42,8 @@ bool mw__count_components(const mw_triangle *tri, uint32_t n, uint32_t vertex_co
 /* The next border edge: turn round the given end of a border edge, through the triangles there, to
  * the other border edge. The result has the same end. The function is its own inverse, so border
  * edges form closed loops. */
-static mw_edge_end border_edge_next(const mw_triangle *tri, const uint32_t *coincident, mw_edge_end e)
+static mw_edge_end border_edge_next(const mw_triangle *tri, const uint32_t *coincident,
+                                    mw_edge_end e)
 {
     for (;;) {
         e = mw__other_edge(e);
@@ -50,7 +52,8 @@ static mw_edge_end border_edge_next(const mw_triangle *tri, const uint32_t *coin
     }
 }
 
-bool mw__count_border_loops(const mw_triangle *tri, uint32_t n, const uint32_t *coincident, uint32_t *loops)
+bool mw__count_border_loops(const mw_triangle *tri, uint32_t n, const uint32_t *coincident,
+                            uint32_t *loops)
 {
     uint8_t *seen = mw__calloc(n, sizeof *seen); /* a bit per edge */
     if (!seen) return false;
@@ -82,7 +85,8 @@ static bool corner_mark(uint8_t *seen, mw_edge_end e)
 }
 
 /* Mark the corners from edge e on, until the fan ends or closes. */
-static void corners_mark_beyond(const mw_triangle *tri, const uint32_t *coincident, uint8_t *seen, mw_edge_end e)
+static void corners_mark_beyond(const mw_triangle *tri, const uint32_t *coincident, uint8_t *seen,
+                                mw_edge_end e)
 {
     while (mw__link_of(tri, e) != MW_NONE) {
         e = mw__across(tri, coincident, e);

@@ -1,11 +1,17 @@
 /* axis.h - what the two orthogonal walks share: legs along an axis. Private.
  *
- *      left |    l                 A leg follows a line parallel to an axis, in one of four directions. The walk is
- *           |   /|\                written once, in coordinates turned with the heading d: along it, and to its left.
- *       ----+--/-|-\---> along     d is a unit vector, so these are coordinates of the point, or their negatives, and
- *           |  \ | / s             nothing is rounded. Turning, unlike mirroring, leaves left left: l and r are the
- *           |   \|/                ends of the entry edge in the order in which the tile has them.
+ *      left |    l
+ *           |   /|\
+ *       ----+--/-|-\---> along
+ *           |  \ | / s
+ *           |   \|/
  *                r
+ *
+ * A leg follows a line parallel to an axis, in one of four directions. The walk is written once, in
+ * coordinates turned with the heading d: along it, and to its left. d is a unit vector, so these
+ * are coordinates of the point, or their negatives, and nothing is rounded. Turning, unlike
+ * mirroring, leaves left left: l and r are the ends of the entry edge in the order in which the
+ * tile has them.
  * A vertex on the line counts as right of it. So the walk follows a line moved to the left by less
  * than any distance between coordinates: it meets no vertex, leaves each tile that it meets over
  * one edge, and comes on with each. */

@@ -1,12 +1,16 @@
 /* barycentric.c - the barycentric walk [Sundareswara, Schrater 2003; thesis App. E, Alg. 3].
  *
- *          t2            The barycentric coordinates of q: b_i is the area that q makes with the edge opposite to t_i,
- *         /  `           over the area of the tile, negative where q lies beyond that edge. Cross the edge of the
- *        /    `   * q    least one, if it is negative: here b0. Three tests a tile: two of the areas over edges, and
- *      t0------t1        that of the tile, since the coordinates add up to 1. Dividing by the signed area makes the
- *                        walk independent of the tile's orientation. (All tiles are counter-clockwise
- *                        here; borrow/borrowed_coordinates.c
- *                        has it over triangles of mixed orientation.)
+ *          t2
+ *         /  `
+ *        /    `   * q
+ *      t0------t1
+ *
+ * The barycentric coordinates of q: b_i is the area that q makes with the edge opposite to t_i,
+ * over the area of the tile, negative where q lies beyond that edge. Cross the edge of the least
+ * one, if it is negative: here b0. Three tests a tile: two of the areas over edges, and that of the
+ * tile, since the coordinates add up to 1. Dividing by the signed area makes the walk independent
+ * of the tile's orientation. (All tiles are counter-clockwise here; borrow/borrowed_coordinates.c
+ * has it over triangles of mixed orientation.)
  * Departure from the printed pseudocode: the coordinates are rounded, and b2, a difference, even in
  * sign. In exact arithmetic an edge is crossed only where its coordinate is below zero by more than
  * all may be off; so q surely lies beyond it. Where the least coordinate is not, q is in the tile

@@ -1,12 +1,18 @@
 /* border_walk.c - the straight walk that goes round borders [thesis App. D, Alg. 1].
  *
- *            :  q           Walk along the line from a point p of the first tile's edge to q, as the straight walk does.
- *       l----:---r  in      Where the line leaves the mesh, go along the border, turning round its vertices through tiles, until
- *        `   :  /           an edge is met by which the line comes back ("in") behind the place where it left ("out") and not
- *   .     \  :  |           behind q: there the walk goes on. If all the border from the way out round to itself has no such
- *    `-----\ : /            edge, q lies on the far side of it: outside, or in the hole that it bounds.
+ *            :  q
+ *       l----:---r  in
+ *        `   :  /
+ *   .     \  :  |
+ *    `-----\ : /
  *      r----:----l  out
  *           p
+ *
+ * Walk along the line from a point p of the first tile's edge to q, as the straight walk does.
+ * Where the line leaves the mesh, go along the border, turning round its vertices through tiles,
+ * until an edge is met by which the line comes back ("in") behind the place where it left ("out")
+ * and not behind q: there the walk goes on. If all the border from the way out round to itself has
+ * no such edge, q lies on the far side of it: outside, or in the hole that it bounds.
  * Departures from the printed pseudocode (slip 6). A vertex on the line counts as one to its right,
  * on both ways: the walk follows a line that is moved a little to the left, and meets no vertex.
  * Whether an edge is met behind the way out is decided by the ends of both edges, which do not
@@ -24,7 +30,8 @@
  * it ever leaves over the same border again, it is for good. docs/guarantees.md has the proofs. */
 #include "walk/drive.h"
 
-enum { FIRST, FOLLOW, ROUND_LEFT, ROUND_RIGHT, ROUND_ON }; /* phases; round: where the border's last vertex lies */
+/* phases; round: where the border's last vertex lies */
+enum { FIRST, FOLLOW, ROUND_LEFT, ROUND_RIGHT, ROUND_ON };
 
 /* > 0: s lies to the left of the line from p to q; < 0: to the right. */
 static MW_INLINE double border_side(mw_walk *w, mw_point s, mw_policy P)
@@ -46,8 +53,9 @@ static MW_INLINE void border_begin_run(mw_walk *w, uint32_t phase, uint32_t stag
 static MW_INLINE mw_verdict border_turn_corner(mw_walk *w, uint32_t e, mw_policy P)
 {
     const mw_border_loops *loops = w->tiling->border_loops;
-    uint32_t turn =
-        loops && MW_UNLIKELY(loops->jump_count > 0) ? mw__border_loops_jump(loops, mw__link(w->t, e)) : MW_NONE;
+    uint32_t turn = loops && MW_UNLIKELY(loops->jump_count > 0)
+                        ? mw__border_loops_jump(loops, mw__link(w->t, e))
+                        : MW_NONE;
     w->e = mw__next(e);
     if (MW_LIKELY(turn == MW_NONE)) return MW_VERDICT_GO_ON;
     w->t = mw__link_triangle(turn);
@@ -130,7 +138,8 @@ static MW_INLINE bool border_is_farthest(mw_walk *w, mw_point a, mw_point b, mw_
 
 static MW_INLINE bool border_point_is_between(mw_point a, mw_point q, mw_point b)
 {
-    return fmin(a.x, b.x) <= q.x && q.x <= fmax(a.x, b.x) && fmin(a.y, b.y) <= q.y && q.y <= fmax(a.y, b.y);
+    return fmin(a.x, b.x) <= q.x && q.x <= fmax(a.x, b.x) && fmin(a.y, b.y) <= q.y &&
+           q.y <= fmax(a.y, b.y);
 }
 
 /* The walk goes on in the tile of a border edge, over which the line comes back. */
@@ -151,7 +160,8 @@ static MW_INLINE mw_verdict border_pass(mw_walk *w, uint32_t e, bool all, mw_pol
     uint32_t half = mw__link(w->t, e);
     if (P.count) w->work->border_edges++;
     if (half < w->lowest) w->lowest = half;
-    if (MW_UNLIKELY(s == 0 && border_point_is_between(w->phase == ROUND_ON ? a : b, w->q, b))) return MW_VERDICT_FOUND;
+    if (MW_UNLIKELY(s == 0 && border_point_is_between(w->phase == ROUND_ON ? a : b, w->q, b)))
+        return MW_VERDICT_FOUND;
     if (w->phase == ROUND_LEFT && s <= 0 && border_comes_back(w, a, b, P)) {
         if (!all) return border_come_back(w, half, P);
         if (border_is_farthest(w, a, b, P)) w->farthest = half;

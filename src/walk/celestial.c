@@ -1,13 +1,19 @@
 /* celestial.c - the celestial walk [Kuijper, Ermolaev, Devillers 2017, arXiv 1710.01620], for
  * triangles.
  *
- *        b                 The edges that q lies beyond form a chain, one or two edges of a triangle. Begin at its first
- *       / `                edge, counter-clockwise: ac. If the corner c between it and the next edge cb is obtuse and q lies
- *      /    ` .            on the far side of the perpendicular to ac at c, take cb. Cross.
+ *        b
+ *       / `
+ *      /    ` .
  *     /        `
- *    a----------c          The perpendicular parts an obtuse angle into a right and an acute one, as the paper asks of the
- *               :          line; it is decided by the signs of two dot products.
+ *    a----------c
+ *               :
  *               : * q
+ *
+ * The edges that q lies beyond form a chain, one or two edges of a triangle. Begin at its first
+ * edge, counter-clockwise: ac. If the corner c between it and the next edge cb is obtuse and q lies
+ * on the far side of the perpendicular to ac at c, take cb. Cross. The perpendicular parts an
+ * obtuse angle into a right and an acute one, as the paper asks of the line; it is decided by the
+ * signs of two dot products.
  * Ends on every tiling: the edge crossed holds the point x of the tile nearest to q, so the
  * distance from q to the tile never grows. It stays the same only if x is a vertex, and then the
  * walk turns one way round x. docs/guarantees.md has the proof. So no tile is entered twice. Memory

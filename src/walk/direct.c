@@ -1,21 +1,27 @@
 /* direct.c - the direct walk [thesis App. C, Alg. 1], with stored areas (DW1) or without (DW2).
  *
- *          t2            The barycentric walk without division: the orientation coordinate c_i of q is twice the area
- *         /  `           that it makes with the edge opposite to t_i, and c0 + c1 + c2 = 2A. Of these three the one
- *        /    `   * q    of the edge just crossed is known from the tile before, with the opposite sign; the next
- *      t0------t1        one is tested, and the last is 2A less both. One test a tile where 2A is stored, else two;
- *                        one more in the first tile.
+ *          t2
+ *         /  `
+ *        /    `   * q
+ *      t0------t1
+ *
+ * The barycentric walk without division: the orientation coordinate c_i of q is twice the area that
+ * it makes with the edge opposite to t_i, and c0 + c1 + c2 = 2A. Of these three the one of the edge
+ * just crossed is known from the tile before, with the opposite sign; the next one is tested, and
+ * the last is 2A less both. One test a tile where 2A is stored, else two; one more in the first
+ * tile.
  *
  * The walk of the paper also takes clockwise tiles, but its printed pseudocode fails there, because
  * it passes on coordinates that it has flipped (slip 5). It has to keep all of them normalised: the
  * known one always -c, the tested one sgn(A) times the test, and the last one |2A| less both. Here
  * sgn(A) is 1: the mesh turns clockwise triangles when it is created, so that all tiles are
- * counter-clockwise. borrow/borrowed_coordinates.c has the walk over triangles as they are. Another departure: coordinates are rounded, and what is derived from them
- * takes the errors of all tiles before along. In exact arithmetic an edge is crossed only where its
- * coordinate is surely negative, and that coordinate is passed on with the most by which it may be
- * off added. So what is known in the next tile is a lower bound, what is derived from it an upper
- * one, and a negative one is sure again. Where no coordinate is, q is in the tile or all but in it,
- * and the exact final location ends the walk. Ends and cycles as the barycentric walk does. */
+ * counter-clockwise. borrow/borrowed_coordinates.c has the walk over triangles as they are.
+ * Another departure: coordinates are rounded, and what is derived from them takes the errors of
+ * all tiles before along. In exact arithmetic an edge is crossed only where its coordinate is
+ * surely negative, and that coordinate is passed on with the most by which it may be off added. So
+ * what is known in the next tile is a lower bound, what is derived from it an upper one, and a
+ * negative one is sure again. Where no coordinate is, q is in the tile or all but in it, and the
+ * exact final location ends the walk. Ends and cycles as the barycentric walk does. */
 #include "walk/drive.h"
 #include "walk/value.h"
 
@@ -35,7 +41,8 @@ static MW_INLINE double direct_double_area(mw_walk *w, bool stored, double *off,
 
 /* The walk ends: keep the corner of the largest coordinate, of those of edge e, of the next and of
  * the one before. The layers go down there [thesis App. C, sec. 3]. */
-static MW_INLINE mw_verdict direct_end(mw_walk *w, uint32_t e, const double at[3], mw_verdict verdict)
+static MW_INLINE mw_verdict direct_end(mw_walk *w, uint32_t e, const double at[3],
+                                       mw_verdict verdict)
 {
     uint32_t corner_of[3] = {mw__prev(e), e, mw__next(e)}; /* opposite to these edges */
     w->heaviest = corner_of[heaviest_corner(at[0], at[1], at[2])];

@@ -59,30 +59,32 @@ static MW_INLINE void drive_ring(mw_feed *feed, uint32_t lane_count, mw_step ste
 }
 
 /* The kernels of a walk from NAME_step, with literal policies. */
-#define MW_STAMP(name, suffix, exact, count)                                                                           \
-    static mw_verdict name##_run_##suffix(mw_walk *walk)                                                               \
-    {                                                                                                                  \
-        return drive_run(walk, name##_step, (mw_policy){exact, count, false});                                         \
-    }                                                                                                                  \
-    static void name##_ring_##suffix(mw_feed *feed, uint32_t lane_count)                                               \
-    {                                                                                                                  \
-        drive_ring(feed, lane_count, name##_step, (mw_policy){exact, count, true});                                    \
+#define MW_STAMP(name, suffix, exact, count)                                                       \
+    static mw_verdict name##_run_##suffix(mw_walk *walk)                                           \
+    {                                                                                              \
+        return drive_run(walk, name##_step, (mw_policy){exact, count, false});                     \
+    }                                                                                              \
+    static void name##_ring_##suffix(mw_feed *feed, uint32_t lane_count)                           \
+    {                                                                                              \
+        drive_ring(feed, lane_count, name##_step, (mw_policy){exact, count, true});                \
     }
 
-#define MW_STAMP_WALK(name, ends_always)                                                                               \
-    MW_STAMP(name, double, false, false)                                                                               \
-    MW_STAMP(name, double_count, false, true)                                                                          \
-    MW_STAMP(name, exact, true, false)                                                                                 \
-    MW_STAMP(name, exact_count, true, true)                                                                            \
-    static mw_verdict name##_step_exact_count(mw_walk *walk)                                                           \
-    {                                                                                                                  \
-        return name##_step(walk, (mw_policy){true, true, false});                                                      \
-    }                                                                                                                  \
-    const mw_kernels mw__##name = {                                                                                    \
-        {{name##_run_double, name##_run_double_count}, {name##_run_exact, name##_run_exact_count}},                    \
-        {{name##_ring_double, name##_ring_double_count}, {name##_ring_exact, name##_ring_exact_count}},                \
-        ends_always,                                                                                                   \
-        name##_step_exact_count,                                                                                       \
+#define MW_STAMP_WALK(name, ends_always)                                                           \
+    MW_STAMP(name, double, false, false)                                                           \
+    MW_STAMP(name, double_count, false, true)                                                      \
+    MW_STAMP(name, exact, true, false)                                                             \
+    MW_STAMP(name, exact_count, true, true)                                                        \
+    static mw_verdict name##_step_exact_count(mw_walk *walk)                                       \
+    {                                                                                              \
+        return name##_step(walk, (mw_policy){true, true, false});                                  \
+    }                                                                                              \
+    const mw_kernels mw__##name = {                                                                \
+        {{name##_run_double, name##_run_double_count},                                             \
+         {name##_run_exact, name##_run_exact_count}},                                              \
+        {{name##_ring_double, name##_ring_double_count},                                           \
+         {name##_ring_exact, name##_ring_exact_count}},                                            \
+        ends_always,                                                                               \
+        name##_step_exact_count,                                                                   \
     };
 
 #endif

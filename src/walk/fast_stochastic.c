@@ -1,11 +1,16 @@
 /* fast_stochastic.c - the fast remembering stochastic walk [Kolingerova 2006; thesis App. E, sec.
  * 5.3].
  *
- *          c             Entered over ab, far from q, the walk has to leave over bc or ca. So it tests one of the two,
- *         / `            chosen by a coin: q lies beyond it, or else, very likely, beyond the other, which is crossed
- *        /   `    * q    without a test. In the first tile any edge is tested, and if q does not lie beyond it, one of
- *       a-----b          the other two is crossed.
+ *          c
+ *         / `
+ *        /   `    * q
+ *       a-----b
  *          ^
+ *
+ * Entered over ab, far from q, the walk has to leave over bc or ca. So it tests one of the two,
+ * chosen by a coin: q lies beyond it, or else, very likely, beyond the other, which is crossed
+ * without a test. In the first tile any edge is tested, and if q does not lie beyond it, one of the
+ * other two is crossed.
  * One test a tile, but no step notices that it has arrived: near q the walk goes round it.
  * Therefore it makes k steps and ends; the remembering stochastic walk goes on, or on a Delaunay
  * mesh the remembering walk: the one that the caller chose to finish walks, or the mesh. It begins

@@ -1,10 +1,14 @@
-/* forgetful.c - the stochastic walk without memory [Devillers, Pion, Teillaud 2002, sec. 3.2; thesis
- * App. E, Alg. 2 less its "remembering" condition].
+/* forgetful.c - the stochastic walk without memory [Devillers, Pion, Teillaud 2002, sec. 3.2;
+ * thesis App. E, Alg. 2 less its "remembering" condition].
  *
- *          c             Lawson's walk with the edges of each tile in random order: any of them first, then the others
- *         / `            round the tile. The edge just crossed is tested like any other, though q cannot lie beyond it:
- *        /   `    * q    up to three tests a tile, and no state at all.
+ *          c
+ *         / `
+ *        /   `    * q
  *       a-----b
+ *
+ * Lawson's walk with the edges of each tile in random order: any of them first, then the others
+ * round the tile. The edge just crossed is tested like any other, though q cannot lie beyond it: up
+ * to three tests a tile, and no state at all.
  * On any mesh the chance of walking on for ever is zero, as that of the walk that remembers is
  * (stochastic.c); where the fuel runs out it hands over. */
 #include "walk/drive.h"

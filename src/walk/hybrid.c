@@ -1,11 +1,18 @@
 /* hybrid.c - the hybrid walk [thesis App. B, Alg. 1].
  *
- *        l                 The straight walk in turned and scaled coordinates, in which the line from p to q is horizontal:
- *       /|\                with a = q - p, x' = x a_x + y a_y and y' = -x a_y + y a_x. Turn round p, a vertex of the first
- *    p /_|_\ s _ _ _ q     tile, to the tile at p that the line enters: one y' a tile. Then follow the line: with l and r
- *      \ | /       .       the left and right ends of the edge just crossed and s the third vertex, the walk is close to q
- *       \|/        .       and ends where x' of s is at least that of q. Otherwise the line leaves over rs where s lies
- *        r                 above it, over sl where not. Then an exact walk goes the last steps.
+ *        l
+ *       /|\
+ *    p /_|_\ s _ _ _ q
+ *      \ | /       .
+ *       \|/        .
+ *        r
+ *
+ * The straight walk in turned and scaled coordinates, in which the line from p to q is horizontal:
+ * with a = q - p, x' = x a_x + y a_y and y' = -x a_y + y a_x. Turn round p, a vertex of the first
+ * tile, to the tile at p that the line enters: one y' a tile. Then follow the line: with l and r
+ * the left and right ends of the edge just crossed and s the third vertex, the walk is close to q
+ * and ends where x' of s is at least that of q. Otherwise the line leaves over rs where s lies
+ * above it, over sl where not. Then an exact walk goes the last steps.
  *
  * Departures from the printed pseudocode. The printed matrix turns by the wrong sign, so that p->q
  * ends at twice its angle (slip 4). Coordinates are relative to p: q' = (|a|^2, 0), p' = 0, and
@@ -74,7 +81,8 @@ static MW_INLINE mw_verdict hybrid_step(mw_walk *w, mw_policy P)
     if (w->phase == TURN_RIGHT) /* entered over edge e = lp, the new r is s */
         return hybrid_above(w, s, P) ? cross_unsure(w, next, P) : hybrid_follow(w, prev, s, P);
     return hybrid_above(w, s, P) ? hybrid_follow(w, next, s, P)
-                                 : cross_unsure(w, prev, P); /* entered over e = pr, the new l is s */
+                                 /* entered over e = pr, the new l is s */
+                                 : cross_unsure(w, prev, P);
 }
 
 MW_STAMP_WALK(hybrid, false)

@@ -1,12 +1,18 @@
 /* improved_orthogonal.c - the improved orthogonal walk [Purchart, Kolingerova, Benes 2012; thesis
  * App. E, sec. 7.2 and Alg. 7].
  *
- *           l             p is a point inside the first tile, so there is no vertex to turn round. In each tile two
- *          /|\            comparisons: is s, the vertex off the entry edge, past the end of the leg? If not, on which
- *      ---/-|-\---> q.x   side of the line is it? To its left: leave over rs; else over sl. Past the end, turn, and
- *         \ | / s         go the same way along the vertical line through q. The tile where that ends is not tested:
- *          \|/            q is there or near, and an exact walk ends the search.
+ *           l
+ *          /|\
+ *      ---/-|-\---> q.x
+ *         \ | / s
+ *          \|/
  *           r
+ *
+ * p is a point inside the first tile, so there is no vertex to turn round. In each tile two
+ * comparisons: is s, the vertex off the entry edge, past the end of the leg? If not, on which side
+ * of the line is it? To its left: leave over rs; else over sl. Past the end, turn, and go the same
+ * way along the vertical line through q. The tile where that ends is not tested: q is there or
+ * near, and an exact walk ends the search.
  * Departures from the printed pseudocode. In the first tile of a leg, s, the vertex farthest along
  * the heading, tells whether the tile is past the end, as printed; but not the edge to leave over,
  * which need not be one at s: that runs from a vertex on the right to one on the left. p is the
@@ -46,9 +52,10 @@ static MW_INLINE void improved_turn_at(mw_walk *w, mw_point s, mw_policy P)
     if (before == w->d.y) w->p.y = nextafter(w->p.y, -INFINITY);
 }
 
-/* Over edge e; where that is on the hull, upright: along the line through `tested`, the vertex tested
- * last, or NULL, an inner point of the tile. */
-static MW_INLINE mw_verdict improved_cross_or_detour(mw_walk *w, uint32_t e, const mw_point *tested, mw_policy P)
+/* Over edge e; where that is on the hull, upright: along the line through `tested`, the vertex
+ * tested last, or NULL, an inner point of the tile. */
+static MW_INLINE mw_verdict improved_cross_or_detour(mw_walk *w, uint32_t e, const mw_point *tested,
+                                                     mw_policy P)
 {
     mw_verdict verdict = cross(w, e, P);
     if (MW_LIKELY(verdict == MW_VERDICT_GO_ON)) return MW_VERDICT_GO_ON;

@@ -14,7 +14,8 @@ typedef struct mw_lifted_vertex {
     uint32_t vertex;
 } mw_lifted_vertex;
 
-static MW_INLINE mw_lifted_vertex mw__lift_vertex(const mw_tiling *tiling, uint32_t vertex, mw_point q)
+static MW_INLINE mw_lifted_vertex mw__lift_vertex(const mw_tiling *tiling, uint32_t vertex,
+                                                  mw_point q)
 {
     double x = tiling->point[vertex].x - q.x, y = tiling->point[vertex].y - q.y;
     return (mw_lifted_vertex){x, y, x * x + y * y, vertex};
@@ -23,11 +24,12 @@ static MW_INLINE mw_lifted_vertex mw__lift_vertex(const mw_tiling *tiling, uint3
 /* mw__orient2d of a and b, seen from q, and q. The bound is that of mw__orient2d_bound, (3 u + 16
  * u^2) times |ax by| + |ay bx|, but by the lifts alone: the sum is at most the product of both
  * lengths, and that half the sum of the lifts, which are off by less than 3 u of themselves. */
-static MW_INLINE double mw__lifted_side(const mw_tiling *tiling, const mw_lifted_vertex *a, const mw_lifted_vertex *b,
-                                        mw_point q)
+static MW_INLINE double mw__lifted_side(const mw_tiling *tiling, const mw_lifted_vertex *a,
+                                        const mw_lifted_vertex *b, mw_point q)
 {
     double det = a->x * b->y - a->y * b->x;
-    if (MW_LIKELY(fabs(det) > (a->lift + b->lift) * (2.0 * 0x1p-53) + MW_UNDERFLOW_ERROR)) return det;
+    if (MW_LIKELY(fabs(det) > (a->lift + b->lift) * (2.0 * 0x1p-53) + MW_UNDERFLOW_ERROR))
+        return det;
     return mw__orient2d_exact(tiling->point[a->vertex], tiling->point[b->vertex], q);
 }
 

@@ -1,12 +1,21 @@
 /* normal_straight.c - the straight walk that stops at a normal line [Soukal, Kolingerova 2009:
  * thesis App. A, Alg. 2 and App. E, Alg. 5].
  *
- *      l               . n     The line leads from p, the middle of the edge of the first tile that faces the vertex s
- *      |\              .       nearest to q, to q; n is its normal at q. With l and r the left and right ends of the edge
- *    p *-\- - - - - - - q       just crossed and s the third vertex: where s is past n, the walk is close to q and ends.
- *      |  \            .       Otherwise the line leaves over rs where s lies to its left, over sl where not. Two
- *      |___s           .       positions by the equations of two fixed lines a tile, no orientation test; then an exact
- *      r                       walk goes the last steps.
+ *      l               . n
+ *      |\              .
+ *
+ * The line leads from p, the middle of the edge of the first tile that faces the vertex s nearest
+ * to q, to q; n is its normal at q. With l and r the left and right ends of the edge
+ *    p *-\- - - - - - - q
+ *
+ * just crossed and s the third vertex: where s is past n, the walk is close to q and ends.
+ *      |  \            .
+ *      |___s           .
+ *      r
+ *
+ * Otherwise the line leaves over rs where s lies to its left, over sl where not. Two positions by
+ * the equations of two fixed lines a tile, no orientation test; then an exact walk goes the last
+ * steps.
  *
  * Departures from the printed pseudocode. The normal has the minus sign that eq. 7 lost (slip 1),
  * and over which edge the line leaves is as in the prose of App. A and in Alg. 5 (slip 2). Both
@@ -61,8 +70,10 @@ static MW_INLINE mw_verdict normal_aim(mw_walk *w, mw_policy P)
     if (MW_UNLIKELY(!set_direction(w, x, y))) return MW_VERDICT_UNSURE;
     bool left = normal_left_of_line(w, s, P);
     if (MW_UNLIKELY(normal_left_of_line(w, left ? r : l, P) == left))
-        return normal_left_of_line(w, left ? l : r, P) != left ? cross_unsure(w, e, P) : MW_VERDICT_UNSURE;
-    return normal_is_past(w, s, P) ? MW_VERDICT_UNSURE : cross_unsure(w, left ? mw__next(e) : mw__prev(e), P);
+        return normal_left_of_line(w, left ? l : r, P) != left ? cross_unsure(w, e, P)
+                                                               : MW_VERDICT_UNSURE;
+    return normal_is_past(w, s, P) ? MW_VERDICT_UNSURE
+                                   : cross_unsure(w, left ? mw__next(e) : mw__prev(e), P);
 }
 
 static MW_INLINE mw_verdict normal_follow(mw_walk *w, mw_policy P)
@@ -96,7 +107,8 @@ static MW_INLINE mw_verdict normal_turned(mw_walk *w, uint32_t e, mw_point s, mw
 {
     w->phase = FOLLOW;
     begin_stage(w, MW_STAGE_WALK, P);
-    bool parted = normal_left_of_line(w, corner(w, e + 1), P) && !normal_left_of_line(w, corner(w, e), P);
+    bool parted =
+        normal_left_of_line(w, corner(w, e + 1), P) && !normal_left_of_line(w, corner(w, e), P);
     return !parted || normal_is_past(w, s, P) ? MW_VERDICT_UNSURE : cross_unsure(w, e, P);
 }
 
@@ -124,8 +136,10 @@ static MW_INLINE mw_verdict normal_straight_turn_step(mw_walk *w, mw_policy P)
     uint32_t next = mw__next(w->e), prev = mw__prev(w->e);
     mw_point s = apex(w, w->e);
     if (w->phase == TURN_RIGHT) /* entered over edge e = lp, the new r is s */
-        return normal_turn_side(w, s, P) > 0 ? cross_unsure(w, next, P) : normal_turned(w, prev, s, P);
-    return normal_turn_side(w, s, P) < 0 ? cross_unsure(w, prev, P) : normal_turned(w, next, s, P); /* pr, l is s */
+        return normal_turn_side(w, s, P) > 0 ? cross_unsure(w, next, P)
+                                             : normal_turned(w, prev, s, P);
+    /* pr, l is s */
+    return normal_turn_side(w, s, P) < 0 ? cross_unsure(w, prev, P) : normal_turned(w, next, s, P);
 }
 
 MW_STAMP_WALK(normal_straight_turn, false)

@@ -1,36 +1,44 @@
 /* orthogonal.c - the orthogonal walk [Devillers, Pion, Teillaud 2002; thesis App. E, sec. 7.1, Alg.
  * 6].
  *
- *          l          * q    First turn round p, a vertex of the first tile, to the tile at p that the horizontal line
- *         /|\         :      through p enters on its way to a, the point above or below q: a comparison a tile. Then
- *        / | \ s      :      follow the line: with l and r the left and right ends of the edge just crossed and s the
- *    p ....|...\......a      third vertex, it leaves over rs where s lies to its left, over sl else: one comparison.
- *        \ | /               While both ends of that edge fall short of a, a lies beyond it: two comparisons; then
- *         \|/                orient2d of the edge and a tells. In the tile that holds a, turn, and follow the vertical
- *          r                 line to q in the same way.
+ *          l          * q
+ *         /|\         :
+ *        / | \ s      :
+ *    p ....|...\......a
+ *        \ | /
+ *         \|/
+ *          r
+ *
+ * First turn round p, a vertex of the first tile, to the tile at p that the horizontal line through
+ * p enters on its way to a, the point above or below q: a comparison a tile. Then follow the line:
+ * with l and r the left and right ends of the edge just crossed and s the third vertex, it leaves
+ * over rs where s lies to its left, over sl else: one comparison. While both ends of that edge fall
+ * short of a, a lies beyond it: two comparisons; then orient2d of the edge and a tells. In the tile
+ * that holds a, turn, and follow the vertical line to q in the same way.
  * Departures from the printed pseudocode.
- *   Slip 3: a lies beyond the edge from r to l where orient2d(r, l, a) < 0; printed, the walk goes on where a is
- *   inside.
- *   The turn: printed, it looks at one end of the exit edge. Here the sides of all three vertices are compared with the
- *   vertical line; it leaves over the edge that runs from right to left. This covers every case of l and r.
- *   The other directions, "analogous" in print, are the same code in turned coordinates: axis.h.
- *   Leaving the hull, only told in the text. First, q may lie beyond the hull edge itself: then it is outside, by an
- *   exact test. Else a horizontal leg is followed by a vertical one along another line, through an inner point of the
- *   tile (between its centroid and its vertex nearest to q), and whatever ends that leg, the walk runs again from
- *   there, from the vertex nearest to q. In a thin hull askew to the axes all this does not help; so after RESTARTS it
- *   is left to an exact walk.
+ *   Slip 3: a lies beyond the edge from r to l where orient2d(r, l, a) < 0; printed, the walk goes
+ *   on where a is inside.
+ *   The turn: printed, it looks at one end of the exit edge. Here the sides of all three vertices
+ *   are compared with the vertical line; it leaves over the edge that runs from right to left.
+ *   This covers every case of l and r. The other directions, "analogous" in print, are the same
+ *   code in turned coordinates: axis.h. Leaving the hull, only told in the text. First, q may lie
+ *   beyond the hull edge itself: then it is outside, by an exact test. Else a horizontal leg is
+ *   followed by a vertical one along another line, through an inner point of the tile (between its
+ *   centroid and its vertex nearest to q), and whatever ends that leg, the walk runs again from
+ *   there, from the vertex nearest to q. In a thin hull askew to the axes all this does not help;
+ *   so after RESTARTS it is left to an exact walk.
  * Edge cases. q = p: the first tile is the answer. q above or below p: there is only the vertical
  * leg, from p. q at the height of p: a is q, and the horizontal leg finds it. A vertex on the line
  * of a leg counts as right of it, but where the walk turns to the right, as left
  * (axis_turn_upright). p on the hull: where the turn meets the hull first, the line points out of
  * the hull, or runs along it with the hull on its right; the leg then leaves the hull at p.
- * MW_VERDICT_FOUND is exact (in exact arithmetic, on a tiling): with vertices on the line counted as right,
- * the walk follows a line moved by next to nothing, so every tile has points of it inside, and its
- * part of the true line runs from the entry edge, or p, to the exit edge. What the leg looks for
- * lies ahead of p; then ahead of each entry edge, since it was beyond that; so it is in the tile
- * unless it is beyond the exit edge. The vertical leg begins likewise in the tile that holds a,
- * which has points just before the vertical line. Legs along another line find nothing, they only
- * lead nearer.
+ * MW_VERDICT_FOUND is exact (in exact arithmetic, on a tiling): with vertices on the line counted
+ * as right, the walk follows a line moved by next to nothing, so every tile has points of it
+ * inside, and its part of the true line runs from the entry edge, or p, to the exit edge. What the
+ * leg looks for lies ahead of p; then ahead of each entry edge, since it was beyond that; so it is
+ * in the tile unless it is beyond the exit edge. The vertical leg begins likewise in the tile that
+ * holds a, which has points just before the vertical line. Legs along another line find nothing,
+ * they only lead nearer.
  * Ends on every tiling: the turn passes each tile at p at most once, the short way round; the point
  * where a leg's line leaves the tile comes on with each step; and there are at most 2 (RESTARTS +
  * 1) legs. Each meets a tile once at most. */
@@ -39,7 +47,17 @@
 
 /* The phase of a walk: one of the first five; MOVED, where the vertical line is not that through q;
  * and the number of restarts. */
-enum { START, TURN_RIGHT, TURN_LEFT, SET_OUT, FOLLOW, STEP = 7, MOVED = 8, RESTART = 16, RESTARTS = 2 };
+enum {
+    START,
+    TURN_RIGHT,
+    TURN_LEFT,
+    SET_OUT,
+    FOLLOW,
+    STEP = 7,
+    MOVED = 8,
+    RESTART = 16,
+    RESTARTS = 2
+};
 
 static MW_INLINE void orthogonal_enter(mw_walk *w, uint32_t phase)
 {
@@ -57,7 +75,8 @@ static MW_INLINE mw_point leg_end(const mw_walk *w)
 static MW_INLINE uint32_t nearest_corner(const mw_walk *w)
 {
     double far[3];
-    for (uint32_t k = 0; k < 3; k++) far[k] = fabs(corner(w, k).x - w->q.x) + fabs(corner(w, k).y - w->q.y);
+    for (uint32_t k = 0; k < 3; k++)
+        far[k] = fabs(corner(w, k).x - w->q.x) + fabs(corner(w, k).y - w->q.y);
     if (far[1] < far[0]) return far[2] < far[1] ? 2 : 1;
     return far[2] < far[0] ? 2 : 0;
 }
@@ -105,7 +124,8 @@ static MW_INLINE mw_verdict orthogonal_go_on(mw_walk *w, uint32_t e, mw_policy P
 {
     mw_point r = corner(w, e), l = corner(w, e + 1);
     bool r_past = axis_is_past(w, r, P), l_past = axis_is_past(w, l, P);
-    if (MW_UNLIKELY(r_past || l_past) && orient(w, r, l, leg_end(w), P) >= 0) return orthogonal_arrive(w, P);
+    if (MW_UNLIKELY(r_past || l_past) && orient(w, r, l, leg_end(w), P) >= 0)
+        return orthogonal_arrive(w, P);
     return orthogonal_cross_or_detour(w, e, P);
 }
 

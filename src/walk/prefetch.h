@@ -34,7 +34,8 @@ static MW_INLINE void mw__prefetch_points_round(const mw_tiling *tiling, uint32_
     enum { LINE = 64, BEFORE = 12, AFTER = 48 };
     uint32_t from = v < BEFORE ? 0 : v - BEFORE, end = v + AFTER;
     if (end > tiling->point_count) end = tiling->point_count;
-    for (; from < end; from += LINE / sizeof *tiling->point) __builtin_prefetch(&tiling->point[from]);
+    for (; from < end; from += LINE / sizeof *tiling->point)
+        __builtin_prefetch(&tiling->point[from]);
 }
 
 #endif

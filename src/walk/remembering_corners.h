@@ -31,16 +31,18 @@ typedef struct mw_walk_end {
 #define MW_CORNER_STEPS (1 << 16)
 
 /* The same by the celestial walk, from tile t on. */
-mw_walk_end mw__corners_surely(const mw_tiling *tiling, mw_point q, uint32_t t, mw_lifted_vertex corner[3]);
+mw_walk_end mw__corners_surely(const mw_tiling *tiling, mw_point q, uint32_t t,
+                               mw_lifted_vertex corner[3]);
 
 /* Walk to q from tile t. corner: those of the last tile, if q is in it or the celestial walk came
  * there. Inline: a call of its own took an insertion a fortieth of its time. */
-static MW_INLINE mw_walk_end mw__remembering_corners(const mw_tiling *tiling, mw_point q, uint32_t t,
-                                                     mw_lifted_vertex corner[3])
+static MW_INLINE mw_walk_end mw__remembering_corners(const mw_tiling *tiling, mw_point q,
+                                                     uint32_t t, mw_lifted_vertex corner[3])
 {
     const mw_triangle *tri = tiling->tri;
     uint32_t fuel = MW_CORNER_STEPS, e = 0, exit = MW_NONE;
-    mw_lifted_vertex a = mw__lift_vertex(tiling, tri[t].v[0], q), b = mw__lift_vertex(tiling, tri[t].v[1], q),
+    mw_lifted_vertex a = mw__lift_vertex(tiling, tri[t].v[0], q),
+                     b = mw__lift_vertex(tiling, tri[t].v[1], q),
                      c = mw__lift_vertex(tiling, tri[t].v[2], q);
     double ab = mw__lifted_side(tiling, &a, &b, q), bc = mw__lifted_side(tiling, &b, &c, q),
            ca = mw__lifted_side(tiling, &c, &a, q);
@@ -73,8 +75,10 @@ static MW_INLINE mw_walk_end mw__remembering_corners(const mw_tiling *tiling, mw
     corner[e] = a;
     corner[mw__next(e)] = b;
     corner[mw__prev(e)] = c;
-    return (mw_walk_end){
-        .tile = t, .walked = MW_CORNER_STEPS - fuel, .inside = true, .on_boundary = ab == 0 || bc == 0 || ca == 0};
+    return (mw_walk_end){.tile = t,
+                         .walked = MW_CORNER_STEPS - fuel,
+                         .inside = true,
+                         .on_boundary = ab == 0 || bc == 0 || ca == 0};
 }
 
 #endif

@@ -41,12 +41,15 @@ typedef struct mw_rounded_areas {
     double area[3], bound;
 } mw_rounded_areas;
 
-static MW_INLINE mw_rounded_areas mw__rounded_areas(const mw_point *point, const mw_triangle *tile, mw_point q)
+static MW_INLINE mw_rounded_areas mw__rounded_areas(const mw_point *point, const mw_triangle *tile,
+                                                    mw_point q)
 {
     mw_point a = point[tile->v[0]], b = point[tile->v[1]], c = point[tile->v[2]];
-    double ax = a.x - q.x, ay = a.y - q.y, bx = b.x - q.x, by = b.y - q.y, cx = c.x - q.x, cy = c.y - q.y;
+    double ax = a.x - q.x, ay = a.y - q.y, bx = b.x - q.x, by = b.y - q.y, cx = c.x - q.x,
+           cy = c.y - q.y;
     double bc = bx * cy, cb = by * cx, ca = cx * ay, ac = cy * ax, ab = ax * by, ba = ay * bx;
-    double bound = mw__orient2d_bound(fabs(bc) + fabs(cb) + (fabs(ca) + fabs(ac)), fabs(ab) + fabs(ba));
+    double bound =
+        mw__orient2d_bound(fabs(bc) + fabs(cb) + (fabs(ca) + fabs(ac)), fabs(ab) + fabs(ba));
     return (mw_rounded_areas){{bc - cb, ca - ac, ab - ba}, bound};
 }
 
@@ -54,7 +57,8 @@ static MW_INLINE mw_rounded_areas mw__rounded_areas(const mw_point *point, const
 static MW_INLINE bool mw__rounded_weights(const mw_rounded_areas *of, double weight[3])
 {
     const double *area = of->area, bound = of->bound, sum = area[0] + area[1] + area[2];
-    if (!(area[0] > bound && area[1] > bound && area[2] > bound && bound < MW_WEIGHT_ERROR * sum)) return false;
+    if (!(area[0] > bound && area[1] > bound && area[2] > bound && bound < MW_WEIGHT_ERROR * sum))
+        return false;
     if (!(sum > MW_WEIGHT_SUM_LEAST && sum < MW_WEIGHT_SUM_MOST)) return false;
     weight[0] = area[0] / sum; /* no loop: gcc would make vectors of it, by way of memory */
     weight[1] = area[1] / sum;
@@ -62,11 +66,12 @@ static MW_INLINE bool mw__rounded_weights(const mw_rounded_areas *of, double wei
     return true;
 }
 
-/* Walk to q from tile *t, which becomes the tile where the walk ended. MW_VERDICT_FOUND: q is inside it,
- * with these weights; MW_VERDICT_LEFT: beyond an edge of it that is on the hull; MW_VERDICT_UNSURE: rounding cannot
- * tell; MW_VERDICT_OUT_OF_FUEL: too far. Each turn is a jump: a walk alone should not wait for the areas, and the
- * processor guesses where to go on. */
-static MW_INLINE mw_verdict mw__remembering_fast(const mw_tiling *tiling, mw_point q, uint32_t *t, double weight[3])
+/* Walk to q from tile *t, which becomes the tile where the walk ended. MW_VERDICT_FOUND: q is
+ * inside it, with these weights; MW_VERDICT_LEFT: beyond an edge of it that is on the hull;
+ * MW_VERDICT_UNSURE: rounding cannot tell; MW_VERDICT_OUT_OF_FUEL: too far. Each turn is a jump: a
+ * walk alone should not wait for the areas, and the processor guesses where to go on. */
+static MW_INLINE mw_verdict mw__remembering_fast(const mw_tiling *tiling, mw_point q, uint32_t *t,
+                                                 double weight[3])
 {
     const mw_triangle *tri = tiling->tri, *tile = &tri[*t];
     mw_verdict verdict = MW_VERDICT_OUT_OF_FUEL;
@@ -100,11 +105,13 @@ static MW_INLINE mw_verdict mw__remembering_fast(const mw_tiling *tiling, mw_poi
  * jump wrong. */
 static MW_INLINE uint32_t mw__link_nearer(const mw_tiling *tiling, mw_point q, uint32_t t)
 {
-    static const uint8_t edge[8] = {3, 0, 1, 0, 2, 2, 1, 3}; /* by the edges that q lies beyond, as bits */
+    /* by the edges that q lies beyond, as bits */
+    static const uint8_t edge[8] = {3, 0, 1, 0, 2, 2, 1, 3};
     const mw_triangle *tile = &tiling->tri[t];
     const uint32_t way[4] = {tile->link[0], tile->link[1], tile->link[2], mw__link(t, 0)};
     const mw_rounded_areas of = mw__rounded_areas(tiling->point, tile, q);
-    return way[edge[(uint32_t)(of.area[2] < 0) | (uint32_t)(of.area[0] < 0) << 1 | (uint32_t)(of.area[1] < 0) << 2]];
+    return way[edge[(uint32_t)(of.area[2] < 0) | (uint32_t)(of.area[0] < 0) << 1 |
+                    (uint32_t)(of.area[1] < 0) << 2]];
 }
 
 #endif

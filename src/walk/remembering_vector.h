@@ -23,7 +23,8 @@
 #define MW_VECTOR_ALL ((1u << MW_VECTOR_LANES) - 1)
 
 typedef double mw_vector __attribute__((vector_size(8 * MW_VECTOR_LANES)));
-typedef int64_t mw_vector_mask __attribute__((vector_size(8 * MW_VECTOR_LANES))); /* 0 or all bits */
+/* 0 or all bits */
+typedef int64_t mw_vector_mask __attribute__((vector_size(8 * MW_VECTOR_LANES)));
 
 /* Which lanes of a mask are set, as bits: processors have an instruction for it. */
 typedef uint32_t (*mw_vector_bits)(const mw_vector_mask *mask);
@@ -38,7 +39,8 @@ static MW_INLINE uint32_t mw__vector_bits_portable(const mw_vector_mask *mask)
 
 #include <immintrin.h>
 
-__attribute__((target("avx2"))) static inline uint32_t mw__vector_bits_avx2(const mw_vector_mask *mask)
+__attribute__((target("avx2"))) static inline uint32_t
+mw__vector_bits_avx2(const mw_vector_mask *mask)
 {
     return (uint32_t)_mm256_movemask_pd(*(const __m256d *)mask);
 }
@@ -46,8 +48,9 @@ __attribute__((target("avx2"))) static inline uint32_t mw__vector_bits_avx2(cons
 #endif
 
 typedef struct mw_vector_walk {
-    double x[MW_VECTOR_LANES], y[MW_VECTOR_LANES]; /* q; NaN where there is none: such a lane ends at once */
-    uint32_t t[MW_VECTOR_LANES];                   /* current tile */
+    /* q; NaN where there is none: such a lane ends at once */
+    double x[MW_VECTOR_LANES], y[MW_VECTOR_LANES];
+    uint32_t t[MW_VECTOR_LANES]; /* current tile */
 } mw_vector_walk;
 
 /* mw_rounded_areas of the four tiles. */
@@ -59,12 +62,14 @@ typedef struct mw_vector_areas {
 typedef double mw_vector_point __attribute__((vector_size(16), aligned(8)));
 
 /* Corner v of each tile, seen from q. */
-static MW_INLINE void mw__vector_corner(const mw_vector_areas *of, const mw_vector_walk *w, const mw_point *point,
-                                        uint32_t v, mw_vector *x, mw_vector *y)
+static MW_INLINE void mw__vector_corner(const mw_vector_areas *of, const mw_vector_walk *w,
+                                        const mw_point *point, uint32_t v, mw_vector *x,
+                                        mw_vector *y)
 {
     mw_vector_point p[MW_VECTOR_LANES];
     mw_vector qx, qy;
-    for (uint32_t k = 0; k < MW_VECTOR_LANES; k++) p[k] = *(const mw_vector_point *)&point[of->tile[k]->v[v]];
+    for (uint32_t k = 0; k < MW_VECTOR_LANES; k++)
+        p[k] = *(const mw_vector_point *)&point[of->tile[k]->v[v]];
     memcpy(&qx, w->x, sizeof qx);
     memcpy(&qy, w->y, sizeof qy);
     mw_vector even = __builtin_shufflevector(p[0], p[1], 0, 2, 1, 3),
@@ -75,14 +80,14 @@ static MW_INLINE void mw__vector_corner(const mw_vector_areas *of, const mw_vect
 
 #define MW_VECTOR_MAGNITUDE(a) ((mw_vector)((mw_vector_mask)(a)&INT64_MAX))
 
-static MW_INLINE void mw__vector_areas(mw_vector_areas *of, const mw_vector_walk *w, const mw_triangle *tri,
-                                       const mw_point *point)
+static MW_INLINE void mw__vector_areas(mw_vector_areas *of, const mw_vector_walk *w,
+                                       const mw_triangle *tri, const mw_point *point)
 {
     mw_vector x[3], y[3];
     for (uint32_t k = 0; k < MW_VECTOR_LANES; k++) of->tile[k] = &tri[w->t[k]];
     for (uint32_t v = 0; v < 3; v++) mw__vector_corner(of, w, point, v, &x[v], &y[v]);
-    mw_vector bc = x[1] * y[2], cb = y[1] * x[2], ca = x[2] * y[0], ac = y[2] * x[0], ab = x[0] * y[1],
-              ba = y[0] * x[1];
+    mw_vector bc = x[1] * y[2], cb = y[1] * x[2], ca = x[2] * y[0], ac = y[2] * x[0],
+              ab = x[0] * y[1], ba = y[0] * x[1];
     of->area[0] = bc - cb;
     of->area[1] = ca - ac;
     of->area[2] = ab - ba;
@@ -94,8 +99,8 @@ static MW_INLINE void mw__vector_areas(mw_vector_areas *of, const mw_vector_walk
 
 /* One step of each: cross the first edge beyond which q surely lies. Returns the lanes that ended,
  * as bits: where there is no such edge, and where it is on the hull; the latter are *left. */
-static MW_INLINE uint32_t mw__vector_cross(const mw_vector_areas *of, mw_vector_walk *w, uint32_t *left,
-                                           mw_vector_bits bits)
+static MW_INLINE uint32_t mw__vector_cross(const mw_vector_areas *of, mw_vector_walk *w,
+                                           uint32_t *left, mw_vector_bits bits)
 {
     mw_vector_mask beyond[3] = {of->area[2] < -of->bound, of->area[0] < -of->bound,
                                 of->area[1] < -of->bound}; /* edges 0, 1, 2 */
@@ -113,13 +118,13 @@ static MW_INLINE uint32_t mw__vector_cross(const mw_vector_areas *of, mw_vector_
 }
 
 /* mw__rounded_weights of each; returns those where q is surely inside, as bits. */
-static MW_INLINE uint32_t mw__vector_weights(const mw_vector_areas *of, double weight[3][MW_VECTOR_LANES],
-                                             mw_vector_bits bits)
+static MW_INLINE uint32_t mw__vector_weights(const mw_vector_areas *of,
+                                             double weight[3][MW_VECTOR_LANES], mw_vector_bits bits)
 {
     mw_vector sum = of->area[0] + of->area[1] + of->area[2];
-    mw_vector_mask inside = (of->area[0] > of->bound) & (of->area[1] > of->bound) & (of->area[2] > of->bound) &
-                            (of->bound < MW_WEIGHT_ERROR * sum) & (sum > MW_WEIGHT_SUM_LEAST) &
-                            (sum < MW_WEIGHT_SUM_MOST);
+    mw_vector_mask inside = (of->area[0] > of->bound) & (of->area[1] > of->bound) &
+                            (of->area[2] > of->bound) & (of->bound < MW_WEIGHT_ERROR * sum) &
+                            (sum > MW_WEIGHT_SUM_LEAST) & (sum < MW_WEIGHT_SUM_MOST);
     for (uint32_t v = 0; v < 3; v++) {
         mw_vector w = of->area[v] / sum;
         memcpy(weight[v], &w, sizeof w);

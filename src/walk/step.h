@@ -144,7 +144,8 @@ static MW_INLINE mw_verdict leave_either(mw_walk *w, uint32_t first, uint32_t se
     }
     double one = orient(w, corner(w, first), corner(w, first + 1), w->q, P);
     double two = orient(w, corner(w, second), corner(w, second + 1), w->q, P);
-    double least = one < two ? one : two; /* of `one < 0 | two < 0` compilers make two jumps again */
+    /* of `one < 0 | two < 0` compilers make two jumps again */
+    double least = one < two ? one : two;
     if (!(least < 0)) return MW_VERDICT_FOUND;
     return cross(w, one < 0 ? first : second, P);
 }

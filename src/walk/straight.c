@@ -1,12 +1,17 @@
 /* straight.c - the straight walk [Devillers, Pion, Teillaud 2002, sec. 3.1; thesis App. A, Alg. 1
  * and App. E, Alg. 4].
  *
- *        l                 First turn round p, a vertex of the first tile, to the tile at p that the line from p to q
- *       /|\                enters: one test a tile. Then follow the line: with l and r the left and right ends of the edge
- *    p / | \ s   * q       just crossed and s the third vertex, the line leaves over rs where s lies to its left, over
- *      \ | /               sl otherwise; and q lies beyond that edge, or here: two tests a tile.
+ *        l
+ *       /|\
+ *    p / | \ s   * q
+ *      \ | /
  *       \|/
  *        r
+ *
+ * First turn round p, a vertex of the first tile, to the tile at p that the line from p to q
+ * enters: one test a tile. Then follow the line: with l and r the left and right ends of the edge
+ * just crossed and s the third vertex, the line leaves over rs where s lies to its left, over sl
+ * otherwise; and q lies beyond that edge, or here: two tests a tile.
  * Departures from the printed pseudocode: slip 3 (the side of q is taken against the edge as the
  * tile's boundary runs). A vertex s on the line counts as neither side: where r is on the line too,
  * the line runs along rs and leaves over sl at s; otherwise it leaves over rs at s; and if q lies
@@ -60,9 +65,11 @@ static MW_INLINE mw_verdict straight_step(mw_walk *w, mw_policy P)
         return leave(w, s > 0 ? next : prev, P);
     }
     if (w->phase == TURN_RIGHT) /* entered over edge e = lp, the new r is off it */
-        return straight_side(w, apex(w, w->e), P) > 0 ? cross(w, next, P) : straight_follow(w, prev, P);
+        return straight_side(w, apex(w, w->e), P) > 0 ? cross(w, next, P)
+                                                      : straight_follow(w, prev, P);
     if (w->phase == TURN_LEFT) /* entered over edge e = pr, the new l is off it */
-        return straight_side(w, apex(w, w->e), P) < 0 ? cross(w, prev, P) : straight_follow(w, next, P);
+        return straight_side(w, apex(w, w->e), P) < 0 ? cross(w, prev, P)
+                                                      : straight_follow(w, next, P);
     return straight_aim(w, P);
 }
 

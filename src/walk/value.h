@@ -10,7 +10,8 @@
 
 /* Twice the area of abc. Its sign is exact; adds to *off the most by which the value may be off:
  * what the filter says, or, from the exact stage, 2^-50 of it and what underflow takes. */
-static MW_INLINE double area_value(mw_walk *w, mw_point a, mw_point b, mw_point c, double *off, mw_policy P)
+static MW_INLINE double area_value(mw_walk *w, mw_point a, mw_point b, mw_point c, double *off,
+                                   mw_policy P)
 {
     if (!P.exact) return orient(w, a, b, c, P);
     if (P.count) w->work->orient[w->stage]++;

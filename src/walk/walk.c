@@ -51,8 +51,8 @@ const mw_kernels *mw__walk_kernels(mw_walk_kind kind, const mw_tiling *tiling)
     return kind == MW_WALK_DIRECT && tiling->area ? &mw__direct_stored : kernels[kind];
 }
 
-mw_verdict mw__walk_finish(mw_walk *walk, mw_walk_kind finish, uint32_t fuel, const mw_tiling *tiling, bool exact,
-                           bool count)
+mw_verdict mw__walk_finish(mw_walk *walk, mw_walk_kind finish, uint32_t fuel,
+                           const mw_tiling *tiling, bool exact, bool count)
 {
     walk->e = MW_NO_EDGE; /* the cheap walk was not sure of the edge it came by */
     walk->fuel = fuel;
@@ -65,7 +65,8 @@ uint32_t mw__walk_fuel(mw_walk_kind kind, mw_arithmetic arithmetic, const mw_til
 {
     double tiles = tiling->tri_count, steps = 4096 + 45 * sqrt(tiles);
     if (kernels[kind]->ends && arithmetic == MW_EXACT && tiling->embedding) steps = tiles + 1;
-    if (kind == MW_WALK_BORDER) steps += tiling->border_loops ? 4.0 * tiling->border_loops->edge_count : tiles;
+    if (kind == MW_WALK_BORDER)
+        steps += tiling->border_loops ? 4.0 * tiling->border_loops->edge_count : tiles;
     return steps < UINT32_MAX ? (uint32_t)steps : UINT32_MAX;
 }
 

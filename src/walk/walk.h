@@ -13,11 +13,12 @@
 
 /* What a step of a walk, and at last the walk, has to say of its tile t. */
 typedef enum mw_verdict {
-    MW_VERDICT_GO_ON,      /* crossed into another tile */
-    MW_VERDICT_FOUND,      /* q is in tile t */
-    MW_VERDICT_LEFT,       /* q lies beyond a hull edge of tile t */
-    MW_VERDICT_UNSURE,     /* a cheap walk, whose tests are only a guide, ended in tile t: q is here or near, and
-                            * an exact walk ends it */
+    MW_VERDICT_GO_ON, /* crossed into another tile */
+    MW_VERDICT_FOUND, /* q is in tile t */
+    MW_VERDICT_LEFT,  /* q lies beyond a hull edge of tile t */
+    /* a cheap walk, whose tests are only a guide, ended in tile t: q is here or near, and an exact
+     * walk ends it */
+    MW_VERDICT_UNSURE,
     MW_VERDICT_OUT_OF_FUEL /* the steps that the walk may take were spent in tile t */
 } mw_verdict;
 
@@ -48,8 +49,9 @@ typedef struct mw_work {
 typedef struct mw_walk {
     const mw_point *point;
     const mw_triangle *tri;
-    mw_point q;      /* the point looked for                                                   */
-    mw_point p, d;   /* where the line to q begins, and its direction; see the walks that have one */
+    mw_point q; /* the point looked for                                                   */
+    /* where the line to q begins, and its direction; see the walks that have one */
+    mw_point p, d;
     uint32_t t, e;   /* current tile, and its edge by which it was entered; MW_NO_EDGE at first */
     uint32_t phase;  /* of the walks that have some; 0 at first                                */
     uint32_t fuel;   /* steps left                                                             */
@@ -63,16 +65,20 @@ typedef struct mw_walk {
         };
     };
     union {
-        uint32_t steps;    /* fast stochastic: with one test each, that are left                      */
-        uint32_t farthest; /* border: where the line comes back last, of the edges met; see there    */
-        uint32_t heaviest; /* direct, barycentric: at the end, the corner with the largest coordinate */
+        /* fast stochastic: with one test each, that are left */
+        uint32_t steps;
+        /* border: where the line comes back last, of the edges met; see there */
+        uint32_t farthest;
+        /* direct, barycentric: at the end, the corner with the largest coordinate */
+        uint32_t heaviest;
     };
     uint32_t stage; /* that counts                                                            */
     mw_work *work;  /* of counting kernels                                                    */
 } mw_walk;
 
 /* Where the lanes of a ring get their walks. `deliver` takes the finished walk of a lane (verdict
- * MW_VERDICT_GO_ON: there is none yet) and replaces it by the next one; false: no more for this lane. */
+ * MW_VERDICT_GO_ON: there is none yet) and replaces it by the next one; false: no more for this
+ * lane. */
 typedef struct mw_feed {
     bool (*deliver)(struct mw_feed *feed, uint32_t lane, mw_walk *walk, mw_verdict verdict);
 } mw_feed;
@@ -81,14 +87,17 @@ typedef struct mw_feed {
 typedef struct mw_kernels {
     mw_verdict (*run[2][2])(mw_walk *walk);                 /* one walk, from its t to its end  */
     void (*ring[2][2])(mw_feed *feed, uint32_t lane_count); /* up to MW_MAX_LANES walks in turn */
-    bool ends; /* with exact arithmetic it enters no tile of a tiling twice, by the argument in its file */
-    mw_verdict (*step)(mw_walk *walk); /* one step, exact and counting: for those who want to see each */
+    /* with exact arithmetic it enters no tile of a tiling twice, by the argument in its file */
+    bool ends;
+    /* one step, exact and counting: for those who want to see each */
+    mw_verdict (*step)(mw_walk *walk);
 } mw_kernels;
 
 #define MW_WALK_ENTRY(id, symbol, name, source, help) extern const mw_kernels mw__##symbol;
 #include <meshwalk/walks.def>
 extern const mw_kernels mw__direct_stored; /* the direct walk where areas are stored */
-extern const mw_kernels mw__border_sure;   /* the border walk that goes along no border more than twice */
+/* the border walk that goes along no border more than twice */
+extern const mw_kernels mw__border_sure;
 
 /* Phase of a border walk that ends at once: no component's box holds q. */
 #define MW_PHASE_AWAY 15u
@@ -110,17 +119,17 @@ mw_verdict mw__walk_run(mw_walk *walk, const mw_kernels *kernels, bool exact, bo
 void mw__walk_record(mw_walk_trace *trace, const mw_walk *walk);
 
 /* End with an exact walk (of kind `finish`) what a cheap one left at MW_VERDICT_UNSURE. */
-mw_verdict mw__walk_finish(mw_walk *walk, mw_walk_kind finish, uint32_t fuel, const mw_tiling *tiling, bool exact,
-                           bool count);
+mw_verdict mw__walk_finish(mw_walk *walk, mw_walk_kind finish, uint32_t fuel,
+                           const mw_tiling *tiling, bool exact, bool count);
 
-/* Go on from tile walk->t with an exact walk that ends on every embedding. MW_VERDICT_OUT_OF_FUEL only where the
- * mesh is none. */
+/* Go on from tile walk->t with an exact walk that ends on every embedding. MW_VERDICT_OUT_OF_FUEL
+ * only where the mesh is none. */
 mw_verdict mw__walk_surely(mw_walk *walk, bool count);
 
 /* A walk to q from tile t, which is counted in *work, unless that is NULL. Touches no mesh
  * memory. */
-static MW_INLINE mw_walk mw__walk_begin(const mw_tiling *tiling, mw_point q, uint32_t t, uint32_t fuel, uint64_t random,
-                                        mw_work *work)
+static MW_INLINE mw_walk mw__walk_begin(const mw_tiling *tiling, mw_point q, uint32_t t,
+                                        uint32_t fuel, uint64_t random, mw_work *work)
 {
     if (work) {
         work->visited++;

@@ -31,7 +31,8 @@ static int note_run(void *self, size_t entry, size_t round, double *figures)
     seen->order[seen->length++] = (char)('a' + entry);
     if (seen->fails_at && ++seen->turns == seen->fails_at) return 7;
     if ((seen->length + 1) % (seen->entries + 1) == 0) seen->order[seen->length++] = ' ';
-    for (size_t f = 0; f < 2; f++) figures[f] = round == ROUNDS_WARMUP ? -1e9 : figure_of(entry, round, f);
+    for (size_t f = 0; f < 2; f++)
+        figures[f] = round == ROUNDS_WARMUP ? -1e9 : figure_of(entry, round, f);
     return 0;
 }
 
@@ -51,7 +52,8 @@ static void test_leaders(void **state)
 {
     (void)state;
     for (size_t leaders = 1; leaders <= 3; leaders++) {
-        static const char *const orders[] = {"abc acb abc acb ", "abc abc abc abc ", "abc abc abc abc "};
+        static const char *const orders[] = {"abc acb abc acb ", "abc abc abc abc ",
+                                             "abc abc abc abc "};
         rounds_results results;
         runs_seen seen = {.entries = 3};
         rounds_plan plan = {.entries = 3, .leaders = leaders, .figures = 2, .rounds = 4};
@@ -77,7 +79,8 @@ static void test_figures(void **state)
                 assert_true(rounds_median(&results, entry, f) == base + medians[rounds - 1]);
                 assert_true(rounds_minimum(&results, entry, f) == base + minima[rounds - 1]);
                 for (size_t round = 0; round < rounds; round++)
-                    assert_true(results.values[(2 * entry + f) * rounds + round] == figure_of(entry, round, f));
+                    assert_true(results.values[(2 * entry + f) * rounds + round] ==
+                                figure_of(entry, round, f));
             }
         rounds_release(&results);
     }
@@ -148,8 +151,9 @@ static void test_query_rounds(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_order),   cmocka_unit_test(test_leaders), cmocka_unit_test(test_figures),
-        cmocka_unit_test(test_failure), cmocka_unit_test(test_missing), cmocka_unit_test(test_query_rounds),
+        cmocka_unit_test(test_order),   cmocka_unit_test(test_leaders),
+        cmocka_unit_test(test_figures), cmocka_unit_test(test_failure),
+        cmocka_unit_test(test_missing), cmocka_unit_test(test_query_rounds),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
-/* test_edit.c - every edit of small meshes: what it does, what it reports, that it can be taken back, and that nothing
- * has changed where it is refused. */
+/* test_edit.c - every edit of small meshes: what it does, what it reports, that it can be taken
+ * back, and that nothing has changed where it is refused. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -17,7 +17,7 @@
 #include "oracle/edit_apply.h"
 #include "support/meshes.h"
 
-/* --- small meshes on points of a lattice --------------------------------------------------------------------------------- */
+/* --- small meshes on points of a lattice ------------------------------------------------------ */
 
 static arrays one_triangle(void)
 {
@@ -55,7 +55,8 @@ static arrays mixed_lattice(void)
 /* Eight points round one, in no special position but for the integers. */
 static arrays hub(void)
 {
-    static const double p[9][2] = {{2, 2}, {4, 1}, {4, 3}, {3, 4}, {1, 4}, {0, 3}, {0, 1}, {1, 0}, {3, 0}};
+    static const double p[9][2] = {{2, 2}, {4, 1}, {4, 3}, {3, 4}, {1, 4},
+                                   {0, 3}, {0, 1}, {1, 0}, {3, 0}};
     arrays a = arrays_make(9, 8);
     for (int i = 0; i < 9; i++) arrays_point(&a, p[i][0], p[i][1]);
     for (uint32_t i = 0; i < 8; i++) arrays_triangle(&a, 0, 1 + i, 1 + (i + 1) % 8);
@@ -79,7 +80,8 @@ static arrays cells(const char *keep, uint64_t seed)
     uint32_t kept = 0;
     for (uint32_t i = 0; i < 18; i++) {
         if (keep[i / 2] != '#') continue;
-        memmove(a.triangles + 3 * (size_t)kept++, a.triangles + 3 * (size_t)i, 3 * sizeof *a.triangles);
+        memmove(a.triangles + 3 * (size_t)kept++, a.triangles + 3 * (size_t)i,
+                3 * sizeof *a.triangles);
     }
     a.triangle_count = kept;
     return a;
@@ -152,7 +154,7 @@ static void open_scene(const edit_scene *s, twin *t)
     arrays_free(&a);
 }
 
-/* --- each edit there is, alone -------------------------------------------------------------------------------------------- */
+/* --- each edit there is, alone ---------------------------------------------------------------- */
 
 typedef struct edit_run {
     twin now, then;
@@ -194,7 +196,8 @@ static void try_all(edit_run *r)
     for (uint32_t v = 0; v <= r->now.vertex_range; v++) {
         try_edit(r, (mw_edit){.kind = MW_EDIT_REMOVE, .vertex = v});
         try_places(r, MW_EDIT_MOVE, v, v % 3 ? 1 : 0.5);
-        if (!twin_bare) try_edit(r, (mw_edit){.kind = MW_EDIT_VALUE, .vertex = v, .field = v % 2, .value = -3});
+        if (!twin_bare)
+            try_edit(r, (mw_edit){.kind = MW_EDIT_VALUE, .vertex = v, .field = v % 2, .value = -3});
     }
     try_pairs(r, MW_EDIT_FLIP);
     try_pairs(r, MW_EDIT_CONSTRAIN);
@@ -212,8 +215,8 @@ static void test_each_edit(void **state)
         twin_check_queries(&r.now, &r.cursors);
         r.then = twin_copy(&r.now);
         try_all(&r);
-        print_message("%-24s %llu edits done, %llu refused\n", scenes[i].name, (unsigned long long)r.done,
-                      (unsigned long long)r.refused);
+        print_message("%-24s %llu edits done, %llu refused\n", scenes[i].name,
+                      (unsigned long long)r.done, (unsigned long long)r.refused);
         assert_true(r.done > 20 && r.refused > 20);
         twin_check_all(&r.now);
         twin_close(&r.then);
@@ -221,7 +224,7 @@ static void test_each_edit(void **state)
     }
 }
 
-/* --- some in a row ------------------------------------------------------------------------------------------------------------ */
+/* --- some in a row ---------------------------------------------------------------------------- */
 
 enum { ROW = 24 };
 
@@ -233,19 +236,22 @@ static mw_edit any_edit(const twin *t, uint64_t *random)
     e.y = mw__random_below(random, 11) * 0.5 - 1;
     e.field = mw__random_below(random, TWIN_FIELDS);
     e.value = mw__random_below(random, 3) ? NAN : 7.25;
-    static const mw_edit_kind kinds[16] = {MW_EDIT_INSERT,    MW_EDIT_INSERT,    MW_EDIT_INSERT,  MW_EDIT_INSERT,
-                                           MW_EDIT_INSERT,    MW_EDIT_REMOVE,    MW_EDIT_REMOVE,  MW_EDIT_REMOVE,
-                                           MW_EDIT_MOVE,      MW_EDIT_MOVE,      MW_EDIT_MOVE,    MW_EDIT_FLIP,
-                                           MW_EDIT_CONSTRAIN, MW_EDIT_CONSTRAIN, MW_EDIT_RELEASE, MW_EDIT_VALUE};
+    static const mw_edit_kind kinds[16] = {
+        MW_EDIT_INSERT,    MW_EDIT_INSERT,    MW_EDIT_INSERT,  MW_EDIT_INSERT,
+        MW_EDIT_INSERT,    MW_EDIT_REMOVE,    MW_EDIT_REMOVE,  MW_EDIT_REMOVE,
+        MW_EDIT_MOVE,      MW_EDIT_MOVE,      MW_EDIT_MOVE,    MW_EDIT_FLIP,
+        MW_EDIT_CONSTRAIN, MW_EDIT_CONSTRAIN, MW_EDIT_RELEASE, MW_EDIT_VALUE};
     e.kind = kinds[mw__random_below(random, 16)];
     if (e.kind == MW_EDIT_RELEASE && t->fixed_count) {
-        const uint32_t *edge = t->fixed + 2 * (size_t)mw__random_below(random, (uint32_t)t->fixed_count);
+        const uint32_t *edge =
+            t->fixed + 2 * (size_t)mw__random_below(random, (uint32_t)t->fixed_count);
         e.vertex = edge[0];
         e.other = edge[1];
     }
     if (e.kind == MW_EDIT_VALUE && twin_bare) e.kind = MW_EDIT_CONSTRAIN;
     if (e.kind == MW_EDIT_VALUE && isnan(e.value)) e.value = 1;
-    if (e.kind == MW_EDIT_FLIP && t->delaunay && mw__random_below(random, 8)) e.kind = MW_EDIT_REMOVE;
+    if (e.kind == MW_EDIT_FLIP && t->delaunay && mw__random_below(random, 8))
+        e.kind = MW_EDIT_REMOVE;
     return e;
 }
 
@@ -320,7 +326,7 @@ static void test_rows(void **state)
     for (uint64_t seed = 1; seed <= 400; seed++) edit_in_a_row(&scenes[seed % SCENES], seed);
 }
 
-/* --- long constraints ----------------------------------------------------------------------------------------------------------- */
+/* --- long constraints ------------------------------------------------------------------------- */
 
 /* Some on a lattice, so that ways meet vertices, the others anywhere. */
 static mw_mesh *spread_mesh(uint64_t *random, uint32_t n)
@@ -368,16 +374,20 @@ static void lay_constraints(uint64_t seed)
     twin_close(&t);
 }
 
-/* A segment of two constrained edges, the first of which turns over the lowest triangle of the vertex between them. */
+/* A segment of two constrained edges, the first of which turns over the lowest triangle of the
+ * vertex between them. */
 static void lay_two_edges(void)
 {
-    const double p[] = {5.5, 3.5, 7.5, 1, 2.5, 3.5, 1.5, 3, 4.5, 0.5, 3.5, 7, 2, 3.5, 5, 4.5, 7.5, 0, 2.5, 6, 3, 5.5};
+    const double p[] = {5.5, 3.5, 7.5, 1, 2.5, 3.5, 1.5, 3,   4.5, 0.5, 3.5,
+                        7,   2,   3.5, 5, 4.5, 7.5, 0,   2.5, 6,   3,   5.5};
     mw_mesh *mesh;
     mw_error error;
     twin t;
     expect_ok(mw_delaunay(p, 11, 2, NULL, NULL, NULL, &mesh, &error), "delaunay", &error);
     twin_open(&t, mesh, NULL);
-    assert_int_equal(twin_apply(&t, &(mw_edit){.kind = MW_EDIT_CONSTRAIN, .vertex = 1, .other = 9}, false), MW_OK);
+    assert_int_equal(
+        twin_apply(&t, &(mw_edit){.kind = MW_EDIT_CONSTRAIN, .vertex = 1, .other = 9}, false),
+        MW_OK);
     twin_check_all(&t);
     assert_int_equal(t.fixed_count, 2);
     twin_close(&t);
@@ -391,7 +401,7 @@ static void test_long_constraints(void **state)
     lay_two_edges();
 }
 
-/* --- what is refused, and how it is said ---------------------------------------------------------------------------------------- */
+/* --- what is refused, and how it is said ------------------------------------------------------ */
 
 static mw_status create(const arrays *a, mw_editor_options options, mw_error *error)
 {
@@ -413,15 +423,20 @@ static void test_bad_meshes(void **state)
     mw_error error;
     arrays a = lattice();
     assert_int_equal(create(&a, (mw_editor_options){0}, &error), MW_OK);
-    assert_int_equal(create(&a, (mw_editor_options){.delaunay = (mw_delaunay_mode)3}, &error), MW_ERROR_ARGUMENT);
-    assert_int_equal(create(&a, (mw_editor_options){.constrained_edge_count = 1}, &error), MW_ERROR_ARGUMENT);
+    assert_int_equal(create(&a, (mw_editor_options){.delaunay = (mw_delaunay_mode)3}, &error),
+                     MW_ERROR_ARGUMENT);
+    assert_int_equal(create(&a, (mw_editor_options){.constrained_edge_count = 1}, &error),
+                     MW_ERROR_ARGUMENT);
     const uint32_t none[] = {0, 4, 0, 8}, beyond[] = {0, 9};
     assert_int_equal(
-        create(&a, (mw_editor_options){.constrained_edges = none + 2, .constrained_edge_count = 1}, &error),
+        create(&a, (mw_editor_options){.constrained_edges = none + 2, .constrained_edge_count = 1},
+               &error),
         MW_ERROR_INPUT);
     assert_true(error.vertex == 0 || error.vertex == 8);
     assert_int_not_equal(
-        create(&a, (mw_editor_options){.constrained_edges = beyond, .constrained_edge_count = 1}, &error), MW_OK);
+        create(&a, (mw_editor_options){.constrained_edges = beyond, .constrained_edge_count = 1},
+               &error),
+        MW_OK);
     a.points[2 * 4] = 7; /* the middle vertex is outside now */
     assert_int_equal(create(&a, (mw_editor_options){0}, &error), MW_ERROR_INPUT);
     assert_true(error.triangle >= 0);
@@ -457,12 +472,15 @@ static void test_arguments(void **state)
     assert_int_equal(mw_edit_apply(NULL, &(mw_edit){0}, NULL, &error), MW_ERROR_ARGUMENT);
     assert_int_equal(mw_edit_insert(NULL, 0, 0, NULL, &error), MW_ERROR_ARGUMENT);
     assert_int_equal(mw_edit_undo(NULL, NULL, &error), MW_ERROR_ARGUMENT);
-    assert_int_equal(mw_edit_apply(t.editor, &(mw_edit){.kind = MW_EDIT_KIND_COUNT}, NULL, &error), MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_edit_apply(t.editor, &(mw_edit){.kind = MW_EDIT_KIND_COUNT}, NULL, &error),
+                     MW_ERROR_ARGUMENT);
     assert_int_equal(mw_edit_value(t.editor, TWIN_FIELDS, 0, 1, &error), MW_ERROR_ARGUMENT);
     assert_int_equal(mw_edit_value(t.editor, MW_NONE, 0, 1, &error), MW_ERROR_ARGUMENT);
-    assert_int_equal(mw_edit_apply(t.editor, &(mw_edit){.x = 1.1, .y = 1.3, .value = 5, .field = 9}, NULL, &error),
+    assert_int_equal(mw_edit_apply(t.editor, &(mw_edit){.x = 1.1, .y = 1.3, .value = 5, .field = 9},
+                                   NULL, &error),
                      MW_ERROR_ARGUMENT); /* the value would be lost */
-    assert_int_equal(mw_editor_index(t.editor, MW_START_LAST, NULL, &index, &error), MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_editor_index(t.editor, MW_START_LAST, NULL, &index, &error),
+                     MW_ERROR_ARGUMENT);
     assert_int_equal(mw_editor_field_by_name(t.editor, "mark"), 1);
     assert_int_equal(mw_editor_field_by_name(t.editor, "no such"), MW_NONE);
     assert_true(isnan(mw_editor_value(t.editor, TWIN_FIELDS, 0)));
@@ -481,7 +499,8 @@ static void expect_refused(twin *t, mw_edit e, const char *word, int64_t number)
     snprintf(digits, sizeof digits, "%lld", (long long)number);
     assert_int_equal(mw_edit_apply(t->editor, &e, NULL, &error), MW_ERROR_INPUT);
     if (!strstr(error.message, word)) fail_msg("\"%s\" does not say \"%s\"", error.message, word);
-    if (number >= 0 && !strstr(error.message, digits)) fail_msg("\"%s\" does not name %s", error.message, digits);
+    if (number >= 0 && !strstr(error.message, digits))
+        fail_msg("\"%s\" does not name %s", error.message, digits);
     twin_check_same(t);
 }
 
@@ -492,7 +511,8 @@ static void test_refusals(void **state)
     open_scene(&scenes[11], &t); /* ring */
     expect_refused(&t, (mw_edit){.kind = MW_EDIT_INSERT, .x = 1.5, .y = 1.5, .value = NAN}, "", -1);
     expect_refused(&t, (mw_edit){.kind = MW_EDIT_INSERT, .x = 5, .y = 1.5, .value = NAN}, "", -1);
-    expect_refused(&t, (mw_edit){.kind = MW_EDIT_INSERT, .x = NAN, .y = 1.5, .value = NAN}, "finite", -1);
+    expect_refused(&t, (mw_edit){.kind = MW_EDIT_INSERT, .x = NAN, .y = 1.5, .value = NAN},
+                   "finite", -1);
     expect_refused(&t, (mw_edit){.kind = MW_EDIT_REMOVE, .vertex = 5}, "", 5);
     expect_refused(&t, (mw_edit){.kind = MW_EDIT_REMOVE, .vertex = 0}, "", 0);
     expect_refused(&t, (mw_edit){.kind = MW_EDIT_REMOVE, .vertex = 99}, "", 99);
@@ -518,7 +538,7 @@ static void test_refusals(void **state)
     twin_close(&t);
 }
 
-/* --- undo, log ------------------------------------------------------------------------------------------------------------------ */
+/* --- undo, log -------------------------------------------------------------------------------- */
 
 static void test_undo_limit(void **state)
 {
@@ -535,7 +555,8 @@ static void test_undo_limit(void **state)
         assert_true(mw_editor_log(t.editor, &count) == NULL && count == 0);
         for (uint32_t k = 0; k < 12; k++) {
             then[k] = twin_copy(&t);
-            mw_edit e = {.kind = k % 3 == 2 ? MW_EDIT_REMOVE : MW_EDIT_INSERT, .vertex = t.vertex_range - 1};
+            mw_edit e = {.kind = k % 3 == 2 ? MW_EDIT_REMOVE : MW_EDIT_INSERT,
+                         .vertex = t.vertex_range - 1};
             e.x = 0.1 + 0.13 * k;
             e.y = 0.2 + 0.11 * (k % 7);
             e.value = k;
@@ -557,9 +578,10 @@ static void test_undo_limit(void **state)
     }
 }
 
-/* --- degenerate ------------------------------------------------------------------------------------------------------------------ */
+/* --- degenerate ------------------------------------------------------------------------------- */
 
-/* All of a vertex's neighbours on one circle, and so many that a star of a square of them would show. */
+/* All of a vertex's neighbours on one circle, and so many that a star of a square of them would
+ * show. */
 static void test_hub(void **state)
 {
     (void)state;
@@ -578,12 +600,15 @@ static void test_hub(void **state)
     mw_editor_describe(t.editor, &info);
     assert_true(info.delaunay && info.triangles == SPOKES);
     twin now = twin_copy(&t);
-    assert_int_equal(twin_apply(&t, &(mw_edit){.kind = MW_EDIT_MOVE, .vertex = SPOKES + 1, .x = 0.5, .y = 0.1}, true),
-                     MW_OK);
+    assert_int_equal(
+        twin_apply(&t, &(mw_edit){.kind = MW_EDIT_MOVE, .vertex = SPOKES + 1, .x = 0.5, .y = 0.1},
+                   true),
+        MW_OK);
     twin_check_all(&t);
     twin_undo(&t, &now);
     twin_close(&now);
-    assert_int_equal(twin_apply(&t, &(mw_edit){.kind = MW_EDIT_REMOVE, .vertex = SPOKES + 1}, true), MW_OK);
+    assert_int_equal(twin_apply(&t, &(mw_edit){.kind = MW_EDIT_REMOVE, .vertex = SPOKES + 1}, true),
+                     MW_OK);
     for (int i = 0; i < 3; i++) assert_int_equal(mw_edit_undo(t.editor, NULL, NULL), MW_OK);
     twin_check_same(&then);
     twin_close(&then);
@@ -634,11 +659,13 @@ static void test_grow(void **state)
     edit_case.name = "growing triangles";
     for (uint32_t i = 0; i < 150; i++) {
         static const double corner[3][2] = {{0, 1}, {-1, -1}, {1, -1}};
-        for (int k = 0; k < 2; k++) points[2 * i + (uint32_t)k] = ldexp(corner[i % 3][k], (int)(i / 3));
+        for (int k = 0; k < 2; k++)
+            points[2 * i + (uint32_t)k] = ldexp(corner[i % 3][k], (int)(i / 3));
     }
     grow_and_shrink(150, points);
     edit_case.name = "lattice, from the middle";
-    for (uint32_t i = 0, n = 0; n < 400; i++) { /* by turns to all sides, so that hull sides are full of vertices */
+    for (uint32_t i = 0, n = 0; n < 400;
+         i++) { /* by turns to all sides, so that hull sides are full of vertices */
         int x = (int)(i * 7 % 20), y = (int)(i / 20 % 20);
         points[2 * n] = x;
         points[2 * n++ + 1] = (y + 7 * x) % 20;
@@ -683,9 +710,11 @@ static void test_duplicates(void **state)
     twin_cursors r;
     twin_cursors_open(&r, &t, true, 4);
     twin_check_all(&t);
-    assert_int_equal(twin_apply(&t, &(mw_edit){.kind = MW_EDIT_REMOVE, .vertex = 2}, true), MW_ERROR_INPUT);
-    assert_int_equal(twin_apply(&t, &(mw_edit){.kind = MW_EDIT_MOVE, .vertex = 5, .x = 1.5, .y = 1}, true),
+    assert_int_equal(twin_apply(&t, &(mw_edit){.kind = MW_EDIT_REMOVE, .vertex = 2}, true),
                      MW_ERROR_INPUT);
+    assert_int_equal(
+        twin_apply(&t, &(mw_edit){.kind = MW_EDIT_MOVE, .vertex = 5, .x = 1.5, .y = 1}, true),
+        MW_ERROR_INPUT);
     assert_int_equal(twin_apply(&t, &(mw_edit){.kind = MW_EDIT_INSERT, .value = NAN}, true), MW_OK);
     assert_int_equal(twin_apply(&t, &(mw_edit){.kind = MW_EDIT_REMOVE, .vertex = 0}, true), MW_OK);
     twin_check_all(&t);
@@ -700,12 +729,13 @@ static void test_duplicates(void **state)
     twin_close(&t);
 }
 
-/* --- answers that are easily wrong -------------------------------------------------------------------------------------------- */
+/* --- answers that are easily wrong ------------------------------------------------------------ */
 
 static mw_editor *editor_of(const double *points, size_t n, const uint32_t *triangles, size_t m,
                             const mw_editor_options *options)
 {
-    mw_arrays given = {.points = points, .point_count = n, .triangles = triangles, .triangle_count = m};
+    mw_arrays given = {
+        .points = points, .point_count = n, .triangles = triangles, .triangle_count = m};
     mw_mesh *mesh;
     mw_editor *editor;
     mw_error error;
@@ -723,7 +753,8 @@ static void test_log_entry_again(void **state)
 {
     (void)state;
     const double square[] = {0, 0, 8, 0, 8, 8, 0, 8};
-    mw_editor *editor = editor_of(square, 4, (uint32_t[]){0, 1, 2, 0, 2, 3}, 2, &(mw_editor_options){.log = 1});
+    mw_editor *editor =
+        editor_of(square, 4, (uint32_t[]){0, 1, 2, 0, 2, 3}, 2, &(mw_editor_options){.log = 1});
     REQUIRE(mw_edit_insert(editor, 1, 2, NULL, NULL) == MW_OK);
     for (size_t n = 1; n < 100; n++) {
         size_t count;
@@ -742,7 +773,8 @@ static void test_value_of_what_is_gone(void **state)
     mw_editor *editor = editor_of(square, 4, (uint32_t[]){0, 1, 2, 0, 2, 3}, 2, NULL);
     mw_change change;
     REQUIRE(mw_edit_insert(editor, 3, 5, &change, NULL) == MW_OK);
-    mw_location at[2] = {{.triangle = change.triangle[0].triangle, .weight = {1, 0, 0}}, {.triangle = 12345}};
+    mw_location at[2] = {{.triangle = change.triangle[0].triangle, .weight = {1, 0, 0}},
+                         {.triangle = 12345}};
     double value[2] = {0, 0};
     mw_editor_interpolate(editor, 0, at, 1, value);
     REQUIRE(!isnan(value[0]));
@@ -765,14 +797,17 @@ static void test_around_a_notch(void **state)
     mw_editor_destroy(editor);
 }
 
-/* Where nothing is to be flipped, a vertex that goes from the hull takes no triangle with it that it did not have. */
+/* Where nothing is to be flipped, a vertex that goes from the hull takes no triangle with it that
+ * it did not have. */
 static void test_no_flips_beside_a_star(void **state)
 {
     (void)state;
     enum { V, A, W, B, C, D, Z };
     const double points[] = {.1, 100, -1, 5, 0, 10, 0, 0, 1, 1, 1.5, 5, 0, -100};
-    const uint32_t triangles[] = {V, A, W, V, W, B, V, B, C, V, C, D, A, B, W, Z, B, A, Z, C, B, Z, D, C};
-    mw_editor *editor = editor_of(points, 7, triangles, 8, &(mw_editor_options){.delaunay = MW_DELAUNAY_NEVER});
+    const uint32_t triangles[] = {V, A, W, V, W, B, V, B, C, V, C, D,
+                                  A, B, W, Z, B, A, Z, C, B, Z, D, C};
+    mw_editor *editor =
+        editor_of(points, 7, triangles, 8, &(mw_editor_options){.delaunay = MW_DELAUNAY_NEVER});
     mw_change change;
     REQUIRE(mw_edit_remove(editor, V, &change, NULL) == MW_OK);
     for (size_t i = change.made; i < change.made + change.reused + change.freed; i++) {

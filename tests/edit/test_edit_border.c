@@ -61,7 +61,8 @@ static void check_fresh(const twin *t, const double *queries, size_t n)
         mw_location edited = locate_once(mw_editor_locator(t->editor), queries + 2 * i);
         mw_location fresh = locate_once(locator, queries + 2 * i);
         REQUIRE(edited.where == fresh.where && edited.local == fresh.local);
-        REQUIRE(fresh.triangle == (edited.triangle == MW_NONE ? MW_NONE : triangles[edited.triangle]));
+        REQUIRE(fresh.triangle ==
+                (edited.triangle == MW_NONE ? MW_NONE : triangles[edited.triangle]));
         pair_holes(&pairs, edited.hole, fresh.hole);
     }
     mw_locator_destroy(locator);
@@ -97,8 +98,9 @@ static mw_mesh *make_delaunay(mw_mesh *mesh)
     mw_editor *editor;
     mw_mesh *result;
     mw_error error = {0};
-    expect_ok(mw_editor_create(mesh, &(mw_editor_options){.delaunay = MW_DELAUNAY_MAKE}, &editor, &error), "editor",
-              &error);
+    expect_ok(
+        mw_editor_create(mesh, &(mw_editor_options){.delaunay = MW_DELAUNAY_MAKE}, &editor, &error),
+        "editor", &error);
     expect_ok(mw_editor_mesh(editor, NULL, NULL, &result, &error), "mesh", &error);
     mw_editor_destroy(editor);
     mw_mesh_destroy(mesh);
@@ -111,7 +113,8 @@ static mw_mesh *make_soup(const soup *s, uint64_t *random)
     uint32_t kept = 0;
     for (uint32_t i = 0; i < a.triangle_count; i++) {
         if (mw__random_below(random, 16) >= s->keep) continue;
-        memmove(a.triangles + 3 * (size_t)kept++, a.triangles + 3 * (size_t)i, 3 * sizeof *a.triangles);
+        memmove(a.triangles + 3 * (size_t)kept++, a.triangles + 3 * (size_t)i,
+                3 * sizeof *a.triangles);
     }
     a.triangle_count = kept > 0 ? kept : 1;
     mw_mesh *mesh = arrays_mesh(&a, (mw_mesh_options){0});
@@ -120,7 +123,8 @@ static mw_mesh *make_soup(const soup *s, uint64_t *random)
 }
 
 /* Edges of some triangles. */
-static uint32_t choose_constraints(const mw_mesh *mesh, uint32_t most, uint32_t *ends, uint64_t *random)
+static uint32_t choose_constraints(const mw_mesh *mesh, uint32_t most, uint32_t *ends,
+                                   uint64_t *random)
 {
     for (uint32_t i = 0; i < most; i++) {
         uint32_t v[3], k = mw__random_below(random, 3);
@@ -134,7 +138,8 @@ static uint32_t choose_constraints(const mw_mesh *mesh, uint32_t most, uint32_t 
 /* Somewhere: near, far, half-way to another vertex, or on the integers, where much is in line. */
 static void choose_target(const twin *t, uint32_t v, double *q, uint64_t *random)
 {
-    const double *p = twin_point(t, v), *w = twin_point(t, mw__random_below(random, t->vertex_range));
+    const double *p = twin_point(t, v),
+                 *w = twin_point(t, mw__random_below(random, t->vertex_range));
     const uint32_t kind = mw__random_below(random, 8), range = 14;
     for (int i = 0; i < 2; i++) {
         q[i] = p[i] + (random_unit(random) - 0.5) * (kind < 3 ? 1 : 3);
@@ -150,7 +155,8 @@ typedef struct tally {
 
 static void note_holes(const twin *t, const double *queries, uint32_t *holes)
 {
-    for (size_t i = 0; i < QUERIES; i++) holes[i] = locate_once(mw_editor_locator(t->editor), queries + 2 * i).hole;
+    for (size_t i = 0; i < QUERIES; i++)
+        holes[i] = locate_once(mw_editor_locator(t->editor), queries + 2 * i).hole;
 }
 
 /* A move of a border vertex, as foretold; taken back now and then. */
@@ -166,7 +172,8 @@ static void try_move(twin *t, const double *queries, tally *n, uint64_t *random)
     choose_target(t, v, q, random);
     note_holes(t, queries, before);
     twin then = twin_copy(t);
-    if (twin_apply(t, &(mw_edit){.kind = MW_EDIT_MOVE, .vertex = v, .x = q[0], .y = q[1]}, true) == MW_OK) {
+    if (twin_apply(t, &(mw_edit){.kind = MW_EDIT_MOVE, .vertex = v, .x = q[0], .y = q[1]}, true) ==
+        MW_OK) {
         n->done++;
         n->pinched += pinched;
         n->made += t->triangle_range > then.triangle_range;
@@ -193,7 +200,8 @@ static void run_soup(const soup *s, uint64_t seed, tally *n)
     edit_case.seed = seed;
     mw_mesh *mesh = make_soup(s, &random);
     uint32_t ends[2 * 8];
-    mw_editor_options options = {.delaunay = s->delaunay, .undo = SIZE_MAX, .log = 1, .constrained_edges = ends};
+    mw_editor_options options = {
+        .delaunay = s->delaunay, .undo = SIZE_MAX, .log = 1, .constrained_edges = ends};
     options.constrained_edge_count = choose_constraints(mesh, s->constraints, ends, &random);
     twin t;
     twin_cursors cursors;
@@ -201,7 +209,9 @@ static void run_soup(const soup *s, uint64_t seed, tally *n)
     twin_cursors_open(&cursors, &t, seed % 2, seed);
     double queries[2 * QUERIES];
     for (int i = 0; i < 2 * QUERIES; i++)
-        queries[i] = (i % 4 < 2 ? random_unit(&random) : mw__random_below(&random, 16) / 16.0) * (s->cells + 1) - 0.5;
+        queries[i] = (i % 4 < 2 ? random_unit(&random) : mw__random_below(&random, 16) / 16.0) *
+                         (s->cells + 1) -
+                     0.5;
     for (edit_case.step = 0; edit_case.step < MOVES; edit_case.step++) {
         try_move(&t, queries, n, &random);
         if (edit_case.step % 10 == 0) twin_check_all(&t);
@@ -222,9 +232,10 @@ static void test_soups(void **state)
     for (size_t i = 0; i < sizeof soups / sizeof *soups; i++) {
         tally n = {0};
         for (uint64_t seed = 1; seed <= SEEDS; seed++) run_soup(&soups[i], seed, &n);
-        print_message("%-38s %llu moves, %llu refused; %llu where components meet, %llu made triangles\n",
-                      soups[i].name, (unsigned long long)n.done, (unsigned long long)n.refused,
-                      (unsigned long long)n.pinched, (unsigned long long)n.made);
+        print_message(
+            "%-38s %llu moves, %llu refused; %llu where components meet, %llu made triangles\n",
+            soups[i].name, (unsigned long long)n.done, (unsigned long long)n.refused,
+            (unsigned long long)n.pinched, (unsigned long long)n.made);
         assert_true(n.done > 50 && n.refused > 50);
     }
     twin_bare = false;
@@ -249,7 +260,8 @@ static arrays make_arrays(const double *points, uint32_t n, const uint32_t *tria
 
 static void move_to(twin *t, uint32_t v, double x, double y)
 {
-    REQUIRE(twin_apply(t, &(mw_edit){.kind = MW_EDIT_MOVE, .vertex = v, .x = x, .y = y}, true) == MW_OK);
+    REQUIRE(twin_apply(t, &(mw_edit){.kind = MW_EDIT_MOVE, .vertex = v, .x = x, .y = y}, true) ==
+            MW_OK);
     twin_check_all(t);
 }
 
@@ -275,8 +287,9 @@ static void test_pocket(void **state)
 /* Two arms that meet at vertex 0 make a ring. In its hole lies a frame, which has a hole too. */
 static arrays ring_and_frame(void)
 {
-    static const double p[] = {4,  0,   3,    2,   2.5,  1,   -3,  2,   -2,  1,   -3,   -2,  -2,   -1,  3,   -2,  2.5,
-                               -1, 2.8, -0.2, 3.2, -0.2, 3.2, 0.2, 2.8, 0.2, 2.9, -0.1, 3.1, -0.1, 3.1, 0.1, 2.9, 0.1};
+    static const double p[] = {4,   0,   3,   2,    2.5, 1,    -3,  2,    -2,  1,    -3,  -2,
+                               -2,  -1,  3,   -2,   2.5, -1,   2.8, -0.2, 3.2, -0.2, 3.2, 0.2,
+                               2.8, 0.2, 2.9, -0.1, 3.1, -0.1, 3.1, 0.1,  2.9, 0.1};
     static const uint32_t v[] = {0,  1,  2,  0,  8,  7,  1,  3,  4,  1,  4,  2, 3,  5,  6,  3,
                                  6,  4,  5,  7,  8,  5,  8,  6,  9,  10, 14, 9, 14, 13, 10, 11,
                                  15, 10, 15, 14, 11, 12, 16, 11, 16, 15, 12, 9, 13, 12, 13, 16};
@@ -327,8 +340,11 @@ static void test_corner_with_constraint(void **state)
     for (int mode = 0; mode < 2; mode++) {
         const mw_delaunay_mode delaunay = kept_or_not[mode];
         twin t;
-        mw_editor_options options = {
-            .undo = 9, .log = 1, .delaunay = delaunay, .constrained_edges = ends, .constrained_edge_count = 1};
+        mw_editor_options options = {.undo = 9,
+                                     .log = 1,
+                                     .delaunay = delaunay,
+                                     .constrained_edges = ends,
+                                     .constrained_edge_count = 1};
         edit_case.name = "corner with constraint";
         open_arrays(&t, &a, &options);
         twin then = twin_copy(&t);
@@ -347,7 +363,8 @@ static void test_corner_with_constraint(void **state)
 
 /* Whichever allocation fails, nothing has changed. Each time by another editor, whose scratch is
  * empty. */
-static void fail_move(const arrays *a, const mw_editor_options *options, uint32_t v, double x, double y)
+static void fail_move(const arrays *a, const mw_editor_options *options, uint32_t v, double x,
+                      double y)
 {
     mw_status status = MW_ERROR_MEMORY;
     long failures = -1;
@@ -375,8 +392,9 @@ static void test_memory(void **state)
         fail_move(&ring, &(mw_editor_options){.delaunay = delaunay}, 0, 2.25, 0);
         fail_move(&ring, &(mw_editor_options){.delaunay = delaunay, .undo = 9}, 3, -9, 9);
         fail_move(&halves,
-                  &(mw_editor_options){.delaunay = delaunay, .constrained_edges = ends, .constrained_edge_count = 1}, 2,
-                  0.75, 0.75);
+                  &(mw_editor_options){
+                      .delaunay = delaunay, .constrained_edges = ends, .constrained_edge_count = 1},
+                  2, 0.75, 0.75);
     }
     arrays_free(&ring);
     arrays_free(&halves);
@@ -395,24 +413,31 @@ static void expect_reason(const twin *t, uint32_t v, double x, double y, const c
 static void test_reasons(void **state)
 {
     (void)state;
-    static const double p[] = {0, 0, 3, 0, 3, 3, 2, 3, 2, 1, 1, 1, 1, 3, 0, 3, 1.25, 4, 1.8, 4, 1.5, 5};
+    static const double p[] = {0, 0, 3, 0, 3, 3,    2, 3,   2, 1,   1,
+                               1, 1, 3, 0, 3, 1.25, 4, 1.8, 4, 1.5, 5};
     static const uint32_t v[] = {0, 1, 4, 0, 4, 5, 0, 5, 7, 5, 6, 7, 1, 2, 4, 2, 3, 4, 8, 9, 10};
     arrays a = make_arrays(p, 11, v, 7);
     twin t;
     edit_case.name = "reasons";
     open_arrays(&t, &a, &(mw_editor_options){.undo = 9});
-    expect_reason(&t, 6, 1, 0.5, "vertex 6 cannot move there: triangle 3 would turn over or be flat");
+    expect_reason(&t, 6, 1, 0.5,
+                  "vertex 6 cannot move there: triangle 3 would turn over or be flat");
     expect_reason(&t, 7, 1, 5, "vertex 7 cannot move there: triangle 3 would turn over or be flat");
     expect_reason(&t, 6, 2.5, 2.75, "vertex 6 cannot move there: it would lie in triangle 5");
-    expect_reason(&t, 6, 2, 2, "vertex 6 cannot move there: it would lie on the edge from vertex 3 to 4");
+    expect_reason(&t, 6, 2, 2,
+                  "vertex 6 cannot move there: it would lie on the edge from vertex 3 to 4");
     expect_reason(&t, 6, 2, 3, "vertex 6 cannot move there: vertex 3 lies there already");
-    expect_reason(&t, 6, 2.5, 3.5,
-                  "vertex 6 cannot move there: its edge to vertex 5 would cross the edge from vertex 2 to 3");
-    expect_reason(&t, 6, 1.5, 6,
-                  "vertex 6 cannot move there: its edge to vertex 5 would cross the edge from vertex "
-                  "8 to 10");
-    expect_reason(&t, 6, 1.5, 7, "vertex 6 cannot move there: vertex 8 would lie on its edge to vertex 5");
-    expect_reason(&t, 10, 1.5, 3.5, "vertex 10 cannot move there: triangle 6 would turn over or be flat");
+    expect_reason(
+        &t, 6, 2.5, 3.5,
+        "vertex 6 cannot move there: its edge to vertex 5 would cross the edge from vertex 2 to 3");
+    expect_reason(
+        &t, 6, 1.5, 6,
+        "vertex 6 cannot move there: its edge to vertex 5 would cross the edge from vertex "
+        "8 to 10");
+    expect_reason(&t, 6, 1.5, 7,
+                  "vertex 6 cannot move there: vertex 8 would lie on its edge to vertex 5");
+    expect_reason(&t, 10, 1.5, 3.5,
+                  "vertex 10 cannot move there: triangle 6 would turn over or be flat");
     expect_reason(&t, 0, NAN, 0, "the point is not finite");
     twin_check_all(&t);
     arrays_free(&a);
@@ -431,7 +456,8 @@ static void test_cover(void **state)
     edit_case.name = "cover";
     open_arrays(&t, &a, NULL);
     assert_int_equal(mw_edit_move(t.editor, 2, 5, 40, NULL, &error), MW_ERROR_INPUT);
-    assert_non_null(strstr(error.message, "vertex 2 cannot move there: triangle 0 would cover vertex "));
+    assert_non_null(
+        strstr(error.message, "vertex 2 cannot move there: triangle 0 would cover vertex "));
     assert_int_equal(error.triangle, 0);
     assert_true(error.vertex >= 3);
     twin_check_all(&t);
@@ -455,9 +481,11 @@ static void test_compaction_keeps_the_border(void **state)
     arrays_triangle(&a, 1, 2, 4);
     arrays_triangle(&a, 0, 4, 3);
     twin_open(&t, arrays_mesh(&a, (mw_mesh_options){0}), NULL);
-    REQUIRE(twin_apply(&t, &(mw_edit){.kind = MW_EDIT_MOVE, .vertex = 4, .x = 2, .y = 4}, true) == MW_OK);
+    REQUIRE(twin_apply(&t, &(mw_edit){.kind = MW_EDIT_MOVE, .vertex = 4, .x = 2, .y = 4}, true) ==
+            MW_OK);
     twin_compact(&t);
-    REQUIRE(twin_apply(&t, &(mw_edit){.kind = MW_EDIT_INSERT, .x = 2, .y = 5}, true) == MW_ERROR_INPUT);
+    REQUIRE(twin_apply(&t, &(mw_edit){.kind = MW_EDIT_INSERT, .x = 2, .y = 5}, true) ==
+            MW_ERROR_INPUT);
     twin_check_all(&t);
     twin_close(&t);
     arrays_free(&a);

@@ -1,5 +1,6 @@
-/* test_edit_location.c - location while a mesh is edited: every walk from every start, with cursors and indices that are older than the edits,
- * answers as a locator made anew does; and what leads to a first triangle stays near. */
+/* test_edit_location.c - location while a mesh is edited: every walk from every start, with
+ * cursors and indices that are older than the edits, answers as a locator made anew does; and what
+ * leads to a first triangle stays near. */
 /* wrap: malloc calloc realloc aligned_alloc */
 #include <stdarg.h>
 #include <stddef.h>
@@ -19,28 +20,33 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* --- meshes ------------------------------------------------------------------------------------------------------------ */
+/* --- meshes ----------------------------------------------------------------------------------- */
 
 enum { UNIFORM, GRID, CIRCLE, CLUSTERS, PATCHES, HOLES, MESHES };
-static const char *const mesh_name[] = {"uniform", "grid", "circle", "clusters", "patches", "holes"};
+static const char *const mesh_name[] = {"uniform",  "grid",    "circle",
+                                        "clusters", "patches", "holes"};
 
-/* A point as those of a mesh lie, all of them about within the square from 0 to 16; a few outside. */
+/* A point as those of a mesh lie, all of them about within the square from 0 to 16; a few outside.
+ * */
 static void random_place(int kind, uint64_t *random, double p[2])
 {
     for (int k = 0; k < 2; k++) p[k] = 16 * random_unit(random);
     if (kind == GRID)
         for (int k = 0; k < 2; k++) p[k] = mw__random_below(random, 17);
     if (kind == CIRCLE) {
-        static const double on[9][2] = {{5, 0}, {3, 4}, {4, 3}, {0, 5}, {-3, 4}, {-4, 3}, {-5, 0}, {4, -3}, {-3, -4}};
+        static const double on[9][2] = {{5, 0},  {3, 4},  {4, 3},  {0, 5},  {-3, 4},
+                                        {-4, 3}, {-5, 0}, {4, -3}, {-3, -4}};
         uint32_t i = mw__random_below(random, 9), scale = 1 + mw__random_below(random, 12);
         for (int k = 0; k < 2; k++) p[k] = 8 + on[i][k] * scale / 8;
     }
     if (kind == CLUSTERS) {
         uint32_t i = mw__random_below(random, 5);
-        for (int k = 0; k < 2; k++) p[k] = 8 + 4 * cos(i * 1.3 + k) + (random_unit(random) - 0.5) * 0.01;
+        for (int k = 0; k < 2; k++)
+            p[k] = 8 + 4 * cos(i * 1.3 + k) + (random_unit(random) - 0.5) * 0.01;
     }
     if (kind == PATCHES) /* a twentieth of the square */
-        for (int k = 0; k < 2; k++) p[k] = 3.2 * mw__random_below(random, 5) + 0.7 * random_unit(random);
+        for (int k = 0; k < 2; k++)
+            p[k] = 3.2 * mw__random_below(random, 5) + 0.7 * random_unit(random);
     if (kind != HOLES && mw__random_below(random, 40) == 0)
         for (int k = 0; k < 2; k++) p[k] = 40 * random_unit(random) - 12;
 }
@@ -75,7 +81,7 @@ static mw_editor *make_editor(int kind, uint32_t n, mw_editor_options options, u
     return editor;
 }
 
-/* --- edits ------------------------------------------------------------------------------------------------------------- */
+/* --- edits ------------------------------------------------------------------------------------ */
 
 static uint32_t random_vertex(const mw_editor *editor, uint64_t *random)
 {
@@ -117,7 +123,8 @@ static mw_status move_somewhere(mw_editor *editor, int kind, uint64_t *random)
     return mw_edit_move(editor, v, p[0], p[1], NULL, NULL);
 }
 
-/* One edit of any kind; `grow` of 8 of those that insert or remove insert. Refused ones are none. */
+/* One edit of any kind; `grow` of 8 of those that insert or remove insert. Refused ones are none.
+ * */
 static bool random_edit(mw_editor *editor, int kind, uint32_t grow, uint64_t *random)
 {
     uint32_t v, w;
@@ -147,7 +154,7 @@ static bool random_edit(mw_editor *editor, int kind, uint32_t grow, uint64_t *ra
     }
 }
 
-/* --- answers ----------------------------------------------------------------------------------------------------------- */
+/* --- answers ---------------------------------------------------------------------------------- */
 
 /* What is there now, made anew. */
 typedef struct fresh {
@@ -185,19 +192,20 @@ static void free_fresh(fresh *f)
     free(f->want);
 }
 
-/* Holes keep their numbers, and the lowest triangles beside them do not: only that q lies in one is compared. */
+/* Holes keep their numbers, and the lowest triangles beside them do not: only that q lies in one
+ * is compared. */
 static void expect_same(const fresh *f, size_t i, const mw_location *got, const char *how)
 {
     const mw_location *want = &f->want[i];
     uint32_t triangle = got->triangle == MW_NONE ? MW_NONE : f->triangle[got->triangle];
-    bool same = triangle == want->triangle && got->where == want->where && got->local == want->local &&
-                (got->hole == MW_NONE) == (want->hole == MW_NONE);
+    bool same = triangle == want->triangle && got->where == want->where &&
+                got->local == want->local && (got->hole == MW_NONE) == (want->hole == MW_NONE);
     for (int k = 0; k < 3 && got->triangle != MW_NONE; k++)
         same = same && fabs(got->weight[k] - want->weight[k]) < 1e-9;
     if (!same)
-        fail_msg("%s: (%.17g, %.17g): triangle %u (%u now), where %d, local %d; not %u, %d, %d", how, f->q[2 * i],
-                 f->q[2 * i + 1], got->triangle, triangle, got->where, got->local, want->triangle, want->where,
-                 want->local);
+        fail_msg("%s: (%.17g, %.17g): triangle %u (%u now), where %d, local %d; not %u, %d, %d",
+                 how, f->q[2 * i], f->q[2 * i + 1], got->triangle, triangle, got->where, got->local,
+                 want->triangle, want->where, want->local);
 }
 
 /* Cursors that live as long as the editor, one for each walk and start. */
@@ -212,7 +220,8 @@ static void open_cursors(mw_editor *editor, const mw_index_options *kept, cursor
     memset(c->index, 0, sizeof c->index);
     for (int start = 0; start < MW_START_COUNT; start++)
         if (mw_start_has_index((mw_start_kind)start))
-            expect_ok(mw_editor_index(editor, (mw_start_kind)start, kept, &c->index[start], &error), "index", &error);
+            expect_ok(mw_editor_index(editor, (mw_start_kind)start, kept, &c->index[start], &error),
+                      "index", &error);
     for (int walk = 0; walk < MW_WALK_COUNT; walk++)
         for (int start = 0; start < MW_START_COUNT; start++)
             for (int i = 0; i < 2; i++) {
@@ -221,8 +230,9 @@ static void open_cursors(mw_editor *editor, const mw_index_options *kept, cursor
                                             .index = c->index[start],
                                             .arithmetic = (mw_arithmetic)((walk + start) % 2 && i),
                                             .counters = i};
-                expect_ok(mw_cursor_init(mw_editor_locator(editor), &options, &c->of[walk][start][i], &error), "cursor",
-                          &error);
+                expect_ok(mw_cursor_init(mw_editor_locator(editor), &options,
+                                         &c->of[walk][start][i], &error),
+                          "cursor", &error);
             }
 }
 
@@ -260,8 +270,9 @@ static void expect_batches(const mw_editor *editor, const cursors *c, const fres
                                         .index = c->index[start],
                                         .threads = 1 + (uint32_t)(walk + start) % 3,
                                         .counters = (walk + start) % 4 == 3};
-            expect_ok(mw_locate_batch(mw_editor_locator(editor), f->q, f->n, 2, &options, at, NULL, &error), how,
-                      &error);
+            expect_ok(mw_locate_batch(mw_editor_locator(editor), f->q, f->n, 2, &options, at, NULL,
+                                      &error),
+                      how, &error);
             for (size_t i = 0; i < f->n; i++) expect_same(f, i, &at[i], how);
         }
     free(at);
@@ -275,7 +286,7 @@ static void expect_answers(const mw_editor *editor, cursors *c, size_t n, uint64
     free_fresh(&f);
 }
 
-/* --- tests ------------------------------------------------------------------------------------------------------------- */
+/* --- tests ------------------------------------------------------------------------------------ */
 
 typedef struct location_session {
     uint32_t vertices, rounds, edits;
@@ -289,12 +300,14 @@ static void expect_numbers(const mw_editor *editor, int kind, uint64_t *random)
     const mw_locator *locator = &editor->locator;
     const mw_tiling *tiling = &locator->tiling;
     for (uint32_t t = 0; t < tiling->tri_count; t++)
-        if (!(tiling->tri[t].user & MW_GHOST)) assert_int_equal(tiling->tile_of[tiling->tri[t].user & MW_USER_MASK], t);
+        if (!(tiling->tri[t].user & MW_GHOST))
+            assert_int_equal(tiling->tile_of[tiling->tri[t].user & MW_USER_MASK], t);
     for (int i = 0; i < 20; i++) {
         double q[2];
         random_place(kind, random, q);
         const mw_point p = {q[0], q[1]};
-        assert_int_equal(mw__index_tile(tiling, &locator->guide, p), mw__index_tile_ahead(tiling, &locator->guide, p));
+        assert_int_equal(mw__index_tile(tiling, &locator->guide, p),
+                         mw__index_tile_ahead(tiling, &locator->guide, p));
     }
 }
 
@@ -326,11 +339,12 @@ static void test_sessions(void **state)
     static const uint32_t vertices[] = {4, 12, 100, 400}, edits[] = {1, 10, 100};
     for (int kind = 0; kind < MESHES; kind++)
         for (int i = 0; i < 6; i++) {
-            location_session s = {.vertices = vertices[i % 4],
-                                  .rounds = 12,
-                                  .edits = edits[i % 3],
-                                  .options = {.delaunay = (mw_delaunay_mode)(i % 3), .undo = i % 2 ? SIZE_MAX : 5},
-                                  .kept = {.ratio = i % 2 ? 0.4 : 0, .layers = i % 2 ? 4 : 0}};
+            location_session s = {
+                .vertices = vertices[i % 4],
+                .rounds = 12,
+                .edits = edits[i % 3],
+                .options = {.delaunay = (mw_delaunay_mode)(i % 3), .undo = i % 2 ? SIZE_MAX : 5},
+                .kept = {.ratio = i % 2 ? 0.4 : 0, .layers = i % 2 ? 4 : 0}};
             printf("%s, session %d\n", mesh_name[kind], i);
             run_session(kind, &s, &random);
         }
@@ -340,7 +354,8 @@ static void test_sessions(void **state)
 static void check_layer(const mw_live_layers *live, uint32_t i)
 {
     const mw_layer *layer = &live->layers->layer[i];
-    const mw_tiling *tiling = &layer->tiling, *beneath = i ? &live->layers->layer[i - 1].tiling : live->mesh->tiling;
+    const mw_tiling *tiling = &layer->tiling,
+                    *beneath = i ? &live->layers->layer[i - 1].tiling : live->mesh->tiling;
     const mw_point *p = tiling->point;
     for (uint32_t t = 0; t < tiling->tri_count; t++) {
         const mw_triangle *tile = &tiling->tri[t];
@@ -366,7 +381,8 @@ static void check_layer(const mw_live_layers *live, uint32_t i)
     assert_int_equal(there, tiling->point_count - layer->vacant);
 }
 
-/* Layers follow insertions, removals, moves, and what takes these back; some are given up or built anew on the way. */
+/* Layers follow insertions, removals, moves, and what takes these back; some are given up or built
+ * anew on the way. */
 static void test_layers_follow(void **state)
 {
     (void)state;
@@ -374,7 +390,8 @@ static void test_layers_follow(void **state)
     printf("seed %llu\n", (unsigned long long)seed);
     for (int kind = 0; kind < MESHES; kind++)
         for (int size = 0; size < 2; size++) {
-            mw_editor *editor = make_editor(kind, size ? 500 : 20, (mw_editor_options){.undo = 50}, &random);
+            mw_editor *editor =
+                make_editor(kind, size ? 500 : 20, (mw_editor_options){.undo = 50}, &random);
             const mw_index *index;
             mw_index_options kept = {.ratio = 0.3, .layers = 5};
             assert_int_equal(mw_editor_index(editor, MW_START_LAYERS, &kept, &index, NULL), MW_OK);
@@ -398,7 +415,8 @@ static void test_layers_follow(void **state)
     printf("%llu layers checked\n", (unsigned long long)checked);
 }
 
-/* Where memory fails in the middle of edits, they fail or not; what is kept up is kept or stays behind; answers are right. */
+/* Where memory fails in the middle of edits, they fail or not; what is kept up is kept or stays
+ * behind; answers are right. */
 static void test_memory(void **state)
 {
     (void)state;
@@ -415,7 +433,8 @@ static void test_memory(void **state)
                 if (i % 20 == 7) mw_editor_compact(editor, NULL, NULL, NULL);
                 mw_start_kind start = round % 2 ? MW_START_LAYERS : MW_START_TWO_LEVEL_GRID;
                 const mw_index *index = c->index[start];
-                if (i % 20 == 13 && mw_editor_index(editor, start, NULL, &index, NULL)) index = c->index[start];
+                if (i % 20 == 13 && mw_editor_index(editor, start, NULL, &index, NULL))
+                    index = c->index[start];
                 allocations_left = -1;
                 assert_ptr_equal(index, c->index[start]);
             }
@@ -441,8 +460,9 @@ static void insert_within(mw_editor *editor, double x, double y, double side, ui
     assert_int_equal(mw_edit_insert(editor, x, y, NULL, NULL), MW_OK);
 }
 
-/* A cursor stays in a corner of the mesh. Its triangle goes by removals round about, by insertions that are undone, by flips; far away much
- * happens, so that tiles move to other slots. It begins where its triangle was. */
+/* A cursor stays in a corner of the mesh. Its triangle goes by removals round about, by insertions
+ * that are undone, by flips; far away much happens, so that tiles move to other slots. It begins
+ * where its triangle was. */
 static void test_cursors_recover(void **state)
 {
     (void)state;
@@ -466,7 +486,8 @@ static void test_cursors_recover(void **state)
         int steps = round % 7;
         for (int i = 0; i < steps && mw_editor_triangle(editor, gone, v); i++)
             assert_int_equal(mw_edit_remove(editor, v[i % 3], NULL, NULL), MW_OK);
-        for (int i = 0; i < 5 && round % 2 == 0; i++) insert_within(editor, q[0], q[1], 0.1, &random);
+        for (int i = 0; i < 5 && round % 2 == 0; i++)
+            insert_within(editor, q[0], q[1], 0.1, &random);
         for (int i = 0; i < 20; i++) {
             insert_within(editor, 8, 1, 7, &random);
             mw_edit_remove(editor, random_vertex(editor, &random), NULL, NULL);
@@ -476,8 +497,10 @@ static void test_cursors_recover(void **state)
             visits(editor, &cursor, q); /* ends in a triangle that is made, then taken back */
             assert_int_equal(mw_edit_undo(editor, NULL, NULL), MW_OK);
         }
-        if (round % 5 == 0) { /* the same by a vertex that comes from anywhere, and goes back there */
-            assert_int_equal(mw_edit_move(editor, random_vertex(editor, &random), q[0] + 1e-3, q[1] + 1e-3, NULL, NULL),
+        if (round % 5 ==
+            0) { /* the same by a vertex that comes from anywhere, and goes back there */
+            assert_int_equal(mw_edit_move(editor, random_vertex(editor, &random), q[0] + 1e-3,
+                                          q[1] + 1e-3, NULL, NULL),
                              MW_OK);
             visits(editor, &cursor, q);
             assert_int_equal(mw_edit_undo(editor, NULL, NULL), MW_OK);
@@ -505,25 +528,32 @@ static double *queries_at(const mw_editor *editor, uint64_t *random)
     return q;
 }
 
-/* Triangles visited from each start, on average, those of layers too. From that of auto it is the guide. */
-static void measure(const mw_editor *editor, const mw_index *const *index, const double *q, double mean[MW_START_COUNT])
+/* Triangles visited from each start, on average, those of layers too. From that of auto it is the
+ * guide. */
+static void measure(const mw_editor *editor, const mw_index *const *index, const double *q,
+                    double mean[MW_START_COUNT])
 {
     mw_location *at = malloc(QUERIES * sizeof *at);
     for (int start = 0; start < MW_START_COUNT; start++) {
-        mw_query_options options = {
-            .walk = MW_WALK_REMEMBERING, .start = (mw_start_kind)start, .index = index[start], .counters = 1};
+        mw_query_options options = {.walk = MW_WALK_REMEMBERING,
+                                    .start = (mw_start_kind)start,
+                                    .index = index[start],
+                                    .counters = 1};
         mw_counters counters;
         mw_error error;
-        expect_ok(mw_locate_batch(mw_editor_locator(editor), q, QUERIES, 2, &options, at, &counters, &error), "batch",
-                  &error);
+        expect_ok(mw_locate_batch(mw_editor_locator(editor), q, QUERIES, 2, &options, at, &counters,
+                                  &error),
+                  "batch", &error);
         mean[start] = (double)counters.triangles_visited / (double)counters.queries;
     }
     free(at);
 }
 
-/* Beside indices built anew, of those that follow edits: a quarter and one triangle more is what growth to nearly twice as many vertices makes. From the guide it may be `guide` times
- * as many and one: it bears more. */
-static void expect_near(mw_editor *editor, const mw_index *const *index, double guide, uint64_t *random)
+/* Beside indices built anew, of those that follow edits: a quarter and one triangle more is what
+ * growth to nearly twice as many vertices makes. From the guide it may be `guide` times as many
+ * and one: it bears more. */
+static void expect_near(mw_editor *editor, const mw_index *const *index, double guide,
+                        uint64_t *random)
 {
     double *q = queries_at(editor, random), kept[MW_START_COUNT], anew[MW_START_COUNT];
     measure(editor, index, q, kept);
@@ -532,9 +562,12 @@ static void expect_near(mw_editor *editor, const mw_index *const *index, double 
     free(q);
     for (int start = 0; start < MW_START_COUNT; start++) {
         if (start != MW_START_SAMPLE && start != MW_START_AUTO && !index[start]) continue;
-        printf("  %s %.2f, anew %.2f", mw_start_name((mw_start_kind)start), kept[start], anew[start]);
+        printf("  %s %.2f, anew %.2f", mw_start_name((mw_start_kind)start), kept[start],
+               anew[start]);
         if (start == MW_START_CURVE || start == MW_START_SAMPLE) continue;
-        if (start == MW_START_BUCKETS || start == MW_START_TRIANGLE_BUCKETS || start == MW_START_KD_TREE) continue;
+        if (start == MW_START_BUCKETS || start == MW_START_TRIANGLE_BUCKETS ||
+            start == MW_START_KD_TREE)
+            continue;
         if (kept[start] > (start == MW_START_AUTO ? guide : 1.25) * anew[start] + 1)
             fail_msg("%s leads too far", mw_start_name((mw_start_kind)start));
     }
@@ -585,24 +618,29 @@ static void test_kept_near(void **state)
     uint64_t seed = 704, random = seed;
     printf("seed %llu\n", (unsigned long long)seed);
     static editing *const ways[] = {steady, growing, shrinking, moving, undoing, inserting};
-    static const char *const names[] = {"steady", "growing", "shrinking", "moving", "undoing", "inserting"};
+    static const char *const names[] = {"steady", "growing", "shrinking",
+                                        "moving", "undoing", "inserting"};
     for (int way = 0; way < 6; way++) {
-        mw_editor *editor = make_editor(UNIFORM, VERTICES, (mw_editor_options){.undo = 10}, &random);
+        mw_editor *editor =
+            make_editor(UNIFORM, VERTICES, (mw_editor_options){.undo = 10}, &random);
         const mw_index *index[MW_START_COUNT] = {NULL};
         mw_error error;
         for (int start = 0; start < MW_START_COUNT; start++)
             if (mw_start_has_index((mw_start_kind)start))
-                expect_ok(mw_editor_index(editor, (mw_start_kind)start, NULL, &index[start], &error), "index", &error);
+                expect_ok(
+                    mw_editor_index(editor, (mw_start_kind)start, NULL, &index[start], &error),
+                    "index", &error);
         for (int i = 0; i < EDITS; i++) ways[way](editor, UNIFORM, &random);
         mw_editor_info info;
         mw_editor_describe(editor, &info);
-        printf("%s, %u vertices, %llu refreshes:\n", names[way], info.vertices, (unsigned long long)info.refreshes);
+        printf("%s, %u vertices, %llu refreshes:\n", names[way], info.vertices,
+               (unsigned long long)info.refreshes);
         expect_near(editor, index, ways[way] == inserting ? 2 : 1.25, &random);
         mw_editor_destroy(editor);
     }
 }
 
-/* --- what the guide is ---------------------------------------------------------------------------------------------------- */
+/* --- what the guide is ------------------------------------------------------------------------ */
 
 /* None of whose vertices lies outside of the square. */
 static mw_mesh *make_square(int kind, uint32_t n, uint64_t *random)
@@ -618,8 +656,9 @@ static mw_mesh *make_square(int kind, uint32_t n, uint64_t *random)
     return mesh;
 }
 
-/* A grid, of finer cells where most of them would be empty; where vertices are more crowded than that one of two levels. Where memory fails while it is
- * made there is no editor, or its cells stay as they are. */
+/* A grid, of finer cells where most of them would be empty; where vertices are more crowded than
+ * that one of two levels. Where memory fails while it is made there is no editor, or its cells
+ * stay as they are. */
 static void test_guides(void **state)
 {
     (void)state;
@@ -628,7 +667,8 @@ static void test_guides(void **state)
     static const struct {
         int kind;
         mw_start_kind start;
-    } expected[] = {{UNIFORM, MW_START_GRID}, {PATCHES, MW_START_GRID}, {CLUSTERS, MW_START_TWO_LEVEL_GRID}};
+    } expected[] = {
+        {UNIFORM, MW_START_GRID}, {PATCHES, MW_START_GRID}, {CLUSTERS, MW_START_TWO_LEVEL_GRID}};
     for (size_t i = 0; i < sizeof expected / sizeof *expected; i++) {
         mw_mesh *mesh = make_square(expected[i].kind, VERTICES, &random);
         mw_editor *editor = NULL;
@@ -643,7 +683,8 @@ static void test_guides(void **state)
             if (!editor) made--;
         }
         assert_true(failures > 10);
-        assert_int_equal(made, expected[i].kind == PATCHES ? 3 : 1); /* without finer cells, for want of two arrays */
+        /* without finer cells, for want of two arrays */
+        assert_int_equal(made, expected[i].kind == PATCHES ? 3 : 1);
         const mw_index *guide = &editor->locator.guide;
         assert_int_equal(guide->start, expected[i].start);
         if (guide->start == MW_START_GRID) {
@@ -660,8 +701,9 @@ static void test_guides(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_sessions),        cmocka_unit_test(test_layers_follow), cmocka_unit_test(test_memory),
-        cmocka_unit_test(test_cursors_recover), cmocka_unit_test(test_kept_near),     cmocka_unit_test(test_guides),
+        cmocka_unit_test(test_sessions),  cmocka_unit_test(test_layers_follow),
+        cmocka_unit_test(test_memory),    cmocka_unit_test(test_cursors_recover),
+        cmocka_unit_test(test_kept_near), cmocka_unit_test(test_guides),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

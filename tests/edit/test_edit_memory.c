@@ -1,5 +1,5 @@
-/* test_edit_memory.c - every allocation of an editor fails once: the call says so, nothing has changed, and the same call
- * succeeds afterwards. */
+/* test_edit_memory.c - every allocation of an editor fails once: the call says so, nothing has
+ * changed, and the same call succeeds afterwards. */
 /* wrap: malloc calloc realloc aligned_alloc */
 #include <stdarg.h>
 #include <stddef.h>
@@ -18,7 +18,7 @@
 #include "support/allocations.h"
 #include "support/meshes.h"
 
-/* --- calls that fail as often as they allocate ------------------------------------------------------------------------------ */
+/* --- calls that fail as often as they allocate ------------------------------------------------ */
 
 typedef struct editor_call {
     twin *t;
@@ -55,7 +55,8 @@ static mw_status edit_job(editor_call *c, mw_error *error)
     return mw_edit_apply(c->t->editor, c->edit, &c->change, error);
 }
 
-/* The same by an editor that keeps nothing of its edits, of which nobody asks what they changed. `before`: what it should hold. */
+/* The same by an editor that keeps nothing of its edits, of which nobody asks what they changed.
+ * `before`: what it should hold. */
 static mw_status edit_plainly(mw_editor *plain, const twin *before, const mw_edit *edit)
 {
     for (long k = 0;; k++) {
@@ -114,7 +115,7 @@ static mw_status constraints_job(editor_call *c, mw_error *error)
     return MW_OK;
 }
 
-/* --- sessions ------------------------------------------------------------------------------------------------------------------ */
+/* --- sessions --------------------------------------------------------------------------------- */
 
 static mw_mesh *square_mesh(bool hole)
 {
@@ -122,7 +123,8 @@ static mw_mesh *square_mesh(bool hole)
     arrays a = arrays_grid(4, 0, &random);
     uint32_t kept = 0;
     for (uint32_t i = 0; i < a.triangle_count; i++)
-        if (!hole || i / 2 != 5) memmove(a.triangles + 3 * (size_t)kept++, a.triangles + 3 * (size_t)i, 12);
+        if (!hole || i / 2 != 5)
+            memmove(a.triangles + 3 * (size_t)kept++, a.triangles + 3 * (size_t)i, 12);
     a.triangle_count = kept;
     mw_mesh *mesh = arrays_mesh(&a, (mw_mesh_options){0});
     arrays_free(&a);
@@ -161,7 +163,8 @@ static void run_session(bool hole, bool indexed, uint64_t seed)
     twin_open(&t, square_mesh(hole), &options);
     editor_call c = {.t = &t, .options = &options};
     mw_editor *plain;
-    REQUIRE(mw_editor_create(t.first, &(mw_editor_options){.delaunay = MW_DELAUNAY_MAKE}, &plain, NULL) == MW_OK);
+    REQUIRE(mw_editor_create(t.first, &(mw_editor_options){.delaunay = MW_DELAUNAY_MAKE}, &plain,
+                             NULL) == MW_OK);
     if (indexed) assert_int_equal(exhaust(index_job, &c), MW_OK);
     twin_cursors_open(&r, &t, indexed, seed);
     for (edit_case.step = 0; edit_case.step < STEPS; edit_case.step++) {
@@ -200,7 +203,8 @@ static void test_sessions(void **state)
     for (uint64_t seed = 1; seed <= 6; seed++) {
         failures_seen = 0;
         run_session(seed % 2, seed > 2, seed);
-        print_message("seed %llu: %ld allocations failed\n", (unsigned long long)seed, failures_seen);
+        print_message("seed %llu: %ld allocations failed\n", (unsigned long long)seed,
+                      failures_seen);
         assert_true(failures_seen > 50);
     }
 }
@@ -210,7 +214,8 @@ static void test_create(void **state)
     (void)state;
     const uint32_t edges[] = {0, 1, 1, 2};
     for (int i = 0; i < 8; i++) {
-        mw_editor_options options = {.delaunay = i % 4 / 2 ? MW_DELAUNAY_MAKE : MW_DELAUNAY_AUTO, .log = 1, .undo = 4};
+        mw_editor_options options = {
+            .delaunay = i % 4 / 2 ? MW_DELAUNAY_MAKE : MW_DELAUNAY_AUTO, .log = 1, .undo = 4};
         if (i >= 4) options.constrained_edges = edges, options.constrained_edge_count = 2;
         editor_call c = {.mesh = square_mesh(i % 2), .options = &options};
         twin_set_fields(c.mesh);
@@ -234,10 +239,12 @@ static mw_edit halve_any(const mw_editor *editor, uint64_t *random)
     uint32_t k = mw__random_below(random, 3);
     mw_editor_vertex(editor, v[k], a);
     mw_editor_vertex(editor, v[(k + 1) % 3], b);
-    return (mw_edit){.kind = MW_EDIT_INSERT, .x = (a[0] + b[0]) / 2, .y = (a[1] + b[1]) / 2, .value = NAN};
+    return (mw_edit){
+        .kind = MW_EDIT_INSERT, .x = (a[0] + b[0]) / 2, .y = (a[1] + b[1]) / 2, .value = NAN};
 }
 
-/* A point on an edge changes tiles on either side: where there is no room for those of the second, the first have to be put back. */
+/* A point on an edge changes tiles on either side: where there is no room for those of the second,
+ * the first have to be put back. */
 static void test_halves(void **state)
 {
     (void)state;
@@ -249,7 +256,8 @@ static void test_halves(void **state)
         edit_case.name = "halves";
         failures_seen = 0;
         twin_open(&t, square_mesh(seed % 2), &options);
-        REQUIRE(mw_editor_create(t.first, &(mw_editor_options){.delaunay = MW_DELAUNAY_MAKE}, &plain, NULL) == MW_OK);
+        REQUIRE(mw_editor_create(t.first, &(mw_editor_options){.delaunay = MW_DELAUNAY_MAKE},
+                                 &plain, NULL) == MW_OK);
         for (edit_case.step = 0; edit_case.step < 300; edit_case.step++) {
             mw_edit e = edit_case.edit = halve_any(t.editor, &random);
             REQUIRE(edit_plainly(plain, &t, &e) == MW_OK);
@@ -261,13 +269,16 @@ static void test_halves(void **state)
     }
 }
 
-/* A value is written when nothing can fail any more: the first report of an editor has to be allocated. */
+/* A value is written when nothing can fail any more: the first report of an editor has to be
+ * allocated. */
 static void test_value(void **state)
 {
     (void)state;
     const double square[] = {0, 0, 8, 0, 8, 8, 0, 8}, values[] = {1, 2, 3, 4};
-    mw_arrays given = {
-        .points = square, .point_count = 4, .triangles = (uint32_t[]){0, 1, 2, 0, 2, 3}, .triangle_count = 2};
+    mw_arrays given = {.points = square,
+                       .point_count = 4,
+                       .triangles = (uint32_t[]){0, 1, 2, 0, 2, 3},
+                       .triangle_count = 2};
     mw_mesh *mesh;
     mw_editor *editor;
     REQUIRE(mw_mesh_create(&given, NULL, &mesh, NULL) == MW_OK);

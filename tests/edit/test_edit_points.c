@@ -1,5 +1,6 @@
-/* test_edit_points.c - many points at once: mesh, numbers, values, report, undo and log are held against insertions one by one in the
- * order that the log tells, and against a comparison of all that was there before and after. MW_TEST_SEED=n: other points. */
+/* test_edit_points.c - many points at once: mesh, numbers, values, report, undo and log are held
+ * against insertions one by one in the order that the log tells, and against a comparison of all
+ * that was there before and after. MW_TEST_SEED=n: other points. */
 /* wrap: malloc calloc realloc aligned_alloc */
 #include <stdarg.h>
 #include <stddef.h>
@@ -21,7 +22,7 @@
 #include "support/environment.h"
 #include "support/meshes.h"
 
-/* --- points in a square of 16 ------------------------------------------------------------------------------------------------ */
+/* --- points in a square of 16 ----------------------------------------------------------------- */
 
 static void uniform(uint64_t *random, double *q)
 {
@@ -37,7 +38,8 @@ static void lattice(uint64_t *random, double *q)
 static void cocircular(uint64_t *random, double *q)
 {
     static const double leg[5][2] = {{16, 63}, {25, 60}, {33, 56}, {39, 52}, {65, 0}};
-    const double *l = leg[mw__random_below(random, 5)], size = (1 + mw__random_below(random, 4)) / 64.0;
+    const double *l = leg[mw__random_below(random, 5)],
+                 size = (1 + mw__random_below(random, 4)) / 64.0;
     uint32_t turn = mw__random_below(random, 8);
     for (int k = 0; k < 2; k++) {
         double away = l[(turn & 1) ^ (unsigned)k] * size;
@@ -81,7 +83,7 @@ static void subnormal(uint64_t *random, double *q)
     for (int k = 0; k < 2; k++) q[k] = mw__random_below(random, 60) * 0x1p-1074;
 }
 
-/* --- sessions ------------------------------------------------------------------------------------------------------------------ */
+/* --- sessions --------------------------------------------------------------------------------- */
 
 typedef struct points_session {
     const char *name;
@@ -138,7 +140,7 @@ static uint32_t *some_edges(const mw_mesh *mesh, size_t *count)
     return edge;
 }
 
-/* --- points -------------------------------------------------------------------------------------------------------------------- */
+/* --- points ----------------------------------------------------------------------------------- */
 
 typedef struct points {
     double *at;
@@ -179,7 +181,8 @@ static void line_up(points *p, size_t step)
 }
 
 /* Some of which are where others or vertices are. */
-static points make_points(const points_session *s, const twin *t, size_t n, bool along, uint64_t *random)
+static points make_points(const points_session *s, const twin *t, size_t n, bool along,
+                          uint64_t *random)
 {
     static const size_t strides[] = {0, 2, 3, 5};
     points p = {.n = n, .stride = strides[mw__random_below(random, 4)], .along = along};
@@ -187,12 +190,14 @@ static points make_points(const points_session *s, const twin *t, size_t n, bool
     p.at = require_room(n * step, sizeof *p.at);
     for (size_t i = 0; i < n; i++) {
         double *q = p.at + i * step;
-        uint32_t chance = mw__random_below(random, 12), v = mw__random_below(random, t->vertex_range);
+        uint32_t chance = mw__random_below(random, 12),
+                 v = mw__random_below(random, t->vertex_range);
         do {
             s->draw_point(random, q);
             if (chance == 0 && t->state[v] == TWIN_USED) memcpy(q, twin_point(t, v), 2 * sizeof *q);
             if (chance == 1 && i > 0)
-                memcpy(q, p.at + (size_t)mw__random_below(random, (uint32_t)i) * step, 2 * sizeof *q);
+                memcpy(q, p.at + (size_t)mw__random_below(random, (uint32_t)i) * step,
+                       2 * sizeof *q);
             for (size_t k = 2; k < step; k++) q[k] = NAN;
         } while (!t->convex && twin_locate(t, q).triangle == MW_NONE);
     }
@@ -200,7 +205,8 @@ static points make_points(const points_session *s, const twin *t, size_t n, bool
     return p;
 }
 
-/* The order in which they were inserted, by the log: all of them, and as they came where they come along a curve. */
+/* The order in which they were inserted, by the log: all of them, and as they came where they come
+ * along a curve. */
 static void check_log(const twin *t, const points *p, size_t before)
 {
     size_t count;
@@ -222,7 +228,7 @@ static void check_log(const twin *t, const points *p, size_t before)
     free(two);
 }
 
-/* --- what changed: all triangles before and after ---------------------------------------------------------------------------- */
+/* --- what changed: all triangles before and after --------------------------------------------- */
 
 /* Take over what the editor holds now, and hold the report against it. */
 static void take_over_all(twin *t, const mw_change *change)
@@ -231,7 +237,8 @@ static void take_over_all(twin *t, const mw_change *change)
     mw_editor_describe(t->editor, &info);
     static const mw_changed_triangle none;
     const mw_changed_triangle *list = change->triangle ? change->triangle : &none;
-    const mw_changed_triangle *c[3] = {list, list + change->made, list + change->made + change->reused};
+    const mw_changed_triangle *c[3] = {list, list + change->made,
+                                       list + change->made + change->reused};
     size_t n[3] = {0};
     uint32_t was_vertices = t->vertex_range, was_triangles = t->triangle_range;
     twin_grow(t, info.vertex_range, info.triangle_range);
@@ -243,7 +250,9 @@ static void take_over_all(twin *t, const mw_change *change)
         t->triangles += there != 0;
         if (memcmp(now, mine, sizeof now) == 0) continue;
         int which = mine[0] == MW_NONE ? 0 : there ? 1 : 2;
-        REQUIRE(n[which] < (which == 0 ? change->made : which == 1 ? change->reused : change->freed));
+        REQUIRE(n[which] < (which == 0   ? change->made
+                            : which == 1 ? change->reused
+                                         : change->freed));
         REQUIRE(c[which][n[which]].triangle == k);
         REQUIRE(memcmp(c[which][n[which]++].before, mine, sizeof now) == 0);
         memcpy(mine, now, sizeof now);
@@ -259,7 +268,9 @@ static void take_over_all(twin *t, const mw_change *change)
         if (there != was) REQUIRE(v - first == made + freed);
         made += there && !was;
         freed += was && !there;
-        t->state[v] = !there ? TWIN_GONE : mw_editor_triangle_of(t->editor, v) == MW_NONE ? TWIN_ALONE : TWIN_USED;
+        t->state[v] = !there                                           ? TWIN_GONE
+                      : mw_editor_triangle_of(t->editor, v) == MW_NONE ? TWIN_ALONE
+                                                                       : TWIN_USED;
         if (!there || was) continue;
         twin_read_vertex(t, v);
         twin_split_fixed(t, v);
@@ -271,7 +282,7 @@ static void take_over_all(twin *t, const mw_change *change)
     for (int i = 0; i < 6; i++) REQUIRE(change->reserved[i] == 0);
 }
 
-/* --- a batch --------------------------------------------------------------------------------------------------------------------- */
+/* --- a batch ---------------------------------------------------------------------------------- */
 
 static size_t log_length(const twin *t)
 {
@@ -296,7 +307,8 @@ static void insert_all(twin *t, const points *p, uint32_t *vertices)
     uint32_t range = t->vertex_range;
     memset(&change, 77, sizeof change);
     vertices[p->n] = 4711;
-    expect_ok(mw_edit_insert_points(t->editor, p->at, p->n, p->stride, vertices, &change, &error), "points", &error);
+    expect_ok(mw_edit_insert_points(t->editor, p->at, p->n, p->stride, vertices, &change, &error),
+              "points", &error);
     REQUIRE(vertices[p->n] == 4711);
     take_over_all(t, &change);
     REQUIRE(change.freed == 0 && change.vertices_freed == 0);
@@ -332,13 +344,15 @@ static void ask_some(const points_session *s, const twin *t, twin_cursors *r, ui
         size_t n = mw_editor_adjacent_vertices(t->editor, v, around, 8);
         s->draw_point(random, q);
         for (int k = 0; k < 2 && n > 0 && i % 3 < 2; k++)
-            q[k] =
-                i % 3 ? twin_point(t, v)[k] : twin_point(t, v)[k] / 2 + twin_point(t, around[n < 8 ? n - 1 : 7])[k] / 2;
+            q[k] = i % 3
+                       ? twin_point(t, v)[k]
+                       : twin_point(t, v)[k] / 2 + twin_point(t, around[n < 8 ? n - 1 : 7])[k] / 2;
         twin_cursors_check(r, t, q, twin_locate(t, q));
     }
 }
 
-/* Vertices come and go between the points, also in the editor that keeps nothing, if there is one. */
+/* Vertices come and go between the points, also in the editor that keeps nothing, if there is one.
+ * */
 static void mix(const points_session *s, twin *t, mw_editor *plain, uint64_t *random)
 {
     for (int i = 0; i < 12; i++) {
@@ -354,12 +368,15 @@ static void mix(const points_session *s, twin *t, mw_editor *plain, uint64_t *ra
     }
 }
 
-/* An editor that keeps nothing of its edits, and of which nobody asks what they changed, comes to the same. `t`: after the points. */
-static void insert_plainly(mw_editor *plain, const twin *t, const points *p, const uint32_t *vertices)
+/* An editor that keeps nothing of its edits, and of which nobody asks what they changed, comes to
+ * the same. `t`: after the points. */
+static void insert_plainly(mw_editor *plain, const twin *t, const points *p,
+                           const uint32_t *vertices)
 {
     uint32_t *own = require_room(p->n, sizeof *own);
     mw_error error = {0};
-    expect_ok(mw_edit_insert_points(plain, p->at, p->n, p->stride, own, NULL, &error), "plainly", &error);
+    expect_ok(mw_edit_insert_points(plain, p->at, p->n, p->stride, own, NULL, &error), "plainly",
+              &error);
     for (size_t i = 0; i < p->n; i++) REQUIRE(own[i] == vertices[i]);
     twin held = *t;
     held.editor = plain;
@@ -367,12 +384,14 @@ static void insert_plainly(mw_editor *plain, const twin *t, const points *p, con
     free(own);
 }
 
-/* Insert, take back, insert again: the same numbers. The twin then is as it was, or with the points. */
-static void try_points(const points_session *s, twin *t, mw_editor *plain, twin_cursors *r, const points *p,
-                       uint64_t *random)
+/* Insert, take back, insert again: the same numbers. The twin then is as it was, or with the
+ * points. */
+static void try_points(const points_session *s, twin *t, mw_editor *plain, twin_cursors *r,
+                       const points *p, uint64_t *random)
 {
     twin then = twin_copy(t);
-    uint32_t *vertices = require_room(p->n + 1, sizeof *vertices), *again = require_room(p->n + 1, sizeof *again);
+    uint32_t *vertices = require_room(p->n + 1, sizeof *vertices),
+             *again = require_room(p->n + 1, sizeof *again);
     size_t logged = log_length(t);
     insert_all(t, p, vertices);
     twin_check_all(t);
@@ -429,8 +448,9 @@ static void run_session(const points_session *s, uint64_t seed)
     twin_check_all(&t);
     mw_editor_info info;
     mw_editor_describe(t.editor, &info);
-    print_message("%-40s seed %llu: %u vertices, %zu constraints, %llu refreshes\n", s->name, (unsigned long long)seed,
-                  t.vertices, t.fixed_count, (unsigned long long)info.refreshes);
+    print_message("%-40s seed %llu: %u vertices, %zu constraints, %llu refreshes\n", s->name,
+                  (unsigned long long)seed, t.vertices, t.fixed_count,
+                  (unsigned long long)info.refreshes);
     mw_editor_destroy(plain);
     twin_close(&t);
     free(edges);
@@ -446,10 +466,11 @@ static void test_sessions(void **state)
     twin_bare = false;
 }
 
-/* --- refused --------------------------------------------------------------------------------------------------------------------- */
+/* --- refused ---------------------------------------------------------------------------------- */
 
 /* One point of many is bad: it is named, and nothing has changed. */
-static void refuse(const points_session *s, twin *t, twin_cursors *r, double x, double y, size_t n, uint64_t *random)
+static void refuse(const points_session *s, twin *t, twin_cursors *r, double x, double y, size_t n,
+                   uint64_t *random)
 {
     points p = make_points(s, t, n, false, random);
     size_t bad = mw__random_below(random, (uint32_t)n), named = 0, logged = log_length(t);
@@ -460,8 +481,10 @@ static void refuse(const points_session *s, twin *t, twin_cursors *r, double x, 
     mw_error error = {0};
     q[0] = x;
     q[1] = y;
-    REQUIRE(mw_edit_insert_points(t->editor, p.at, n, p.stride, vertices, &change, &error) == MW_ERROR_INPUT);
-    REQUIRE(error.status == MW_ERROR_INPUT && sscanf(error.message, "point %zu: ", &named) == 1 && named == bad);
+    REQUIRE(mw_edit_insert_points(t->editor, p.at, n, p.stride, vertices, &change, &error) ==
+            MW_ERROR_INPUT);
+    REQUIRE(error.status == MW_ERROR_INPUT && sscanf(error.message, "point %zu: ", &named) == 1 &&
+            named == bad);
     REQUIRE(log_length(t) == logged && edits_of(t) == edits);
     twin_check_all(t);
     ask_some(s, t, r, random);
@@ -474,8 +497,8 @@ static void test_refused(void **state)
 {
     (void)state;
     for (int hole = 0; hole < 2; hole++) {
-        points_session s = {"refused", hole ? lattice : uniform, hole ? MW_DELAUNAY_MAKE : MW_DELAUNAY_AUTO, false,
-                            hole};
+        points_session s = {"refused", hole ? lattice : uniform,
+                            hole ? MW_DELAUNAY_MAKE : MW_DELAUNAY_AUTO, false, hole};
         uint64_t random = mw__random_seed(environment_seed(1), 5);
         mw_editor_options options = {.undo = SIZE_MAX, .log = 1, .delaunay = s.delaunay};
         twin t;
@@ -506,10 +529,14 @@ static void test_arguments(void **state)
     mw_editor *editor;
     mw_change change;
     mw_error error;
-    expect_ok(mw_editor_create(mesh, &(mw_editor_options){.undo = 2}, &editor, &error), "editor", &error);
-    assert_int_equal(mw_edit_insert_points(NULL, square, 4, 2, NULL, NULL, &error), MW_ERROR_ARGUMENT);
-    assert_int_equal(mw_edit_insert_points(editor, NULL, 4, 2, NULL, NULL, &error), MW_ERROR_ARGUMENT);
-    assert_int_equal(mw_edit_insert_points(editor, square, 4, 1, NULL, NULL, &error), MW_ERROR_ARGUMENT);
+    expect_ok(mw_editor_create(mesh, &(mw_editor_options){.undo = 2}, &editor, &error), "editor",
+              &error);
+    assert_int_equal(mw_edit_insert_points(NULL, square, 4, 2, NULL, NULL, &error),
+                     MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_edit_insert_points(editor, NULL, 4, 2, NULL, NULL, &error),
+                     MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_edit_insert_points(editor, square, 4, 1, NULL, NULL, &error),
+                     MW_ERROR_ARGUMENT);
     assert_int_equal(mw_edit_insert_points(editor, NULL, 0, 0, NULL, &change, &error), MW_OK);
     assert_true(change.vertex == MW_NONE && change_is_empty(&change));
     assert_int_equal(mw_edit_undo(editor, NULL, &error), MW_ERROR_INPUT); /* none is no edit */
@@ -529,7 +556,8 @@ static void test_arguments(void **state)
     assert_int_equal(info.undoable, 2);
     for (int i = 3; i > 1; i--) {
         assert_int_equal(mw_edit_undo(editor, &change, &error), MW_OK);
-        assert_true(change.vertices_freed == 2 && change.vertex == 2 + 2 * (uint32_t)i && !change.vertices_made);
+        assert_true(change.vertices_freed == 2 && change.vertex == 2 + 2 * (uint32_t)i &&
+                    !change.vertices_made);
     }
     assert_int_equal(mw_edit_undo(editor, &change, &error), MW_ERROR_INPUT);
     mw_editor_describe(editor, &info);
@@ -538,7 +566,8 @@ static void test_arguments(void **state)
     mw_mesh_destroy(mesh);
 }
 
-/* When they can no longer be undone, many points at once leave no more memory in use than one by one. */
+/* When they can no longer be undone, many points at once leave no more memory in use than one by
+ * one. */
 static void test_bytes(void **state)
 {
     (void)state;
@@ -554,10 +583,14 @@ static void test_bytes(void **state)
             mw_editor *editor;
             mw_editor_info info;
             mw_error error;
-            expect_ok(mw_editor_create(mesh, &(mw_editor_options){.undo = undo}, &editor, &error), "editor", &error);
-            if (!single) expect_ok(mw_edit_insert_points(editor, p, N, 2, NULL, NULL, &error), "points", &error);
+            expect_ok(mw_editor_create(mesh, &(mw_editor_options){.undo = undo}, &editor, &error),
+                      "editor", &error);
+            if (!single)
+                expect_ok(mw_edit_insert_points(editor, p, N, 2, NULL, NULL, &error), "points",
+                          &error);
             for (size_t i = 0; i < (single ? N : 20); i++)
-                expect_ok(mw_edit_insert(editor, p[2 * i], p[2 * i + 1], NULL, &error), "insert", &error);
+                expect_ok(mw_edit_insert(editor, p[2 * i], p[2 * i + 1], NULL, &error), "insert",
+                          &error);
             mw_editor_describe(editor, &info);
             bytes[single] = info.bytes;
             mw_editor_destroy(editor);
@@ -569,7 +602,7 @@ static void test_bytes(void **state)
     free(p);
 }
 
-/* --- each allocation fails once --------------------------------------------------------------------------------------------------- */
+/* --- each allocation fails once --------------------------------------------------------------- */
 
 static void fail_each(const points_session *s, twin *t, const points *p, long *failures)
 {
@@ -582,13 +615,15 @@ static void fail_each(const points_session *s, twin *t, const points *p, long *f
     mw_editor_describe(t->editor, &info);
     for (long k = 0;; k++, (*failures)++) {
         allocations_left = k;
-        mw_status status = mw_edit_insert_points(t->editor, p->at, p->n, p->stride, vertices, &change, &error);
+        mw_status status =
+            mw_edit_insert_points(t->editor, p->at, p->n, p->stride, vertices, &change, &error);
         allocations_left = -1;
         if (status == MW_OK) break;
         REQUIRE(status == MW_ERROR_MEMORY && strcmp(error.message, "out of memory") == 0);
         mw_editor_info now;
         mw_editor_describe(t->editor, &now);
-        REQUIRE(now.undoable == info.undoable && now.edits == info.edits && log_length(t) == logged);
+        REQUIRE(now.undoable == info.undoable && now.edits == info.edits &&
+                log_length(t) == logged);
         twin_check_same(t);
         if (k % 4 == 0) twin_check_all(t);
     }
@@ -596,7 +631,8 @@ static void fail_each(const points_session *s, twin *t, const points *p, long *f
     twin_check_all(t);
     undo_all(t, &then);
     twin_check_all(t);
-    expect_ok(mw_edit_insert_points(t->editor, p->at, p->n, p->stride, vertices, &change, &error), s->name, &error);
+    expect_ok(mw_edit_insert_points(t->editor, p->at, p->n, p->stride, vertices, &change, &error),
+              s->name, &error);
     take_over_all(t, &change);
     twin_close(&then);
     free(vertices);
@@ -618,8 +654,11 @@ static void test_memory(void **state)
         twin_cursors_open(&r, &t, i >= 4, random);
         for (edit_case.step = 0; edit_case.step < 6;
              edit_case.step++) { /* 300 in random order are sorted, fewer are not */
-            uint32_t count = edit_case.step == 3 || edit_case.step == 5 ? 300 : 1 + 20 * (uint32_t)edit_case.step;
-            points p = make_points(&s, &t, count, edit_case.step % 2 && edit_case.step < 5, &random);
+            uint32_t count = edit_case.step == 3 || edit_case.step == 5
+                                 ? 300
+                                 : 1 + 20 * (uint32_t)edit_case.step;
+            points p =
+                make_points(&s, &t, count, edit_case.step % 2 && edit_case.step < 5, &random);
             fail_each(&s, &t, &p, &failures);
             ask_some(&s, &t, &r, &random);
             free(p.at);
@@ -637,8 +676,8 @@ static void test_memory(void **state)
     }
 }
 
-/* Where nobody asks all room is made before anything changes, or, where there is not as much, what is changed is recorded: that an allocation
- * failed need not show, but nothing is done by half. */
+/* Where nobody asks all room is made before anything changes, or, where there is not as much, what
+ * is changed is recorded: that an allocation failed need not show, but nothing is done by half. */
 static void test_memory_plain(void **state)
 {
     (void)state;
@@ -656,7 +695,8 @@ static void test_memory_plain(void **state)
         twin_open(&t, first_mesh(s, &random), &options);
         points p = make_points(s, &t, MANY, i % 2, &random);
         twin before = twin_copy(&t);
-        uint32_t *vertices = require_room(MANY + 1, sizeof *vertices), *own = require_room(MANY, sizeof *own);
+        uint32_t *vertices = require_room(MANY + 1, sizeof *vertices),
+                 *own = require_room(MANY, sizeof *own);
         insert_all(&t, &p, vertices);
         bool failed = true;
         for (long k = 0; failed; k++) {
@@ -689,8 +729,9 @@ static void test_memory_plain(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_arguments), cmocka_unit_test(test_bytes),  cmocka_unit_test(test_sessions),
-        cmocka_unit_test(test_refused),   cmocka_unit_test(test_memory), cmocka_unit_test(test_memory_plain),
+        cmocka_unit_test(test_arguments), cmocka_unit_test(test_bytes),
+        cmocka_unit_test(test_sessions),  cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_memory),    cmocka_unit_test(test_memory_plain),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

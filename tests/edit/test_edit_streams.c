@@ -1,6 +1,6 @@
-/* test_edit_streams.c - long streams of edits and queries at random: all is predicted or found again by brute force, and at
- * intervals the whole mesh is held against one made from nothing. MW_TEST_LONG=1 runs streams of a million edits and as many queries,
- * MW_TEST_SEED=n other ones. */
+/* test_edit_streams.c - long streams of edits and queries at random: all is predicted or found
+ * again by brute force, and at intervals the whole mesh is held against one made from nothing.
+ * MW_TEST_LONG=1 runs streams of a million edits and as many queries, MW_TEST_SEED=n other ones. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -20,7 +20,7 @@
 #include "support/environment.h"
 #include "support/meshes.h"
 
-/* --- points: multiples of a power of two, so that the middle between two of them is exact ------------------------------------ */
+/* --- points: multiples of a power of two, so that the middle between two of them is exact ----- */
 
 static void uniform(uint64_t *random, double *q)
 {
@@ -71,12 +71,13 @@ static void huge(uint64_t *random, double *q)
 static void scattered(uint64_t *random, double *q)
 {
     for (int k = 0; k < 2; k++) {
-        q[k] = ldexp(1 + mw__random_below(random, 8) / 8.0, (int)mw__random_below(random, 100) - 50);
+        q[k] =
+            ldexp(1 + mw__random_below(random, 8) / 8.0, (int)mw__random_below(random, 100) - 50);
         if (mw__random_below(random, 2)) q[k] = -q[k];
     }
 }
 
-/* --- streams -------------------------------------------------------------------------------------------------------------------- */
+/* --- streams ---------------------------------------------------------------------------------- */
 
 typedef struct edit_stream {
     const char *name;
@@ -111,7 +112,8 @@ static mw_mesh *first_mesh(const edit_stream *s, uint64_t *random)
     if (s->hole) return mesh_with_hole(10, random);
     double *points = require_room(2 * (size_t)s->vertices, sizeof *points);
     for (uint32_t i = 0; i < s->vertices; i++) s->draw_point(random, points + 2 * (size_t)i);
-    expect_ok(mw_delaunay(points, s->vertices, 2, NULL, NULL, NULL, &mesh, &error), "delaunay", &error);
+    expect_ok(mw_delaunay(points, s->vertices, 2, NULL, NULL, NULL, &mesh, &error), "delaunay",
+              &error);
     free(points);
     return mesh;
 }
@@ -140,7 +142,8 @@ static void near_place(const twin *t, uint32_t v, uint64_t *random, double *q)
 {
     uint32_t w = near_vertex(t, v, random);
     for (int k = 0; k < 2; k++) {
-        double d = (twin_point(t, w)[k] - twin_point(t, v)[k]) * (mw__random_below(random, 9) / 8.0 - 0.25);
+        double d = (twin_point(t, w)[k] - twin_point(t, v)[k]) *
+                   (mw__random_below(random, 9) / 8.0 - 0.25);
         q[k] = rint((twin_point(t, v)[k] + d) * 0x1p36) * 0x1p-36;
     }
 }
@@ -169,12 +172,15 @@ static mw_edit any_edit(const edit_stream *s, const twin *t, uint64_t *random)
     if (mw__random_below(random, 50) == 0 && !s->hole) q[0] = q[0] * 2 - 8;
     e.x = q[0];
     e.y = q[1];
-    e.other = mw__random_below(random, 8) ? near_vertex(t, e.vertex, random) : any_vertex(t, random);
+    e.other =
+        mw__random_below(random, 8) ? near_vertex(t, e.vertex, random) : any_vertex(t, random);
     e.field = mw__random_below(random, TWIN_FIELDS);
     if (e.kind == MW_EDIT_VALUE && twin_bare) e.kind = MW_EDIT_MOVE;
-    if (e.kind == MW_EDIT_VALUE || mw__random_below(random, 4) == 0) e.value = mw__random_below(random, 1000);
+    if (e.kind == MW_EDIT_VALUE || mw__random_below(random, 4) == 0)
+        e.value = mw__random_below(random, 1000);
     if (e.kind == MW_EDIT_RELEASE && t->fixed_count) {
-        const uint32_t *edge = t->fixed + 2 * (size_t)mw__random_below(random, (uint32_t)t->fixed_count);
+        const uint32_t *edge =
+            t->fixed + 2 * (size_t)mw__random_below(random, (uint32_t)t->fixed_count);
         e.vertex = edge[0];
         e.other = edge[1];
     }
@@ -201,7 +207,8 @@ static void back_and_forth(const edit_stream *s, twin *t, uint64_t *random)
     uint32_t done = 0, wanted = 1 + mw__random_below(random, 8);
     while (done < wanted) {
         mw_edit e = any_edit(s, t, random);
-        if (s->delaunay != MW_DELAUNAY_NEVER && mw__random_below(random, 4) == 0) e.kind = MW_EDIT_FLIP;
+        if (s->delaunay != MW_DELAUNAY_NEVER && mw__random_below(random, 4) == 0)
+            e.kind = MW_EDIT_FLIP;
         then[done] = twin_copy(t);
         if (twin_apply(t, &e, false) == MW_OK)
             done++;
@@ -239,9 +246,10 @@ static void run_stream(const edit_stream *s, uint64_t seed, uint64_t edits)
     twin_check_queries(&t, &r);
     mw_editor_info info;
     mw_editor_describe(t.editor, &info);
-    print_message("%-40s seed %llu: %llu of %llu edits done, %u vertices, %zu constraints, %llu refreshes\n", s->name,
-                  (unsigned long long)seed, (unsigned long long)done, (unsigned long long)edits, t.vertices,
-                  t.fixed_count, (unsigned long long)info.refreshes);
+    print_message(
+        "%-40s seed %llu: %llu of %llu edits done, %u vertices, %zu constraints, %llu refreshes\n",
+        s->name, (unsigned long long)seed, (unsigned long long)done, (unsigned long long)edits,
+        t.vertices, t.fixed_count, (unsigned long long)info.refreshes);
     assert_true(done > edits / 4);
     twin_close(&t);
 }
@@ -251,14 +259,16 @@ static void test_streams(void **state)
     (void)state;
     for (int i = 0; i < STREAMS; i++) {
         twin_bare = i % 4 == 3;
-        run_stream(&streams[i], environment_seed(1) + (uint64_t)i, environment_is_long() ? 100000 : 1500);
+        run_stream(&streams[i], environment_seed(1) + (uint64_t)i,
+                   environment_is_long() ? 100000 : 1500);
     }
     twin_bare = false;
 }
 
-/* --- large meshes: too large for brute force at each edit -------------------------------------------------------------------- */
+/* --- large meshes: too large for brute force at each edit ------------------------------------- */
 
-/* The triangle that an answer names contains the point, and of those round the edge or vertex that it is on none is lower. */
+/* The triangle that an answer names contains the point, and of those round the edge or vertex that
+ * it is on none is lower. */
 static void check_answer(const twin *t, const mw_location *l, const double *q)
 {
     location_answer answer;
@@ -294,8 +304,10 @@ static void large_edit(twin *t, mw_edit e)
 static void test_large(void **state)
 {
     (void)state;
-    const edit_stream s = {"large", uniform, environment_is_long() ? 100000 : 6000, 0, false, false};
-    uint64_t random = mw__random_seed(environment_seed(1), 4), edits = environment_is_long() ? 1000000 : 12000;
+    const edit_stream s = {"large", uniform, environment_is_long() ? 100000 : 6000,
+                           0,       false,   false};
+    uint64_t random = mw__random_seed(environment_seed(1), 4),
+             edits = environment_is_long() ? 1000000 : 12000;
     twin t;
     twin_cursors r;
     mw_editor_options options = {.undo = 3};
@@ -319,7 +331,7 @@ static void test_large(void **state)
     twin_close(&t);
 }
 
-/* --- memory -------------------------------------------------------------------------------------------------------------------- */
+/* --- memory ----------------------------------------------------------------------------------- */
 
 static size_t bytes_of(const mw_editor *editor)
 {
@@ -328,7 +340,8 @@ static size_t bytes_of(const mw_editor *editor)
     return info.bytes;
 }
 
-/* What comes and goes leaves behind its numbers only: four bytes each, room to grow counted twice. Compacting gives them back. */
+/* What comes and goes leaves behind its numbers only: four bytes each, room to grow counted twice.
+ * Compacting gives them back. */
 static void test_memory(void **state)
 {
     (void)state;
@@ -338,7 +351,8 @@ static void test_memory(void **state)
     mw_mesh *mesh = first_mesh(&s, &random);
     mw_editor *editor;
     mw_error error;
-    expect_ok(mw_editor_create(mesh, &(mw_editor_options){.undo = 10}, &editor, &error), "editor", &error);
+    expect_ok(mw_editor_create(mesh, &(mw_editor_options){.undo = 10}, &editor, &error), "editor",
+              &error);
     mw_mesh_destroy(mesh);
     size_t before = bytes_of(editor);
     for (uint64_t i = 0; i < cycles; i++) {
@@ -347,7 +361,9 @@ static void test_memory(void **state)
         uniform(&random, q);
         expect_ok(mw_edit_insert(editor, q[0], q[1], &change, &error), "insert", &error);
         if (!change.vertices_made) continue;
-        if (i % 3 == 0) expect_ok(mw_edit_move(editor, change.vertex, q[1], q[0], &change, &error), "move", &error);
+        if (i % 3 == 0)
+            expect_ok(mw_edit_move(editor, change.vertex, q[1], q[0], &change, &error), "move",
+                      &error);
         expect_ok(mw_edit_remove(editor, change.vertex, &change, &error), "remove", &error);
     }
     mw_editor_info info;

@@ -1,5 +1,6 @@
-/* test_edit_threads.c - between edits threads query the editor's locator, each with cursors of its own that outlast the edits: all get
- * the answers that one gets, and (under ThreadSanitizer) there is no data race. */
+/* test_edit_threads.c - between edits threads query the editor's locator, each with cursors of its
+ * own that outlast the edits: all get the answers that one gets, and (under ThreadSanitizer) there
+ * is no data race. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -27,7 +28,8 @@ static void *ask(void *argument)
     reader_thread *r = argument;
     for (size_t i = 0; i < QUERIES; i++) {
         mw_cursor *cursor = &r->cursor[(i + r->seed) % MW_WALK_COUNT];
-        r->answer[i] = mw_locate(mw_editor_locator(r->editor), cursor, r->query[2 * i], r->query[2 * i + 1]);
+        r->answer[i] =
+            mw_locate(mw_editor_locator(r->editor), cursor, r->query[2 * i], r->query[2 * i + 1]);
     }
     return NULL;
 }
@@ -35,14 +37,17 @@ static void *ask(void *argument)
 /* The walks of a reader begin in different ways. */
 static void open_reader(reader_thread *r, mw_editor *editor, const double *query, uint64_t seed)
 {
-    static const mw_start_kind starts[] = {MW_START_AUTO, MW_START_LAST, MW_START_GRID, MW_START_LAYERS};
+    static const mw_start_kind starts[] = {MW_START_AUTO, MW_START_LAST, MW_START_GRID,
+                                           MW_START_LAYERS};
     *r = (reader_thread){.editor = editor, .query = query, .seed = seed};
     for (int walk = 0; walk < MW_WALK_COUNT; walk++) {
         mw_query_options options = {
             .walk = (mw_walk_kind)walk, .start = starts[(seed + (uint64_t)walk) % 4], .seed = seed};
         if (mw_start_has_index(options.start))
-            assert_int_equal(mw_editor_index(editor, options.start, NULL, &options.index, NULL), MW_OK);
-        assert_int_equal(mw_cursor_init(mw_editor_locator(editor), &options, &r->cursor[walk], NULL), MW_OK);
+            assert_int_equal(mw_editor_index(editor, options.start, NULL, &options.index, NULL),
+                             MW_OK);
+        assert_int_equal(
+            mw_cursor_init(mw_editor_locator(editor), &options, &r->cursor[walk], NULL), MW_OK);
     }
 }
 
@@ -78,7 +83,8 @@ static void test_queries_between_edits(void **state)
     for (int round = 0; round < ROUNDS; round++) {
         pthread_t thread[THREADS];
         edit_some(editor, &random);
-        for (int i = 0; i < THREADS; i++) assert_int_equal(pthread_create(&thread[i], NULL, ask, &r[i]), 0);
+        for (int i = 0; i < THREADS; i++)
+            assert_int_equal(pthread_create(&thread[i], NULL, ask, &r[i]), 0);
         ask(&r[THREADS]);
         for (int i = 0; i < THREADS; i++) assert_int_equal(pthread_join(thread[i], NULL), 0);
         for (int i = 0; i < THREADS; i++)

@@ -1,6 +1,7 @@
-/* test_edit_ties.c - what is numbered depends on the edits alone, however ties fall: of two editors that are given the same edits, one is also
- * given others that are taken back, one by one or many at once. After each edit both hold the same triangles. Places are such that many lie in line,
- * on circles, or nearly so, and round hubs of all degrees. MW_TEST_SEED=n: other ones. */
+/* test_edit_ties.c - what is numbered depends on the edits alone, however ties fall: of two
+ * editors that are given the same edits, one is also given others that are taken back, one by one
+ * or many at once. After each edit both hold the same triangles. Places are such that many lie in
+ * line, on circles, or nearly so, and round hubs of all degrees. MW_TEST_SEED=n: other ones. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -45,7 +46,8 @@ enum { SCENES = sizeof scenes / sizeof *scenes };
 static void any_place(const ties_scene *s, uint64_t *random, double *q)
 {
     for (int k = 0; k < 2; k++) q[k] = mw__random_below(random, s->span + 1) * (16.0 / s->span);
-    if (s->hub && mw__random_below(random, 2)) { /* exactly on a circle of radius 65/16 round the middle */
+    if (s->hub &&
+        mw__random_below(random, 2)) { /* exactly on a circle of radius 65/16 round the middle */
         static const double leg[5][2] = {{16, 63}, {25, 60}, {33, 56}, {39, 52}, {65, 0}};
         const double *l = leg[mw__random_below(random, 5)];
         uint32_t turn = mw__random_below(random, 8);
@@ -76,7 +78,8 @@ static mw_mesh *scene_mesh(const ties_scene *s, uint64_t *random)
         bool hole = x >= 3 && x < 6 && y >= 4 && y < 9,
              other = x >= 9 && x < 12 && y >= 9 && y<11, pocket = x> 12 && y >= 5 && y < 8;
         if (hole || other || pocket) continue;
-        memmove(a.triangles + 3 * (size_t)kept++, a.triangles + 3 * (size_t)i, 3 * sizeof *a.triangles);
+        memmove(a.triangles + 3 * (size_t)kept++, a.triangles + 3 * (size_t)i,
+                3 * sizeof *a.triangles);
     }
     a.triangle_count = kept;
     arrays_scramble(&a, 0, random);
@@ -87,8 +90,9 @@ static mw_mesh *scene_mesh(const ties_scene *s, uint64_t *random)
 
 static mw_edit random_edit(const ties_scene *s, const mw_editor *editor, uint64_t *random)
 {
-    static const mw_edit_kind kinds[] = {MW_EDIT_INSERT, MW_EDIT_INSERT, MW_EDIT_INSERT,    MW_EDIT_REMOVE,
-                                         MW_EDIT_REMOVE, MW_EDIT_MOVE,   MW_EDIT_CONSTRAIN, MW_EDIT_RELEASE};
+    static const mw_edit_kind kinds[] = {MW_EDIT_INSERT,    MW_EDIT_INSERT, MW_EDIT_INSERT,
+                                         MW_EDIT_REMOVE,    MW_EDIT_REMOVE, MW_EDIT_MOVE,
+                                         MW_EDIT_CONSTRAIN, MW_EDIT_RELEASE};
     mw_editor_info info;
     mw_editor_describe(editor, &info);
     mw_edit e = {.kind = kinds[mw__random_below(random, 8)], .value = NAN};
@@ -109,7 +113,8 @@ static mw_edit random_edit(const ties_scene *s, const mw_editor *editor, uint64_
         free(edge);
     }
     if (s->delaunay == MW_DELAUNAY_NEVER && mw__random_below(random, 8) == 0) e.kind = MW_EDIT_FLIP;
-    if (s->hub && e.kind == MW_EDIT_INSERT && mw__random_below(random, 8) == 0) e.x = e.y = 8 * s->scale;
+    if (s->hub && e.kind == MW_EDIT_INSERT && mw__random_below(random, 8) == 0)
+        e.x = e.y = 8 * s->scale;
     return e;
 }
 
@@ -142,17 +147,20 @@ static void run_scene(const ties_scene *s, uint64_t seed, uint32_t edits)
     edit_case.name = s->name;
     edit_case.seed = seed;
     twin_open(&t, scene_mesh(s, &random), &options);
-    expect_ok(mw_editor_create(t.first, &(mw_editor_options){.delaunay = s->delaunay}, &plain, &error), "editor",
-              &error);
+    expect_ok(
+        mw_editor_create(t.first, &(mw_editor_options){.delaunay = s->delaunay}, &plain, &error),
+        "editor", &error);
     twin_cursors_open(&r, &t, true, random);
     for (edit_case.step = 0; edit_case.step < edits; edit_case.step++) {
         there_and_back(s, t.editor, &random);
         mw_edit e = random_edit(s, t.editor, &random);
-        size_t degree = e.kind == MW_EDIT_REMOVE ? mw_editor_adjacent_vertices(t.editor, e.vertex, NULL, 0) : 0;
+        size_t degree =
+            e.kind == MW_EDIT_REMOVE ? mw_editor_adjacent_vertices(t.editor, e.vertex, NULL, 0) : 0;
         mw_status status = twin_apply(&t, &e, false);
         REQUIRE(mw_edit_apply(plain, &e, NULL, &error) == status);
         done += status == MW_OK;
-        if (status == MW_OK && degree) least = degree < least ? degree : least, most = degree > most ? degree : most;
+        if (status == MW_OK && degree)
+            least = degree < least ? degree : least, most = degree > most ? degree : most;
         twin other = t;
         other.editor = plain;
         twin_check_same(&other);
@@ -169,8 +177,8 @@ static void run_scene(const ties_scene *s, uint64_t seed, uint32_t edits)
     twin_check_all(&t);
     twin_check_replay(&t, &options);
     print_message("%-26s seed %llu: %llu edits of %u done, degrees removed %llu to %llu\n", s->name,
-                  (unsigned long long)seed, (unsigned long long)done, edits, (unsigned long long)least,
-                  (unsigned long long)most);
+                  (unsigned long long)seed, (unsigned long long)done, edits,
+                  (unsigned long long)least, (unsigned long long)most);
     assert_true(done > edits / 4);
     mw_editor_destroy(plain);
     twin_close(&t);
@@ -187,7 +195,8 @@ static void test_scenes(void **state)
     twin_bare = false;
 }
 
-/* A vertex with n others on a circle round it, exactly for some n: taken out and put back, in both ways of filling a ring. */
+/* A vertex with n others on a circle round it, exactly for some n: taken out and put back, in both
+ * ways of filling a ring. */
 static void test_hubs(void **state)
 {
     (void)state;
@@ -205,8 +214,16 @@ static void test_hubs(void **state)
                 if (i == hub) continue;
                 const double *l = legs[k % 6];
                 uint32_t turn = k / 6;
-                q[0] = even ? (turn == 0 ? l[0] : turn == 1 ? -l[1] : turn == 2 ? -l[0] : l[1]) : 65 * cos(angle);
-                q[1] = even ? (turn == 0 ? l[1] : turn == 1 ? l[0] : turn == 2 ? -l[1] : -l[0]) : 65 * sin(angle);
+                q[0] = even ? (turn == 0   ? l[0]
+                               : turn == 1 ? -l[1]
+                               : turn == 2 ? -l[0]
+                                           : l[1])
+                            : 65 * cos(angle);
+                q[1] = even ? (turn == 0   ? l[1]
+                               : turn == 1 ? l[0]
+                               : turn == 2 ? -l[1]
+                                           : -l[0])
+                            : 65 * sin(angle);
                 k++;
             }
             twin_open(&t, mesh_delaunay(points, n + 1), &options);

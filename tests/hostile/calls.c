@@ -26,7 +26,8 @@ static int stopper_report(void *context, const char *stage, double fraction)
     return stop;
 }
 
-static mw_status call_stop(const long_call *call, const call_inputs *in, uint32_t threads, stopper *s)
+static mw_status call_stop(const long_call *call, const call_inputs *in, uint32_t threads,
+                           stopper *s)
 {
     uint64_t sum = 0;
     mw_progress progress = {stopper_report, s};
@@ -45,7 +46,8 @@ void hostile_cancels(uint64_t *random)
         if (status) hostile_failed("%s: %s", call->name, mw_status_text(status));
         stopper once = {.stop_at = mw__random_below(random, never.reports)};
         status = call_stop(call, &in, threads, &once);
-        if (status && status != MW_CANCELLED) hostile_failed("%s, cancelled: %s", call->name, mw_status_text(status));
+        if (status && status != MW_CANCELLED)
+            hostile_failed("%s, cancelled: %s", call->name, mw_status_text(status));
         /* at its last report a call has done all; there may be fewer reports than before */
         if (!status && once.reports > once.stop_at && once.stopped < 1)
             hostile_failed("%s, cancelled at %g: went on", call->name, once.stopped);
@@ -78,7 +80,8 @@ void hostile_forks(uint64_t *random)
         }
         int end = -1;
         if (waitpid(child, &end, 0) != child || end != 0)
-            hostile_failed("a child after %s: %s on %u threads ended with %d", before->name, call->name, threads, end);
+            hostile_failed("a child after %s: %s on %u threads ended with %d", before->name,
+                           call->name, threads, end);
     }
     call_inputs_release(&in);
 }

@@ -40,7 +40,8 @@ static mw_edit any_edit(const twin *t, uint64_t *random)
                      .value = NAN};
 }
 
-/* An edit that changes nothing, as an insertion at a vertex, is not counted: it cannot be undone. */
+/* An edit that changes nothing, as an insertion at a vertex, is not counted: it cannot be undone.
+ * */
 static uint64_t edits_done(const twin *t)
 {
     mw_editor_info info;
@@ -53,7 +54,8 @@ void hostile_edits(uint64_t *random)
     enum { STEPS = 60 };
     twin t;
     twin_cursors cursors;
-    mw_editor_options options = {.delaunay = (mw_delaunay_mode)mw__random_below(random, 3), .undo = 4};
+    mw_editor_options options = {.delaunay = (mw_delaunay_mode)mw__random_below(random, 3),
+                                 .undo = 4};
     twin_bare = mw__random_below(random, 2);
     twin_open(&t, any_mesh(random), &options);
     twin_cursors_open(&cursors, &t, true, mw__random(random));

@@ -100,8 +100,10 @@ static void write_valid(const char *path, const char *format, uint64_t *random)
         memcpy(xyz + 3 * i, a.points + 2 * i, 2 * sizeof *xyz);
         xyz[3 * i + 2] = random_unit(random);
     }
-    mw_mesh_file file = {
-        .points = xyz, .point_count = a.point_count, .triangles = a.triangles, .triangle_count = a.triangle_count};
+    mw_mesh_file file = {.points = xyz,
+                         .point_count = a.point_count,
+                         .triangles = a.triangles,
+                         .triangle_count = a.triangle_count};
     mw_error error;
     expect_ok(mw_write_mesh(path, &file, format, NULL, &error), "writing a mesh", &error);
     free(xyz);
@@ -110,19 +112,22 @@ static void write_valid(const char *path, const char *format, uint64_t *random)
 
 static void expect_error_names(const mw_error *error, const char *path)
 {
-    if (error->status != MW_ERROR_INPUT && error->status != MW_ERROR_LIMIT && error->status != MW_ERROR_SYSTEM)
+    if (error->status != MW_ERROR_INPUT && error->status != MW_ERROR_LIMIT &&
+        error->status != MW_ERROR_SYSTEM)
         hostile_failed("%s: status %d: %s", path, error->status, error->message);
     /* without its ending: a .poly without points has them in a .node file of the same name */
     char stem[64];
     snprintf(stem, sizeof stem, "%.*s", (int)strcspn(path, "."), path);
-    if (!strstr(error->message, stem)) hostile_failed("the message does not name %s: %s", path, error->message);
+    if (!strstr(error->message, stem))
+        hostile_failed("the message does not name %s: %s", path, error->message);
 }
 
 /* Every index is one of a vertex, and what the arrays make is checked without an end. */
 static void expect_sound(const mw_mesh_file *file, const char *path)
 {
     for (size_t i = 0; i < 3 * file->triangle_count; i++)
-        if (file->triangles[i] >= file->point_count) hostile_failed("%s: corner %zu is no vertex", path, i);
+        if (file->triangles[i] >= file->point_count)
+            hostile_failed("%s: corner %zu is no vertex", path, i);
     mw_arrays view = mw_mesh_file_arrays(file);
     mw_check check;
     mw_error error;
@@ -171,7 +176,8 @@ static void read_as_constraints(const char *path)
         return;
     }
     for (size_t i = 0; i < 2 * file.segment_count; i++)
-        if (file.segments[i] >= file.point_count) hostile_failed("%s: end %zu is no point", path, i);
+        if (file.segments[i] >= file.point_count)
+            hostile_failed("%s: end %zu is no point", path, i);
     mw_constraint_file_release(&file);
 }
 
@@ -208,13 +214,19 @@ static const sample samples[] = {
     {".csv", NULL, "x,y,z\n1,2,3\n4,5,6\n\"7\",8,9\n1e3;-0.5;nan\n", read_as_points},
     {".xyz", NULL, "# points\n1 2 3\n4.5 5e1 -6\n\t7\t8\t9\n", read_as_points},
     {".geojson", NULL,
-     "{\"type\":\"FeatureCollection\",\"features\":[{\"type\":\"Feature\",\"properties\":{\"name\":\"a\"},\"geometry\":"
-     "{\"type\":\"Polygon\",\"coordinates\":[[[0,0],[9,0],[9,9],[0,9],[0,0]],[[2,2],[3,2],[3,3],[2,2]]]}},{\"type\":"
-     "\"Feature\",\"properties\":null,\"geometry\":{\"type\":\"LineString\",\"coordinates\":[[1,1],[8,8.5]]}}]}",
+     "{\"type\":\"FeatureCollection\",\"features\":[{\"type\":\"Feature\",\"properties\":{\"name\":"
+     "\"a\"},\"geometry\":"
+     "{\"type\":\"Polygon\",\"coordinates\":[[[0,0],[9,0],[9,9],[0,9],[0,0]],[[2,2],[3,2],[3,3],[2,"
+     "2]]]}},{\"type\":"
+     "\"Feature\",\"properties\":null,\"geometry\":{\"type\":\"LineString\",\"coordinates\":[[1,1],"
+     "[8,8.5]]}}]}",
      read_as_constraints},
-    {".poly", NULL, "4 2 0 0\n1 0 0\n2 9 0\n3 9 9\n4 0 9\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n1\n1 5 5\n",
+    {".poly", NULL,
+     "4 2 0 0\n1 0 0\n2 9 0\n3 9 9\n4 0 9\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n1\n1 5 5\n",
      read_as_constraints},
-    {".edits", NULL, "insert 0.5 0.25\nremove 3 # gone\nmove 2 1 1\nflip 0 4\nundo\nlocate 1 2\nvalue 1 7\ncompact\n",
+    {".edits", NULL,
+     "insert 0.5 0.25\nremove 3 # gone\nmove 2 1 1\nflip 0 4\nundo\nlocate 1 2\nvalue 1 "
+     "7\ncompact\n",
      read_as_edits},
 };
 
@@ -234,7 +246,8 @@ void hostile_files(uint64_t *random)
     for (int i = 0; i < 20; i++) {
         memcpy(changed.byte, original.byte, original.size);
         changed.size = original.size;
-        for (uint32_t n = 1 + mw__random_below(random, 4); n > 0; n--) content_change(&changed, random);
+        for (uint32_t n = 1 + mw__random_below(random, 4); n > 0; n--)
+            content_change(&changed, random);
         content_write(&changed, path);
         s->read(path);
     }

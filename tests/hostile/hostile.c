@@ -21,9 +21,10 @@ typedef struct subject {
 } subject;
 
 static const subject subjects[] = {
-    {"soup", hostile_soup},   {"graded", hostile_graded},   {"hubs", hostile_hubs},   {"exponents", hostile_exponents},
-    {"stars", hostile_stars}, {"probes", hostile_probes},   {"edits", hostile_edits}, {"memory", hostile_memory},
-    {"files", hostile_files}, {"cancels", hostile_cancels}, {"forks", hostile_forks},
+    {"soup", hostile_soup},           {"graded", hostile_graded}, {"hubs", hostile_hubs},
+    {"exponents", hostile_exponents}, {"stars", hostile_stars},   {"probes", hostile_probes},
+    {"edits", hostile_edits},         {"memory", hostile_memory}, {"files", hostile_files},
+    {"cancels", hostile_cancels},     {"forks", hostile_forks},
 };
 enum { SUBJECTS = sizeof subjects / sizeof *subjects, LONGEST_ROUND = 300 /* seconds */ };
 
@@ -41,7 +42,8 @@ void hostile_failed(const char *format, ...)
     va_start(list, format);
     vfprintf(stderr, format, list);
     va_end(list);
-    fprintf(stderr, "\nrepeat with: hostile --rounds 1 --seed %llu %s\n", (unsigned long long)seed_now, subject_now);
+    fprintf(stderr, "\nrepeat with: hostile --rounds 1 --seed %llu %s\n",
+            (unsigned long long)seed_now, subject_now);
     abort();
 }
 
@@ -49,9 +51,10 @@ void hostile_failed(const char *format, ...)
 static void say_which(int signal_number)
 {
     char text[160];
-    int length = snprintf(text, sizeof text, "%s\nrepeat with: hostile --rounds 1 --seed %llu %s\n",
-                          signal_number == SIGALRM ? "a round hangs" : "a round was ended by a signal",
-                          (unsigned long long)seed_now, subject_now);
+    int length =
+        snprintf(text, sizeof text, "%s\nrepeat with: hostile --rounds 1 --seed %llu %s\n",
+                 signal_number == SIGALRM ? "a round hangs" : "a round was ended by a signal",
+                 (unsigned long long)seed_now, subject_now);
     if (write(2, text, (size_t)length) < 0) _exit(1);
     signal(signal_number, SIG_DFL);
     raise(signal_number);
@@ -78,7 +81,9 @@ typedef struct arguments {
 static void usage(const char *wrong)
 {
     fprintf(stderr,
-            "hostile: %s\nusage: hostile [--seconds S] [--seed N] [--rounds N] [SUBJECT ...]\nsubjects:", wrong);
+            "hostile: %s\nusage: hostile [--seconds S] [--seed N] [--rounds N] [SUBJECT "
+            "...]\nsubjects:",
+            wrong);
     for (size_t i = 0; i < SUBJECTS; i++) fprintf(stderr, " %s", subjects[i].name);
     fprintf(stderr, "\n");
     exit(2);

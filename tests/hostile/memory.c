@@ -31,11 +31,13 @@ static mw_status try_plane(const world *w)
     mw_start_kind start = (mw_start_kind)mw__random_below(&random, MW_START_COUNT);
     mw_status status = mw_mesh_create(&view, &alone, &mesh, NULL);
     if (!status) status = mw_locator_create(mesh, &filled, &locator, NULL);
-    if (!status && mw_start_has_index(start)) status = mw_index_create(locator, start, NULL, &index, NULL);
+    if (!status && mw_start_has_index(start))
+        status = mw_index_create(locator, start, NULL, &index, NULL);
     if (!status) status = mw_locate_batch(locator, q, 40, 2, &sorted, at, NULL, NULL);
     if (!status) status = mw_delaunay(q, 40, 2, &one, NULL, NULL, &fresh, NULL);
     if (!status) status = mw_editor_create(fresh, &undo, &editor, NULL);
-    for (int i = 0; i < 6 && !status; i++) status = mw_edit_insert(editor, q[i] + 0.01, q[i + 1], NULL, NULL);
+    for (int i = 0; i < 6 && !status; i++)
+        status = mw_edit_insert(editor, q[i] + 0.01, q[i + 1], NULL, NULL);
     for (int i = 0; i < 3 && !status; i++) status = mw_edit_undo(editor, NULL, NULL);
     mw_editor_destroy(editor);
     mw_mesh_destroy(fresh);
@@ -77,7 +79,8 @@ static void fail_each(mw_status (*try_all)(const world *), const world *w)
         allocations_left = -1;
         if (!failed && status) hostile_failed("without a failure: %s", mw_status_text(status));
         if (!failed) return;
-        if (status && status != MW_ERROR_MEMORY) hostile_failed("allocation %ld: %s", k, mw_status_text(status));
+        if (status && status != MW_ERROR_MEMORY)
+            hostile_failed("allocation %ld: %s", k, mw_status_text(status));
     }
 }
 

@@ -15,7 +15,7 @@ static bool has_area(const arrays *a)
     return false;
 }
 
-/* --- soups ------------------------------------------------------------------------------------- */
+/* --- soups ------------------------------------------------------------------------------------ */
 
 static arrays soup_of_triples(uint64_t *random)
 {
@@ -42,7 +42,8 @@ static arrays soup_lattice(uint64_t *random)
 /* One change that may, or may not, spoil an embedding. */
 static void soup_damage(arrays *a, uint64_t *random)
 {
-    uint32_t t = mw__random_below(random, a->triangle_count), v = mw__random_below(random, a->point_count);
+    uint32_t t = mw__random_below(random, a->triangle_count),
+             v = mw__random_below(random, a->point_count);
     uint32_t *corner = a->triangles + 3 * (size_t)t;
     switch (mw__random_below(random, 4)) {
     case 0: corner[mw__random_below(random, 3)] = v; break;
@@ -56,7 +57,8 @@ void hostile_soup(uint64_t *random)
 {
     bool triples = mw__random_below(random, 2);
     arrays a = triples ? soup_of_triples(random) : soup_lattice(random);
-    for (uint32_t n = triples ? 0 : mw__random_below(random, 3); n > 0; n--) soup_damage(&a, random);
+    for (uint32_t n = triples ? 0 : mw__random_below(random, 3); n > 0; n--)
+        soup_damage(&a, random);
     bool embedding = domain_oracle_is_embedding(&a);
     mw_arrays view = arrays_view(&a);
     mw_check check;
@@ -70,7 +72,7 @@ void hostile_soup(uint64_t *random)
     arrays_free(&a);
 }
 
-/* --- Delaunay meshes of hostile points --------------------------------------------------------- */
+/* --- Delaunay meshes of hostile points -------------------------------------------------------- */
 
 static void check_points(const double *points, uint32_t n, uint64_t *random)
 {
@@ -114,8 +116,12 @@ void hostile_hubs(uint64_t *random)
     for (uint32_t i = 0; i < n; i++) {
         double x = 8 * (i % hubs), angle = 6.28318530717958648 * random_unit(random);
         bool centre = i < hubs;
-        points[2 * i] = centre ? x : circles ? x + 3 * cos(angle) : mw__random_below(random, 1 << 20);
-        points[2 * i + 1] = centre ? -1e3 : circles ? 3 * sin(angle) - 1e3 : 1e-9 * mw__random_below(random, 3);
+        points[2 * i] = centre    ? x
+                        : circles ? x + 3 * cos(angle)
+                                  : mw__random_below(random, 1 << 20);
+        points[2 * i + 1] = centre    ? -1e3
+                            : circles ? 3 * sin(angle) - 1e3
+                                      : 1e-9 * mw__random_below(random, 3);
     }
     check_points(points, n, random);
 }
@@ -128,7 +134,8 @@ void hostile_exponents(uint64_t *random)
     double points[2 * MOST];
     uint32_t n = 6 + mw__random_below(random, MOST - 6), wide = mw__random_below(random, 2);
     point_set_fill(&point_sets[mw__random_below(random, POINT_SETS)], mw__random(random), point, n);
-    int shift = (int)mw__random_below(random, 2000) - 1000, spread = wide ? (int)mw__random_below(random, 900) : 0;
+    int shift = (int)mw__random_below(random, 2000) - 1000,
+        spread = wide ? (int)mw__random_below(random, 900) : 0;
     for (uint32_t i = 0; i < 2 * n; i++) {
         double x = i % 2 ? point[i / 2].y : point[i / 2].x;
         int own = spread ? (int)mw__random_below(random, (uint32_t)(2 * spread + 1)) - spread : 0;

@@ -1,4 +1,5 @@
-/* test_edits_io.c - edits as lines of text: what is taken, what is refused and how, and that numbers come back. */
+/* test_edits_io.c - edits as lines of text: what is taken, what is refused and how, and that
+ * numbers come back. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -14,13 +15,15 @@
 #include <string.h>
 
 static const char *const names[] = {"temp", "z", "wind speed", "12", "say \"hi\"", "a#b", "z"};
-static const mw_edit_text_options named = {.fields = names, .field_count = sizeof names / sizeof *names};
+static const mw_edit_text_options named = {.fields = names,
+                                           .field_count = sizeof names / sizeof *names};
 
 static mw_edit_line parse(const char *text, const mw_edit_text_options *options)
 {
     mw_edit_line line;
     mw_error error;
-    if (mw_edit_parse(text, options, &line, &error) != MW_OK) fail_msg("'%s': %s", text, error.message);
+    if (mw_edit_parse(text, options, &line, &error) != MW_OK)
+        fail_msg("'%s': %s", text, error.message);
     assert_int_equal(line.line, 0);
     return line;
 }
@@ -36,10 +39,12 @@ static void expect_same(const mw_edit_line *a, const mw_edit_line *b, const char
     const mw_edit *e = &a->edit, *f = &b->edit;
     bool same = a->kind == b->kind, edit = a->kind == MW_EDIT_LINE_EDIT;
     if (edit) same = same && e->kind == f->kind;
-    bool place = a->kind == MW_EDIT_LINE_LOCATE || (edit && (e->kind == MW_EDIT_INSERT || e->kind == MW_EDIT_MOVE));
+    bool place = a->kind == MW_EDIT_LINE_LOCATE ||
+                 (edit && (e->kind == MW_EDIT_INSERT || e->kind == MW_EDIT_MOVE));
     if (place) same = same && same_double(e->x, f->x) && same_double(e->y, f->y);
     if (edit && e->kind != MW_EDIT_INSERT) same = same && e->vertex == f->vertex;
-    if (edit && (e->kind == MW_EDIT_FLIP || e->kind == MW_EDIT_CONSTRAIN || e->kind == MW_EDIT_RELEASE))
+    if (edit &&
+        (e->kind == MW_EDIT_FLIP || e->kind == MW_EDIT_CONSTRAIN || e->kind == MW_EDIT_RELEASE))
         same = same && e->other == f->other;
     if (edit && (e->kind == MW_EDIT_INSERT || e->kind == MW_EDIT_VALUE)) {
         same = same && same_double(e->value, f->value);
@@ -60,19 +65,23 @@ static void test_kinds(void **state)
 {
     (void)state;
     expect("insert 1.5 -2", EDIT(.kind = MW_EDIT_INSERT, .x = 1.5, .y = -2, .value = NAN));
-    expect("insert 1.5 -2 7e2", EDIT(.kind = MW_EDIT_INSERT, .x = 1.5, .y = -2, .value = 700, .field = 1));
+    expect("insert 1.5 -2 7e2",
+           EDIT(.kind = MW_EDIT_INSERT, .x = 1.5, .y = -2, .value = 700, .field = 1));
     expect("insert 1 2 nan", EDIT(.kind = MW_EDIT_INSERT, .x = 1, .y = 2, .value = NAN));
-    expect("insert 1 2 3 temp", EDIT(.kind = MW_EDIT_INSERT, .x = 1, .y = 2, .value = 3, .field = 0));
+    expect("insert 1 2 3 temp",
+           EDIT(.kind = MW_EDIT_INSERT, .x = 1, .y = 2, .value = 3, .field = 0));
     expect("remove 17", EDIT(.kind = MW_EDIT_REMOVE, .vertex = 17));
     expect("move 4294967294 0 -0.0", EDIT(.kind = MW_EDIT_MOVE, .vertex = 4294967294u, .y = -0.0));
     expect("flip 3 9", EDIT(.kind = MW_EDIT_FLIP, .vertex = 3, .other = 9));
     expect("constrain 3 9", EDIT(.kind = MW_EDIT_CONSTRAIN, .vertex = 3, .other = 9));
     expect("release 3 9", EDIT(.kind = MW_EDIT_RELEASE, .vertex = 3, .other = 9));
     expect("value 3 9.25", EDIT(.kind = MW_EDIT_VALUE, .vertex = 3, .value = 9.25, .field = 1));
-    expect("value 3 9.25 \"wind speed\"", EDIT(.kind = MW_EDIT_VALUE, .vertex = 3, .value = 9.25, .field = 2));
+    expect("value 3 9.25 \"wind speed\"",
+           EDIT(.kind = MW_EDIT_VALUE, .vertex = 3, .value = 9.25, .field = 2));
     expect("value 3 9.25 4", EDIT(.kind = MW_EDIT_VALUE, .vertex = 3, .value = 9.25, .field = 4));
     expect("locate 5 6", (mw_edit_line){.kind = MW_EDIT_LINE_LOCATE, .edit = {.x = 5, .y = 6}});
-    expect("locate nan -inf", (mw_edit_line){.kind = MW_EDIT_LINE_LOCATE, .edit = {.x = NAN, .y = -INFINITY}});
+    expect("locate nan -inf",
+           (mw_edit_line){.kind = MW_EDIT_LINE_LOCATE, .edit = {.x = NAN, .y = -INFINITY}});
     expect("undo", (mw_edit_line){.kind = MW_EDIT_LINE_UNDO});
     expect("compact", (mw_edit_line){.kind = MW_EDIT_LINE_COMPACT});
 }
@@ -96,7 +105,8 @@ static void test_forms(void **state)
     };
     for (size_t i = 0; i < sizeof moves / sizeof *moves; i++)
         expect(moves[i], EDIT(.kind = MW_EDIT_MOVE, .vertex = 17, .x = 1.5, .y = 2));
-    static const char *const nothing[] = {"", "   \t", "# insert 1 2", "  # x", ",,,", " , , # empty"};
+    static const char *const nothing[] = {"",      "   \t", "# insert 1 2",
+                                          "  # x", ",,,",   " , , # empty"};
     for (size_t i = 0; i < sizeof nothing / sizeof *nothing; i++)
         assert_int_equal(parse(nothing[i], NULL).kind, MW_EDIT_LINE_NONE);
     expect("insert,1,2,", EDIT(.kind = MW_EDIT_INSERT, .x = 1, .y = 2, .value = NAN));
@@ -106,9 +116,9 @@ static void test_forms(void **state)
 static const struct {
     const char *text, *says;
 } refused[] = {
-    {"insrt 1 2",
-     "unknown edit 'insrt'; there are insert, remove, move, flip, constrain, release, value, locate, undo, "
-     "compact"},
+    {"insrt 1 2", "unknown edit 'insrt'; there are insert, remove, move, flip, constrain, release, "
+                  "value, locate, undo, "
+                  "compact"},
     {"x,y,z", "unknown edit 'x'"},
     {"insert 1", "insert: the y is missing"},
     {"insert", "insert: the x is missing"},
@@ -156,7 +166,8 @@ static void test_refused(void **state)
     assert_int_equal(mw_edit_parse("undo", NULL, NULL, NULL), MW_ERROR_ARGUMENT);
 }
 
-/* Without names a field is a number, and the first is meant; with names and no z, one has to be named. */
+/* Without names a field is a number, and the first is meant; with names and no z, one has to be
+ * named. */
 static void test_fields(void **state)
 {
     (void)state;
@@ -189,18 +200,24 @@ static void expect_text(const char *wanted, mw_edit_line line)
 static void test_format(void **state)
 {
     (void)state;
-    expect_text("insert 0.1 -2", EDIT(.kind = MW_EDIT_INSERT, .x = 0.1, .y = -2, .value = NAN, .field = 3));
-    expect_text("insert 0.1 -2 7", EDIT(.kind = MW_EDIT_INSERT, .x = 0.1, .y = -2, .value = 7, .field = 1));
-    expect_text("insert 0.1 -2 7 temp", EDIT(.kind = MW_EDIT_INSERT, .x = 0.1, .y = -2, .value = 7));
-    expect_text("value 8 7 \"wind speed\"", EDIT(.kind = MW_EDIT_VALUE, .vertex = 8, .value = 7, .field = 2));
-    for (uint32_t field = 3; field < 7; field++) { /* names that cannot stand there, or lead elsewhere */
+    expect_text("insert 0.1 -2",
+                EDIT(.kind = MW_EDIT_INSERT, .x = 0.1, .y = -2, .value = NAN, .field = 3));
+    expect_text("insert 0.1 -2 7",
+                EDIT(.kind = MW_EDIT_INSERT, .x = 0.1, .y = -2, .value = 7, .field = 1));
+    expect_text("insert 0.1 -2 7 temp",
+                EDIT(.kind = MW_EDIT_INSERT, .x = 0.1, .y = -2, .value = 7));
+    expect_text("value 8 7 \"wind speed\"",
+                EDIT(.kind = MW_EDIT_VALUE, .vertex = 8, .value = 7, .field = 2));
+    for (uint32_t field = 3; field < 7;
+         field++) { /* names that cannot stand there, or lead elsewhere */
         char wanted[32];
         snprintf(wanted, sizeof wanted, "value 8 nan %u", field);
         expect_text(wanted, EDIT(.kind = MW_EDIT_VALUE, .vertex = 8, .value = NAN, .field = field));
     }
     expect_text("remove 5", EDIT(.kind = MW_EDIT_REMOVE, .vertex = 5));
     expect_text("release 5 6", EDIT(.kind = MW_EDIT_RELEASE, .vertex = 5, .other = 6));
-    expect_text("locate 1 2", (mw_edit_line){.kind = MW_EDIT_LINE_LOCATE, .edit = {.x = 1, .y = 2}});
+    expect_text("locate 1 2",
+                (mw_edit_line){.kind = MW_EDIT_LINE_LOCATE, .edit = {.x = 1, .y = 2}});
     expect_text("undo", (mw_edit_line){.kind = MW_EDIT_LINE_UNDO});
     expect_text("compact", (mw_edit_line){.kind = MW_EDIT_LINE_COMPACT});
     expect_text("", (mw_edit_line){.kind = MW_EDIT_LINE_NONE});
@@ -212,8 +229,8 @@ static void test_format(void **state)
         name[length] = 0;
         const char *const field = name;
         const mw_edit_text_options options = {.fields = &field, .field_count = 1};
-        mw_edit_line line = EDIT(.kind = MW_EDIT_INSERT, .x = -1.2345678901234567e-300, .y = -1.2345678901234567e-300,
-                                 .value = -1e-300);
+        mw_edit_line line = EDIT(.kind = MW_EDIT_INSERT, .x = -1.2345678901234567e-300,
+                                 .y = -1.2345678901234567e-300, .value = -1e-300);
         size_t used = mw_edit_format(&line, &options, text);
         assert_true(used < sizeof text && strlen(text) == used);
         mw_edit_line again = parse(text, &options);
@@ -237,9 +254,10 @@ static void test_round_trip(void **state)
     print_message("seed %llu\n", (unsigned long long)random);
     for (int i = 0; i < 200000; i++) {
         mw_edit_line line =
-            EDIT(.kind = (mw_edit_kind)(mw__random(&random) % MW_EDIT_KIND_COUNT), .x = any_double(&random),
-                 .y = any_double(&random), .value = any_double(&random), .vertex = (uint32_t)mw__random(&random),
-                 .other = (uint32_t)mw__random(&random), .field = (uint32_t)(mw__random(&random) % 6));
+            EDIT(.kind = (mw_edit_kind)(mw__random(&random) % MW_EDIT_KIND_COUNT),
+                 .x = any_double(&random), .y = any_double(&random), .value = any_double(&random),
+                 .vertex = (uint32_t)mw__random(&random), .other = (uint32_t)mw__random(&random),
+                 .field = (uint32_t)(mw__random(&random) % 6));
         if (line.edit.vertex == MW_NONE || line.edit.other == MW_NONE) continue;
         char text[MW_EDIT_TEXT_SIZE];
         const mw_edit_text_options *options = i % 2 ? &named : NULL;
@@ -249,11 +267,13 @@ static void test_round_trip(void **state)
     }
 }
 
-/* A file: numbers of lines, line ends, going on behind a line that is bad, and not behind data that are. */
+/* A file: numbers of lines, line ends, going on behind a line that is bad, and not behind data
+ * that are. */
 static void test_reader(void **state)
 {
     (void)state;
-    static const char text[] = "\xef\xbb\xbf# a session\r\n\r\ninsert 1 2 3 temp\r\nremve 4\nlocate,5,6\n\nundo";
+    static const char text[] =
+        "\xef\xbb\xbf# a session\r\n\r\ninsert 1 2 3 temp\r\nremve 4\nlocate,5,6\n\nundo";
     for (int packed = 0; packed < 2; packed++) {
         mw_edit_reader *reader;
         mw_edit_line line;
@@ -303,8 +323,9 @@ static void test_reader(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_kinds),  cmocka_unit_test(test_forms),  cmocka_unit_test(test_refused),
-        cmocka_unit_test(test_fields), cmocka_unit_test(test_format), cmocka_unit_test(test_round_trip),
+        cmocka_unit_test(test_kinds),   cmocka_unit_test(test_forms),
+        cmocka_unit_test(test_refused), cmocka_unit_test(test_fields),
+        cmocka_unit_test(test_format),  cmocka_unit_test(test_round_trip),
         cmocka_unit_test(test_reader),
     };
     return cmocka_run_group_tests(tests, files_enter, files_leave);

@@ -1,5 +1,5 @@
-/* test_io_constraints.c - constraints from .poly and GeoJSON: what is read, what is refused and with which message,
- * what happens without memory, and real files. */
+/* test_io_constraints.c - constraints from .poly and GeoJSON: what is read, what is refused and
+ * with which message, what happens without memory, and real files. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -22,7 +22,8 @@ static mw_constraint_file read_text(const char *name, const char *text)
     mw_constraint_file file;
     mw_error error;
     files_write_text(name, text);
-    if (mw_read_constraints(name, NULL, &file, &error) != MW_OK) fail_msg("%s: refused: %s", text, error.message);
+    if (mw_read_constraints(name, NULL, &file, &error) != MW_OK)
+        fail_msg("%s: refused: %s", text, error.message);
     return file;
 }
 
@@ -34,8 +35,8 @@ static void expect_point(const mw_constraint_file *file, size_t i, double x, dou
         fail_msg("point %zu is %g %g %g, not %g %g %g", i, p[0], p[1], p[2], x, y, z);
 }
 
-static void expect_segment(const mw_constraint_file *file, size_t i, uint32_t a, uint32_t b, uint32_t polygon,
-                           uint32_t place)
+static void expect_segment(const mw_constraint_file *file, size_t i, uint32_t a, uint32_t b,
+                           uint32_t polygon, uint32_t place)
 {
     assert_true(i < file->segment_count);
     assert_int_equal(file->segments[2 * i], a);
@@ -44,7 +45,8 @@ static void expect_segment(const mw_constraint_file *file, size_t i, uint32_t a,
     assert_int_equal(file->record[i], place);
 }
 
-static void expect_counts(const mw_constraint_file *file, size_t points, size_t segments, size_t polygons, size_t holes)
+static void expect_counts(const mw_constraint_file *file, size_t points, size_t segments,
+                          size_t polygons, size_t holes)
 {
     assert_int_equal(file->point_count, points);
     assert_int_equal(file->segment_count, segments);
@@ -58,9 +60,9 @@ static void expect_counts(const mw_constraint_file *file, size_t points, size_t 
 static void test_poly(void **state)
 {
     (void)state;
-    mw_constraint_file file =
-        read_text("a.poly", "# a comment\n3 2 2 1\n1 0 0 5 6 1\n2 4 0 7 8 1 # corner\n"
-                            "3 0 4.5 9 10 0\n\n" POLY_SEGMENTS "1\n1 0.5 -1e1\n1 # regions\n1 0 0 7 0.1\n");
+    mw_constraint_file file = read_text(
+        "a.poly", "# a comment\n3 2 2 1\n1 0 0 5 6 1\n2 4 0 7 8 1 # corner\n"
+                  "3 0 4.5 9 10 0\n\n" POLY_SEGMENTS "1\n1 0.5 -1e1\n1 # regions\n1 0 0 7 0.1\n");
     expect_counts(&file, 3, 2, 0, 1);
     expect_point(&file, 1, 4, 0, NAN);
     expect_point(&file, 2, 0, 4.5, NAN);
@@ -93,7 +95,8 @@ static void test_poly(void **state)
 static void test_poly_and_node(void **state)
 {
     (void)state;
-    static const char poly[] = "0 2 0 0\n1 0\n1 1 3\n0\n", node[] = "3 2 1 0\n1 0 0 .5\n2 1 0 .5\n3 0 1 .5\n";
+    static const char poly[] = "0 2 0 0\n1 0\n1 1 3\n0\n",
+                      node[] = "3 2 1 0\n1 0 0 .5\n2 1 0 .5\n3 0 1 .5\n";
     mw_constraint_file file;
     mw_error error;
     files_write_text("b.poly", poly);
@@ -106,7 +109,8 @@ static void test_poly_and_node(void **state)
             files_write_gzip("b.poly.gz", BYTES(poly));
             files_write_gzip("b.node.gz", BYTES(node));
         }
-        assert_int_equal(mw_read_constraints(zipped ? "b.poly.gz" : "b.poly", NULL, &file, &error), MW_OK);
+        assert_int_equal(mw_read_constraints(zipped ? "b.poly.gz" : "b.poly", NULL, &file, &error),
+                         MW_OK);
         expect_counts(&file, 3, 1, 0, 0);
         expect_segment(&file, 0, 0, 2, MW_NONE, 3);
         assert_int_equal(file.field_count, 1);
@@ -123,7 +127,8 @@ static void refused(const char *name, const char *text, int64_t line, const char
     memset(&file, 0xee, sizeof file);
     if (mw_read_constraints(name, NULL, &file, &error) == MW_OK) fail_msg("taken: %s", text);
     files_expect_error(&error, MW_ERROR_INPUT, line, says);
-    if (strncmp(error.message, name, strlen(name)) != 0) fail_msg("does not begin with the file: %s", error.message);
+    if (strncmp(error.message, name, strlen(name)) != 0)
+        fail_msg("does not begin with the file: %s", error.message);
     static const mw_constraint_file empty;
     assert_memory_equal(&file, &empty, sizeof file);
 }
@@ -147,7 +152,8 @@ static void test_poly_refused(void **state)
     refused("r.poly", THREE "1 0\n1 1 2\n2\n1 0 0\n", 8, "ends after 1 of 2 holes");
     refused("r.poly", THREE "1 0\n1 1 2\n1\n1 0 nan\n", 8, "not finite");
     refused("r.poly", THREE "1 0\n1 1 2\n1\n1 0 y\n", 8, "place of the hole: 'y' is not a number");
-    refused("r.poly", THREE "1 0\n1 1 2\n9999999999999\n1 0 0\n", 8, "ends after 1 of 9999999999999 holes");
+    refused("r.poly", THREE "1 0\n1 1 2\n9999999999999\n1 0 0\n", 8,
+            "ends after 1 of 9999999999999 holes");
     refused("r.poly", "9999999999999 2 0 0\n1 0 0\n", 2, "ends after 1");
     files_clear();
 }
@@ -186,8 +192,10 @@ static void test_geojson_not_built(void **state)
     files_clear();
 }
 
-#define FEATURE(geometry) "{\"type\":\"Feature\",\"properties\":{\"a\":[1,{}]},\"geometry\":" geometry "}"
-#define FEATURES(list) "{\"type\":\"FeatureCollection\",\"crs\":null,\"bbox\":[0],\"features\":[" list "]}"
+#define FEATURE(geometry)                                                                          \
+    "{\"type\":\"Feature\",\"properties\":{\"a\":[1,{}]},\"geometry\":" geometry "}"
+#define FEATURES(list)                                                                             \
+    "{\"type\":\"FeatureCollection\",\"crs\":null,\"bbox\":[0],\"features\":[" list "]}"
 #define SHAPE(type, coordinates) "{\"type\":\"" type "\",\"coordinates\":" coordinates "}"
 
 static void test_geojson(void **state)
@@ -198,8 +206,11 @@ static void test_geojson(void **state)
         "a.geojson",
         "\xef\xbb\xbf\n" FEATURES(FEATURE("null") "," FEATURE(SHAPE("Point", "[1,2]")) "," FEATURE(
             SHAPE("LineString",
-                  "[[0,0],[1,0,5],[1,0],[2,1]]")) ",\n" FEATURE(SHAPE("Polygon", "[[[0,0],[4,0],[4,4],[0,0]],[[1,0.5],["
-                                                                                 "2,1],[2,1.5e0],[1,0.5],[1,0.5]]]"))));
+                  "[[0,0],[1,0,5],[1,0],[2,1]]")) ",\n" FEATURE(SHAPE("Polygon",
+                                                                      "[[[0,0],[4,0],[4,4],[0,0]],["
+                                                                      "[1,0.5],["
+                                                                      "2,1],[2,1.5e0],[1,0.5],[1,0."
+                                                                      "5]]]"))));
     expect_counts(&file, 11, 9, 1, 0);
     expect_point(&file, 0, 1, 2, NAN);
     expect_point(&file, 2, 1, 0, 5);
@@ -222,18 +233,21 @@ static void test_geojson_shapes(void **state)
     if (no_geojson()) return;
     /* every kind, nested; each polygon of a MultiPolygon is one; a ring may be left open */
     static const char shapes[] = "{\"geometries\":[" SHAPE("MultiPoint", "[[1,1],[2,2]]") "," SHAPE(
-        "MultiLineString", "[[[0,0],[1,1]],[[5,5],[6,6],[7,5]]]") ",{\"type\":\"GeometryCollection\",\"geometries\":"
-                                                                  "[" SHAPE("MultiPolygon",
-                                                                            "[[[[0,0],[9,0],[9,9],[0,0]]],[[[20,0],[29,"
-                                                                            "0],[29,9]]]]") "]},null],"
-                                                                                            "\"type\":"
-                                                                                            "\"GeometryCollection\"}";
+        "MultiLineString",
+        "[[[0,0],[1,1]],[[5,5],[6,6],[7,5]]]") ",{\"type\":\"GeometryCollection\",\"geometries\":"
+                                               "[" SHAPE(
+                                                   "MultiPolygon",
+                                                   "[[[[0,0],[9,0],[9,9],[0,0]]],[[[20,0],[29,"
+                                                   "0],[29,9]]]]") "]},null],"
+                                                                   "\"type\":"
+                                                                   "\"GeometryCollection\"}";
     static const char *const wrapped[] = {shapes, FEATURE("%s"), FEATURES(FEATURE("%s"))};
     for (size_t i = 0; i < 3; i++) {
         char text[2048];
         const char *place = strstr(wrapped[i], "%s");
         if (place)
-            snprintf(text, sizeof text, "%.*s%s%s", (int)(place - wrapped[i]), wrapped[i], shapes, place + 2);
+            snprintf(text, sizeof text, "%.*s%s%s", (int)(place - wrapped[i]), wrapped[i], shapes,
+                     place + 2);
         else
             snprintf(text, sizeof text, "%s", wrapped[i]);
         mw_constraint_file file = read_text("b", text);
@@ -244,8 +258,9 @@ static void test_geojson_shapes(void **state)
         assert_int_equal(file.has_z, 0);
         mw_constraint_file_release(&file);
     }
-    static const char *const empty[] = {SHAPE("Point", "[]"), SHAPE("Polygon", "[]"), SHAPE("MultiPolygon", "[]"),
-                                        FEATURES(""), "{\"type\":\"Feature\"}"};
+    static const char *const empty[] = {SHAPE("Point", "[]"), SHAPE("Polygon", "[]"),
+                                        SHAPE("MultiPolygon", "[]"), FEATURES(""),
+                                        "{\"type\":\"Feature\"}"};
     for (size_t i = 0; i < sizeof empty / sizeof *empty; i++) {
         mw_constraint_file file = read_text("c.geojson", empty[i]);
         expect_counts(&file, 0, 0, 0, 0);
@@ -284,10 +299,13 @@ static void test_geojson_refused(void **state)
         {SHAPE("Polygon", "[[],[[0,0],[0,\"1\"]]]"), "a coordinate is not a number"},
         {SHAPE("Polygon", "[[[0,0],[1,0],[0,\"1\"],[0,0]]]"), "a coordinate is not a number"},
     };
-    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) refused("r.geojson", wrong[i].text, -1, wrong[i].says);
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++)
+        refused("r.geojson", wrong[i].text, -1, wrong[i].says);
     refused("r.geojson", "{\n\"type\":\n\"Point\", oops}", 3, "oops");
-    refused("r.geojson", "{\"type\":\"Point\",\n\"coordinates\":[1,1e999]}", 2, "real number overflow");
-    refused("r.geojson", "{\"type\":\"Point\",\n\"coordinates\":[1,2]}\n{}", 3, "end of file expected");
+    refused("r.geojson", "{\"type\":\"Point\",\n\"coordinates\":[1,1e999]}", 2,
+            "real number overflow");
+    refused("r.geojson", "{\"type\":\"Point\",\n\"coordinates\":[1,2]}\n{}", 3,
+            "end of file expected");
     refused("r.geojson", "{\"type\":\"Point\",\n\"coordinates\":[1,NaN]}", 2, "");
     refused("r.geojson", "{\"type\":\n\n\"Poi", 3, "premature end");
     char deep[6000] = "{\"type\":\"Point\",\"coordinates\":";
@@ -315,7 +333,8 @@ static void test_geojson_zipped(void **state)
     assert_non_null(zipped);
     for (size_t cut = 11; cut < size; cut += cut + 20 < size ? 17 : 1) {
         files_write("cut.geojson.gz", (bytes){zipped, cut});
-        if (mw_read_constraints("cut.geojson.gz", NULL, &file, &error) == MW_OK) fail_msg("cut at %zu: taken", cut);
+        if (mw_read_constraints("cut.geojson.gz", NULL, &file, &error) == MW_OK)
+            fail_msg("cut at %zu: taken", cut);
         assert_int_equal(error.status, MW_ERROR_INPUT);
         assert_non_null(strstr(error.message, "cut.geojson.gz"));
     }

@@ -1,4 +1,5 @@
-/* test_io_crs.c - coordinate systems as files tell them: a comment in PLY, .prj files, records of LAS, GeoJSON. */
+/* test_io_crs.c - coordinate systems as files tell them: a comment in PLY, .prj files, records of
+ * LAS, GeoJSON. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -14,8 +15,8 @@
 
 #define WKT "PROJCS[\"a b\",GEOGCS[\"c\"],UNIT[\"foot\",0.3048]]"
 #define OFF "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"
-#define PLY(comments)                                                                                                  \
-    "ply\nformat ascii 1.0\n" comments "element vertex 3\nproperty double x\nproperty double y\n"                      \
+#define PLY(comments)                                                                              \
+    "ply\nformat ascii 1.0\n" comments "element vertex 3\nproperty double x\nproperty double y\n"  \
     "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0\n1 0\n0 1\n3 0 1 2\n"
 
 static void expect(const char *found, const char *crs)
@@ -50,8 +51,10 @@ static void test_ply(void **state)
 {
     (void)state;
     expect_mesh("a.ply", PLY(""), NULL);
-    expect_mesh("a.ply", PLY("comment crs\ncomment crs \ncomment CRS EPSG:1\ncomment crsx EPSG:1\n"), NULL);
-    expect_mesh("a.ply", PLY("comment made by hand\ncomment crs EPSG:2056\ncomment crs EPSG:1\n"), "EPSG:2056");
+    expect_mesh("a.ply",
+                PLY("comment crs\ncomment crs \ncomment CRS EPSG:1\ncomment crsx EPSG:1\n"), NULL);
+    expect_mesh("a.ply", PLY("comment made by hand\ncomment crs EPSG:2056\ncomment crs EPSG:1\n"),
+                "EPSG:2056");
     expect_mesh("a.ply", PLY("comment  crs  " WKT "  \n"), WKT);
     expect_mesh("a.ply", PLY("comment crs a\tb\n"), "a b");
     expect_mesh("a.ply", PLY("comment crs a\001b\n"), NULL);
@@ -98,8 +101,8 @@ static void test_beside(void **state)
     files_write_text("b.PRJ", "GEOGCRS [\"a\",\n  DATUM[\"b\"]]");
     expect_points("b.tar.csv", BYTES("x,y\n1,2\n"), NULL);
     expect_points("b.csv", BYTES("x,y\n1,2\n"), "GEOGCRS [\"a\", DATUM[\"b\"]]");
-    static const char *const others[] = {"",       "\n",     "Projection UTM\nZone 10\n", "Proj Title=River",
-                                         "PROJCS", "PROJ[1]"};
+    static const char *const others[] = {
+        "", "\n", "Projection UTM\nZone 10\n", "Proj Title=River", "PROJCS", "PROJ[1]"};
     for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
         files_write_text("a.prj", others[i]);
         expect_mesh("a.off", OFF, NULL);
@@ -120,7 +123,8 @@ static void test_beside(void **state)
     files_clear();
 }
 
-static size_t put_record(unsigned char *at, const char *user, unsigned number, const void *contents, size_t size)
+static size_t put_record(unsigned char *at, const char *user, unsigned number, const void *contents,
+                         size_t size)
 {
     memset(at, 0, 54);
     snprintf((char *)at + 2, 16, "%s", user);
@@ -196,13 +200,17 @@ static void test_constraints(void **state)
     files_write_text("c.geojson", "{\"type\":\"Point\",\"coordinates\":[1,2]}");
     if (mw_constraints_known("c.geojson")) {
         expect_constraints("c.geojson", "{\"type\":\"Point\",\"coordinates\":[1,2]}", "EPSG:4326");
-        expect_constraints("c.geojson", "{\"type\":\"MultiPoint\",\"coordinates\":[[1,2],[500000,5]]}", NULL);
-        expect_constraints("c.geojson", "{\"type\":\"Point\",\"crs\":null,\"coordinates\":[1,2]}", NULL);
         expect_constraints("c.geojson",
-                           "{\"type\":\"Point\",\"crs\":{\"type\":\"name\",\"properties\":{\"name\":"
-                           "\"urn:ogc:def:crs:EPSG::2056\"}},\"coordinates\":[1,2]}",
-                           "urn:ogc:def:crs:EPSG::2056");
-        expect_constraints("c.geojson", "{\"type\":\"Point\",\"crs\":7,\"coordinates\":[1,2]}", NULL);
+                           "{\"type\":\"MultiPoint\",\"coordinates\":[[1,2],[500000,5]]}", NULL);
+        expect_constraints("c.geojson", "{\"type\":\"Point\",\"crs\":null,\"coordinates\":[1,2]}",
+                           NULL);
+        expect_constraints(
+            "c.geojson",
+            "{\"type\":\"Point\",\"crs\":{\"type\":\"name\",\"properties\":{\"name\":"
+            "\"urn:ogc:def:crs:EPSG::2056\"}},\"coordinates\":[1,2]}",
+            "urn:ogc:def:crs:EPSG::2056");
+        expect_constraints("c.geojson", "{\"type\":\"Point\",\"crs\":7,\"coordinates\":[1,2]}",
+                           NULL);
     }
     expect_constraints("a.poly", "3 2 0 0\n0 0 0\n1 1 0\n2 0 1\n1 0\n0 0 1\n0\n", NULL);
     files_write_text("a.prj", WKT);
@@ -225,8 +233,9 @@ static void test_real(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_ply), cmocka_unit_test(test_ply_round_trip), cmocka_unit_test(test_beside),
-        cmocka_unit_test(test_las), cmocka_unit_test(test_constraints),    cmocka_unit_test(test_real),
+        cmocka_unit_test(test_ply),         cmocka_unit_test(test_ply_round_trip),
+        cmocka_unit_test(test_beside),      cmocka_unit_test(test_las),
+        cmocka_unit_test(test_constraints), cmocka_unit_test(test_real),
     };
     return cmocka_run_group_tests_name("crs", tests, files_enter, files_leave);
 }

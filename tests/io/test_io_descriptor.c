@@ -98,8 +98,8 @@ static outcome work(void)
     o.written = write_output(&o.closed);
     o.standard = mw_point_reader_open("-", NULL, NULL, NULL) == MW_ERROR_ARGUMENT;
     mw_point_reader *none = NULL;
-    o.standard = o.standard && mw_point_reader_open("-", NULL, &none, &error) == MW_ERROR_SYSTEM && !none &&
-                 strstr(error.message, "standard input") != NULL;
+    o.standard = o.standard && mw_point_reader_open("-", NULL, &none, &error) == MW_ERROR_SYSTEM &&
+                 !none && strstr(error.message, "standard input") != NULL;
     if (o.read) mw_mesh_file_release(&mesh);
     if (o.points) mw_point_reader_close(points);
     if (o.constraints) mw_constraint_file_release(&constraints);
@@ -223,7 +223,8 @@ static void test_bad_links(void **state)
         assert_null(output);
         assert_non_null(strstr(error.message, says[i]));
         assert_int_equal(strncmp(error.message, names[i], strlen(names[i])), 0);
-        assert_int_equal(mw_output_resolve(names[i], &name, &error), i < 2 ? MW_ERROR_SYSTEM : MW_OK);
+        assert_int_equal(mw_output_resolve(names[i], &name, &error),
+                         i < 2 ? MW_ERROR_SYSTEM : MW_OK);
         free(name);
     }
     assert_int_equal(mw_output_resolve(NULL, NULL, NULL), MW_ERROR_ARGUMENT);

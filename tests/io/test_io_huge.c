@@ -13,8 +13,10 @@
 
 #define HUGE_COUNT "18446744073709551616"
 #define PLY_TOP "ply\nformat ascii 1.0\n"
-#define PLY_VERTICES(count) "element vertex " count "\nproperty float x\nproperty float y\nproperty float z\n"
-#define PLY_FACES(count) "element face " count "\nproperty list int int vertex_indices\nend_header\n"
+#define PLY_VERTICES(count)                                                                        \
+    "element vertex " count "\nproperty float x\nproperty float y\nproperty float z\n"
+#define PLY_FACES(count)                                                                           \
+    "element face " count "\nproperty list int int vertex_indices\nend_header\n"
 #define PLY_POINTS "0 0 0\n1 0 0\n0 1 0\n"
 #define OFF_POINTS "0 0 0\n1 0 0\n0 1 0\n"
 #define NODE(head) head "\n1 0 0\n2 1 0\n3 0 1\n"
@@ -28,7 +30,8 @@ static void expect_named(mw_status status, const mw_error *error, const huge *h)
 {
     if (status != MW_ERROR_INPUT) fail_msg("%s: status %d", h->name, (int)status);
     if (!strstr(error->message, HUGE_COUNT)) fail_msg("%s: \"%s\"", h->name, error->message);
-    if (strstr(error->message, "9223372036854775807")) fail_msg("%s: \"%s\"", h->name, error->message);
+    if (strstr(error->message, "9223372036854775807"))
+        fail_msg("%s: \"%s\"", h->name, error->message);
     if (h->line >= 0 && error->line != h->line) fail_msg("%s: \"%s\"", h->name, error->message);
 }
 
@@ -45,7 +48,9 @@ static void test_meshes(void **state)
         {"b.ply", PLY_TOP PLY_VERTICES("3") PLY_FACES(HUGE_COUNT) PLY_POINTS "3 0 1 2\n", 7},
         {"c.ply", PLY_TOP PLY_VERTICES("3") PLY_FACES("1") PLY_POINTS HUGE_COUNT " 0 1 2\n", 13},
         {"d.ply", PLY_TOP PLY_VERTICES("3") PLY_FACES("1") PLY_POINTS "3 0 1 " HUGE_COUNT "\n", 13},
-        {"e.ply", PLY_TOP "element other " HUGE_COUNT "\nproperty int a\n" PLY_VERTICES("3") PLY_FACES("0"), 3},
+        {"e.ply",
+         PLY_TOP "element other " HUGE_COUNT "\nproperty int a\n" PLY_VERTICES("3") PLY_FACES("0"),
+         3},
         {"a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 " HUGE_COUNT "\n", 4},
         {"b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 -" HUGE_COUNT "/1/1\n", 4},
     };
@@ -64,10 +69,14 @@ static void test_pairs(void **state)
     static const struct {
         const char *node, *ele;
     } pairs[] = {
-        {NODE(HUGE_COUNT " 2 0 0"), "1 3 0\n1 1 2 3\n"},    {NODE("3 " HUGE_COUNT " 0 0"), "1 3 0\n1 1 2 3\n"},
-        {NODE("3 2 " HUGE_COUNT " 0"), "1 3 0\n1 1 2 3\n"}, {NODE("3 2 0 " HUGE_COUNT), "1 3 0\n1 1 2 3\n"},
-        {NODE("3 2 0 0"), HUGE_COUNT " 3 0\n1 1 2 3\n"},    {NODE("3 2 0 0"), "1 " HUGE_COUNT " 0\n1 1 2 3\n"},
-        {NODE("3 2 0 0"), "1 3 " HUGE_COUNT "\n1 1 2 3\n"}, {NODE("3 2 0 0"), "1 3 0\n1 1 2 " HUGE_COUNT "\n"},
+        {NODE(HUGE_COUNT " 2 0 0"), "1 3 0\n1 1 2 3\n"},
+        {NODE("3 " HUGE_COUNT " 0 0"), "1 3 0\n1 1 2 3\n"},
+        {NODE("3 2 " HUGE_COUNT " 0"), "1 3 0\n1 1 2 3\n"},
+        {NODE("3 2 0 " HUGE_COUNT), "1 3 0\n1 1 2 3\n"},
+        {NODE("3 2 0 0"), HUGE_COUNT " 3 0\n1 1 2 3\n"},
+        {NODE("3 2 0 0"), "1 " HUGE_COUNT " 0\n1 1 2 3\n"},
+        {NODE("3 2 0 0"), "1 3 " HUGE_COUNT "\n1 1 2 3\n"},
+        {NODE("3 2 0 0"), "1 3 0\n1 1 2 " HUGE_COUNT "\n"},
         {NODE("3 2 0 0"), "1 3 0\n" HUGE_COUNT " 1 2 3\n"},
     };
     for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++) {
@@ -120,9 +129,10 @@ static void test_points(void **state)
 static void test_binary(void **state)
 {
     (void)state;
-    static const char head[] = "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty uchar x\n"
-                               "property uchar y\nproperty uchar z\nelement face 1\n"
-                               "property list uint64 uchar vertex_indices\nend_header\n";
+    static const char head[] =
+        "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty uchar x\n"
+        "property uchar y\nproperty uchar z\nelement face 1\n"
+        "property list uint64 uchar vertex_indices\nend_header\n";
     static const char data[] = "\0\0\0\1\0\0\0\1\0\xff\xff\xff\xff\xff\xff\xff\xff\0\1\2";
     char file[sizeof head + sizeof data];
     memcpy(file, head, sizeof head - 1);
@@ -138,8 +148,9 @@ static void test_binary(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_meshes), cmocka_unit_test(test_pairs),  cmocka_unit_test(test_constraints),
-        cmocka_unit_test(test_points), cmocka_unit_test(test_binary),
+        cmocka_unit_test(test_meshes),      cmocka_unit_test(test_pairs),
+        cmocka_unit_test(test_constraints), cmocka_unit_test(test_points),
+        cmocka_unit_test(test_binary),
     };
     return cmocka_run_group_tests(tests, files_enter, files_leave);
 }

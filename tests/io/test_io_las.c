@@ -1,4 +1,5 @@
-/* test_io_las.c - points from LAS: every version and point format, made by hand; filters, columns, damage. */
+/* test_io_las.c - points from LAS: every version and point format, made by hand; filters, columns,
+ * damage. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -52,8 +53,10 @@ static void put_point(unsigned char *p, int i, unsigned format)
     mw__put_bytes(p + 8, 4, (uint32_t)(INT32_MIN / (i + 1)));
     mw__put_bytes(p + 12, 2, (uint16_t)(65535 - i));
     if (old) {
-        p[14] = (unsigned char)(i % 8 | (7 - i % 8) << 3 | 0xc0); /* the upper bits mean other things */
-        p[15] = (unsigned char)(i % 32 | (i % 2 ? 0xe0 : 0));     /* synthetic, key point, withheld */
+        /* the upper bits mean other things */
+        p[14] = (unsigned char)(i % 8 | (7 - i % 8) << 3 | 0xc0);
+        /* synthetic, key point, withheld */
+        p[15] = (unsigned char)(i % 32 | (i % 2 ? 0xe0 : 0));
         p[16] = (unsigned char)(i - 20);
         p[17] = (unsigned char)i;
         mw__put_bytes(p + 18, 2, (uint16_t)(60000 + i));
@@ -70,8 +73,10 @@ static void put_point(unsigned char *p, int i, unsigned format)
         mw__put_bytes(p + colours[format] + 2 * k, 2, (uint16_t)(40000 + 10 * i + k));
 }
 
-/* A file: header, `between` bytes of other things, points with `extra` bytes each behind their own. */
-static void make(las_sample *l, unsigned minor, unsigned format, size_t extra, const void *between, size_t between_size)
+/* A file: header, `between` bytes of other things, points with `extra` bytes each behind their
+ * own. */
+static void make(las_sample *l, unsigned minor, unsigned format, size_t extra, const void *between,
+                 size_t between_size)
 {
     size_t header = minor == 4 ? 375 : minor == 3 ? 235 : 227, record = sizes[format] + extra;
     memset(l, 0, sizeof *l);
@@ -92,7 +97,8 @@ static void make(las_sample *l, unsigned minor, unsigned format, size_t extra, c
     mw__put_f64(h + 163, -20);
     if (minor == 4) mw__put_bytes(h + 247, 8, POINTS);
     if (between_size > 0) memcpy(h + header, between, between_size);
-    for (int i = 0; i < POINTS; i++) put_point(h + header + between_size + (size_t)i * record, i, format);
+    for (int i = 0; i < POINTS; i++)
+        put_point(h + header + between_size + (size_t)i * record, i, format);
     l->size = header + between_size + POINTS * record;
 }
 
@@ -101,7 +107,8 @@ static mw_point_reader *open_las(const las_sample *l, const mw_point_reader_opti
     mw_point_reader *reader;
     mw_error error;
     files_write("p.las", (bytes){(const char *)l->bytes, l->size});
-    if (mw_point_reader_open("p.las", options, &reader, &error) != MW_OK) fail_msg("%s", error.message);
+    if (mw_point_reader_open("p.las", options, &reader, &error) != MW_OK)
+        fail_msg("%s", error.message);
     return reader;
 }
 
@@ -126,8 +133,8 @@ static void test_every_format(void **state)
                     for (int k = 0; k < COLUMNS; k++) {
                         double v = values[COLUMNS * i + k];
                         if (v != wanted[k] && !(isnan(v) && isnan(wanted[k])))
-                            fail_msg("1.%u format %u, point %d, column %d: %g, not %g", minor, format, i, k, v,
-                                     wanted[k]);
+                            fail_msg("1.%u format %u, point %d, column %d: %g, not %g", minor,
+                                     format, i, k, v, wanted[k]);
                     }
                 }
                 assert_int_equal(mw_point_reader_read(reader, values, POINTS, &count, NULL), MW_OK);
@@ -187,7 +194,8 @@ static void test_classes(void **state)
         size_t count;
         assert_int_equal(mw_point_reader_read(reader, values, POINTS, &count, NULL), MW_OK);
         assert_int_equal(count, wanted);
-        for (size_t i = 0; i < count; i++) assert_true(values[2 * i + 1] == 2 || values[2 * i + 1] == other);
+        for (size_t i = 0; i < count; i++)
+            assert_true(values[2 * i + 1] == 2 || values[2 * i + 1] == other);
         mw_point_reader_close(reader);
         /* one by one, points that do not count in between are no end */
         reader = open_las(&l, &options);
@@ -211,7 +219,8 @@ static mw_status read_through(const las_sample *l, mw_error *error)
     files_write("p.las", (bytes){(const char *)l->bytes, l->size});
     mw_status status = mw_point_reader_open("p.las", NULL, &reader, error);
     if (status) return status;
-    while (!status && count > 0) status = mw_point_reader_read(reader, values, POINTS, &count, error);
+    while (!status && count > 0)
+        status = mw_point_reader_read(reader, values, POINTS, &count, error);
     mw_point_reader_close(reader);
     return status;
 }
@@ -229,8 +238,8 @@ static void test_laz(void **state)
     static las_sample l;
     make(&l, 2, 3, 0, "", 0);
     l.bytes[104] |= 0x80;
-    expect_bad(&l,
-               "p.las: this is LAZ, compressed LAS, which is not read: unpack it first, for instance with 'las2las");
+    expect_bad(&l, "p.las: this is LAZ, compressed LAS, which is not read: unpack it first, for "
+                   "instance with 'las2las");
     /* without the bit, by the record that LASzip leaves */
     char record[54 + 20 + 54 + 8] = {0};
     memcpy(record + 2, "other", 5);
@@ -323,8 +332,9 @@ static void test_gzip(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_every_format), cmocka_unit_test(test_columns),   cmocka_unit_test(test_classes),
-        cmocka_unit_test(test_laz),          cmocka_unit_test(test_malformed), cmocka_unit_test(test_gzip),
+        cmocka_unit_test(test_every_format), cmocka_unit_test(test_columns),
+        cmocka_unit_test(test_classes),      cmocka_unit_test(test_laz),
+        cmocka_unit_test(test_malformed),    cmocka_unit_test(test_gzip),
     };
     return cmocka_run_group_tests(tests, files_enter, files_leave);
 }

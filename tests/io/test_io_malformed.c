@@ -1,4 +1,5 @@
-/* test_io_malformed.c - readers of meshes: every kind of malformed file is refused by name and line. */
+/* test_io_malformed.c - readers of meshes: every kind of malformed file is refused by name and
+ * line. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -19,7 +20,9 @@ typedef struct bad_mesh {
 } bad_mesh;
 
 #define OFF3 "0 0 0\n1 0 0\n0 1 0\n"
-#define PLY3 "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+#define PLY3                                                                                       \
+    "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float " \
+    "z\n"
 #define PLYF PLY3 "element face 1\nproperty list uchar int vertex_indices\nend_header\n" OFF3
 static const bad_mesh bads[] = {
     {"e.off", "", 1, "begins with OFF"},
@@ -34,7 +37,8 @@ static const bad_mesh bads[] = {
     {"e.off", "OFF\n-3 1 0\n", 2, "negative"},
     {"e.off", "OFF\n3 1.5 0\n" OFF3, 2, "numbers of vertices and faces"},
     {"e.off", "OFF\n353535235358 6 0\n" OFF3, 5, "ends after 3 of 353535235358 vertices"},
-    {"e.off", "OFF\n99999999999999999999999 6 0\n" OFF3, 2, "the number 99999999999999999999999 is too large"},
+    {"e.off", "OFF\n99999999999999999999999 6 0\n" OFF3, 2,
+     "the number 99999999999999999999999 is too large"},
     {"e.off", "OFF\n3 4000000000 0\n" OFF3 "3 0 1 2\n", 6, "ends after 1 of 4000000000 faces"},
     {"e.off", "OFF\n3 1 0\n0 0 0\n1 0\n0 1 0\n3 0 1 2\n", 4, "2 coordinates"},
     {"e.off", "OFF\n3 1 0\n0 0 0\n\n1 zero 0\n0 1 0\n3 0 1 2\n", 5, "'zero' is not a number"},
@@ -42,10 +46,12 @@ static const bad_mesh bads[] = {
     {"e.off", "OFF\n3 1 0\n0 0 0\n1e 0 0\n0 1 0\n3 0 1 2\n", 4, "'1e' is not a number"},
     {"e.off", "OFF\n3 1 0\n0 0 0\n0x1p3 0 0\n0 1 0\n3 0 1 2\n", 4, "'0x1p3' is not a number"},
     {"e.off", "OFF\n3 1 0\n" OFF3 "3 0 1\n", 6, "3 corners with 2"},
-    {"e.off", "OFF\n3 1 0\n" OFF3 "3 0 1 3\n", 6, "vertex 3 does not exist: there are 3, numbered from 0"},
+    {"e.off", "OFF\n3 1 0\n" OFF3 "3 0 1 3\n", 6,
+     "vertex 3 does not exist: there are 3, numbered from 0"},
     {"e.off", "OFF\n3 1 0\n" OFF3 "3 0 1 -1\n", 6, "vertex -1 does not exist"},
     {"e.off", "OFF\n3 1 0\n" OFF3 "3 0 1 4294967296\n", 6, "vertex 4294967296 does not exist"},
-    {"e.off", "OFF\n3 1 0\n" OFF3 "3 0 1 18446744073709551617\n", 6, "the number 18446744073709551617 is too large"},
+    {"e.off", "OFF\n3 1 0\n" OFF3 "3 0 1 18446744073709551617\n", 6,
+     "the number 18446744073709551617 is too large"},
     {"e.off", "OFF\n3 1 0\n" OFF3 "3 0 1 1.0\n", 6, "'1.0' is no number of a vertex"},
     {"e.off", "OFF\n3 1 0\n" OFF3 "3 0 1 x\n", 6, "'x' is no number of a vertex"},
     {"e.off", "OFF\n3 1 0\n" OFF3 "2 0 1\n", 6, "a face of 2 corners"},
@@ -63,12 +69,17 @@ static const bad_mesh bads[] = {
     {"e.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2\n", 4, "a face of 2 corners"},
     {"e.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf \n", 4, "a face of 0 corners"},
     {"e.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 0 1 2\n", 4, "'0' is no number of a vertex"},
-    {"e.obj", "v 0 0 0\nv 1 0 0\nf 1 2 4\nv 0 1 0\n", 3, "vertex 4 does not exist: there are 3, numbered from 1"},
-    {"e.obj", "v 0 0 0\nv 1 0 0\nf 1 2 4294967297\nv 0 1 0\n", 3, "4294967297 is no number of a vertex"},
-    {"e.obj", "v 0 0 0\nv 1 0 0\nf 1 2 4294967294\nv 0 1 0\n", 3, "vertex 4294967294 does not exist"},
-    {"e.obj", "v 0 0 0\nv 1 0 0\nf -1 -2 -3\nv 0 1 0\n", 3, "vertex -3 does not exist: there are 2"},
+    {"e.obj", "v 0 0 0\nv 1 0 0\nf 1 2 4\nv 0 1 0\n", 3,
+     "vertex 4 does not exist: there are 3, numbered from 1"},
+    {"e.obj", "v 0 0 0\nv 1 0 0\nf 1 2 4294967297\nv 0 1 0\n", 3,
+     "4294967297 is no number of a vertex"},
+    {"e.obj", "v 0 0 0\nv 1 0 0\nf 1 2 4294967294\nv 0 1 0\n", 3,
+     "vertex 4294967294 does not exist"},
+    {"e.obj", "v 0 0 0\nv 1 0 0\nf -1 -2 -3\nv 0 1 0\n", 3,
+     "vertex -3 does not exist: there are 2"},
     {"e.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1/x 2 3\n", 4, "'1/x' is no number of a vertex"},
-    {"e.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1/2/3/4 2 3\n", 4, "'1/2/3/4' is no number of a vertex"},
+    {"e.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1/2/3/4 2 3\n", 4,
+     "'1/2/3/4' is no number of a vertex"},
     {"e.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3a\n", 4, "'3a' is no number of a vertex"},
     {"e.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 \\\n2 \\\n", 5, "a face of 2 corners"},
 
@@ -91,14 +102,19 @@ static const bad_mesh bads[] = {
     {"e.ply", PLY3 "property list int\n", 7, "'' is no type"},
     {"e.ply", PLY3 "property float\n", 7, "without a name"},
     {"e.ply", PLY3 "propertee float w\n", 7, "'propertee' was not expected"},
-    {"e.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float z\nend_header\n", 6,
+    {"e.ply",
+     "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float z\nend_header\n", 6,
      "no property 'y'"},
-    {"e.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty list int int y\nend_header\n", 6,
-     "no property 'y'"},
+    {"e.ply",
+     "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty list int int "
+     "y\nend_header\n",
+     6, "no property 'y'"},
     {"e.ply", PLY3 "element face 1\nproperty list int float vertex_indices\nend_header\n" OFF3, 12,
      "no list of integers"},
-    {"e.ply", PLY3 "element face 1\nproperty int vertex_indices\nend_header\n" OFF3, 12, "no list of integers"},
-    {"e.ply", PLY3 "element face 1\nproperty list int int corners\nend_header\n" OFF3, 12, "no list of integers"},
+    {"e.ply", PLY3 "element face 1\nproperty int vertex_indices\nend_header\n" OFF3, 12,
+     "no list of integers"},
+    {"e.ply", PLY3 "element face 1\nproperty list int int corners\nend_header\n" OFF3, 12,
+     "no list of integers"},
     {"e.ply", PLY3 "end_header\n0 0 0\n1 0 0\n", 9, "ends after 2 of 3 elements 'vertex'"},
     {"e.ply", PLY3 "end_header\n0 0 0\n1 0\n0 1 0\n", 9, "ends before its last value"},
     {"e.ply", PLY3 "end_header\n0 0 0\n1 0 0 0\n0 1 0\n", 9, "'0' follows the last value"},
@@ -113,19 +129,21 @@ static const bad_mesh bads[] = {
     {"e.ply", PLYF "3.5 0 1 2\n", 13, "'3.5' is no integer"},
     {"e.ply", PLYF "9000000000000000000 0 1 2\n", 13, "ends before its last value"},
     {"e.ply",
-     "ply\nformat ascii 1.0\nelement face 1\nproperty list uchar int vertex_indices\nelement vertex 1\nproperty float "
+     "ply\nformat ascii 1.0\nelement face 1\nproperty list uchar int vertex_indices\nelement "
+     "vertex 1\nproperty float "
      "x\n"
      "property float y\nend_header\n3 0 1 2\n5 5\n",
      9, "vertex 2 does not exist: there are 1"},
     {"e.ply",
-     "ply\nformat ascii 1.0\nelement vertex 4000000000000\nproperty float x\nproperty float y\nend_header\n1 1\n", 7,
-     "ends after 1 of 4000000000000"},
+     "ply\nformat ascii 1.0\nelement vertex 4000000000000\nproperty float x\nproperty float "
+     "y\nend_header\n1 1\n",
+     7, "ends after 1 of 4000000000000"},
 
     {"e.stl", "solid\n", 1, "ends before 'endsolid'"},
     {"e.stl", "solid\nendsolid\nmore\n", 3, "expected 'solid'"},
     {"e.stl", "solid\nfacet normal 0 0 1\nendfacet\nendsolid\n", 3, "a facet of 0 vertices"},
-    {"e.stl", "solid\nfacet\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 1 0\nvertex 0 1 0\n", 7,
-     "a fourth vertex"},
+    {"e.stl", "solid\nfacet\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 1 0\nvertex 0 1 0\n",
+     7, "a fourth vertex"},
     {"e.stl", "solid\nfacet\nouter loop\nvertex 0 0\n", 4, "2 coordinates"},
     {"e.stl", "solid\nfacet\nouter loop\nvertex 0 x 0\n", 4, "'x' is not a number"},
     {"e.stl", "solid\nvertex 0 0 0\n", 2, "'vertex' was not expected"},
@@ -172,7 +190,8 @@ static void test_malformed_pairs(void **state)
         {"", ele, "p.node:1: the file is empty", 1},
         {"three 2\n", ele, "p.node:1: expected the number of rows, found 'three'", 1},
         {"3 2 0 0 \n1 0 0\n2 1 0\n", ele, "p.node:3: the file ends after 2 of 3 vertices", 3},
-        {"4000000000 2 0 0\n1 0 0\n", ele, "p.node:2: the file ends after 1 of 4000000000 vertices", 2},
+        {"4000000000 2 0 0\n1 0 0\n", ele, "p.node:2: the file ends after 1 of 4000000000 vertices",
+         2},
         {"3 4 0 0\n", ele, "p.node:1: vertices of 4 coordinates", 1},
         {"3 2 4000000000 0\n1 0 0\n", ele, "p.node:1: more than 4096 attributes", 1},
         {"3 2 -1 0\n1 0 0\n", ele, "p.node:1: a negative number", 1},
@@ -186,7 +205,8 @@ static void test_malformed_pairs(void **state)
         {node, "1 4 0\n1 1 2 3 3\n", "p.ele:1: elements of 4 corners", 1},
         {node, "1 3 0\n", "p.ele:1: the file ends after 0 of 1 triangles", 1},
         {node, "1 3 0\n1 1 2\n", "p.ele:2: the line ends before the corner", 2},
-        {node, "1 3 0\n1 0 1 2\n", "p.ele:2: vertex 0 does not exist: there are 3, numbered from 1", 2},
+        {node, "1 3 0\n1 0 1 2\n", "p.ele:2: vertex 0 does not exist: there are 3, numbered from 1",
+         2},
         {node, "1 3 0\n1 1 2 4\n", "p.ele:2: vertex 4 does not exist", 2},
         {node, "1 3 0\n1 1 2 4294967298\n", "p.ele:2: vertex 4294967298 does not exist", 2},
         {node, "2 3 0\n1 1 2 3\n3 1 2 3\n", "p.ele:3: triangle 3 where 2 was expected", 3},
@@ -198,7 +218,8 @@ static void test_malformed_pairs(void **state)
         mw_error error;
         files_write_text("p.node", cases[i].node);
         files_write_text("p.ele", cases[i].ele);
-        if (mw_read_mesh("p", NULL, &file, &error) != MW_ERROR_INPUT) fail_msg("case %zu was taken", i);
+        if (mw_read_mesh("p", NULL, &file, &error) != MW_ERROR_INPUT)
+            fail_msg("case %zu was taken", i);
         files_expect_error(&error, MW_ERROR_INPUT, cases[i].line, cases[i].says);
         assert_null(file.points);
     }
@@ -229,10 +250,12 @@ static void test_malformed_binary(void **state)
     bytes cut = mesh_file_stl(room, "solid cut", 2, corners, 2);
     cut.size -= 7;
     expect_bad_bytes("e.stl", cut, "at byte 134: the data end after 1 of 2 triangles");
-    expect_bad_bytes("e.stl", mesh_file_stl(room, "", 1, corners, 2), "more data after the 1 triangles");
+    expect_bad_bytes("e.stl", mesh_file_stl(room, "", 1, corners, 2),
+                     "more data after the 1 triangles");
     expect_bad_bytes("e.off", BYTES("OFF\n1 0 0\n0\0 0 0\n"), "e.off:3: a NUL byte");
     expect_bad_bytes("e.obj", BYTES("v 0 0 0\nv \0\n"), "e.obj:2: a NUL byte");
-#define PLYB "ply\nformat binary_little_endian 1.0\nelement vertex 1\nproperty uchar x\nproperty uchar y\n"
+#define PLYB                                                                                       \
+    "ply\nformat binary_little_endian 1.0\nelement vertex 1\nproperty uchar x\nproperty uchar y\n"
 #define PLYBF PLYB "element face 1\nproperty list char char vertex_indices\nend_header\n\1\2"
     expect_bad_bytes("e.ply", BYTES(PLYB "end_header\n\1"), "at byte 99: the data end early");
     expect_bad_bytes("e.ply", BYTES(PLYB "end_header\n\1\2x"), "at byte 100: more data");
@@ -291,8 +314,10 @@ static void test_prefixes(void **state)
             mw_error error;
             files_write(files[i].name, (bytes){files[i].text, cut});
             mw_status status = mw_read_mesh(files[i].name, NULL, &file, &error);
-            /* OBJ announces nothing; of the others only the last line end, or a shorter last number, may be missed */
-            if (status == MW_OK && i != 1 && cut + 2 < size) fail_msg("%s of %zu bytes was taken", files[i].name, cut);
+            /* OBJ announces nothing; of the others only the last line end, or a shorter last
+             * number, may be missed */
+            if (status == MW_OK && i != 1 && cut + 2 < size)
+                fail_msg("%s of %zu bytes was taken", files[i].name, cut);
             if (status != MW_OK) assert_int_equal(status, MW_ERROR_INPUT);
             mw_mesh_file_release(&file);
         }
@@ -311,7 +336,8 @@ static void test_long_line(void **state)
     expect_bad_bytes("e.off", (bytes){text, size}, "e.off:3: a line longer than 16777216 bytes");
     /* a line of some megabytes is taken, and so are many blocks without a line end among them */
     memcpy(text + 5000000, "\n" SQUARE_BODY "4 0 1 2 3\n", strlen("\n" SQUARE_BODY "4 0 1 2 3\n"));
-    mw_mesh_file file = mesh_file_read_bytes("a.off", (bytes){text, 5000000 + strlen("\n" SQUARE_BODY "4 0 1 2 3\n")});
+    mw_mesh_file file = mesh_file_read_bytes(
+        "a.off", (bytes){text, 5000000 + strlen("\n" SQUARE_BODY "4 0 1 2 3\n")});
     mesh_file_expect_triangles(&file, 4, 2, square_triangles);
     mw_mesh_file_release(&file);
     free(text);

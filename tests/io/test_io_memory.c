@@ -1,4 +1,5 @@
-/* test_io_memory.c - allocation number k fails, for every k: readers and writers report it and lose nothing. */
+/* test_io_memory.c - allocation number k fails, for every k: readers and writers report it and
+ * lose nothing. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -85,14 +86,16 @@ static void fail_each(io_work *job, const char *argument)
         counting = true;
         mw_status status = job(argument, &error);
         counting = false;
-        if (alive != 0) fail_msg("%s: %ld blocks lost when allocation %ld fails", argument, alive, k);
+        if (alive != 0)
+            fail_msg("%s: %ld blocks lost when allocation %ld fails", argument, alive, k);
         if (countdown >= 0) { /* there were fewer allocations than that */
             assert_int_equal(status, MW_OK);
             assert_true(k > 2);
             return;
         }
         if (status != MW_ERROR_MEMORY)
-            fail_msg("%s: status %d when allocation %ld fails: %s", argument, status, k, error.message);
+            fail_msg("%s: status %d when allocation %ld fails: %s", argument, status, k,
+                     error.message);
         assert_string_equal(error.message, "out of memory");
     }
 }
@@ -138,7 +141,8 @@ static mw_status read_edits(const char *path, mw_error *error)
     mw_edit_reader *reader;
     mw_edit_line line = {.kind = MW_EDIT_LINE_UNDO};
     mw_status status = mw_edit_reader_open(path, NULL, &reader, error);
-    while (!status && line.kind != MW_EDIT_LINE_NONE) status = mw_edit_reader_read(reader, &line, error);
+    while (!status && line.kind != MW_EDIT_LINE_NONE)
+        status = mw_edit_reader_read(reader, &line, error);
     mw_edit_reader_close(reader);
     return status;
 }
@@ -170,11 +174,13 @@ static void test_read_meshes(void **state)
     files_write_text("a.obj", SQUARE_V "f 1 2\\\n3\\\n4\n");
     files_write_text("a.stl", "solid\n" STL_FACET("0 0 0", "1 0 0", "1 1 0") "endsolid\n");
     files_write("b.stl", mesh_file_stl(room, "", 1, corners, 1));
-    files_write_text(
-        "a.ply", "ply\nformat ascii 1.0\ncomment crs EPSG:1\nelement vertex 3\nproperty float x\nproperty float "
-                 "y\nproperty int q\n"
-                 "element face 1\nproperty list int int vertex_indices\nend_header\n0 0 1\n1 0 1\n0 1 1\n3 0 1 2\n");
-    files_write_text("a.node", "# attributes: depth, z\n3 2 2 0\n0 0 0 7 7\n1 1 0 7 7\n2 0 1 7 7\n");
+    files_write_text("a.ply", "ply\nformat ascii 1.0\ncomment crs EPSG:1\nelement vertex "
+                              "3\nproperty float x\nproperty float "
+                              "y\nproperty int q\n"
+                              "element face 1\nproperty list int int vertex_indices\nend_header\n0 "
+                              "0 1\n1 0 1\n0 1 1\n3 0 1 2\n");
+    files_write_text("a.node",
+                     "# attributes: depth, z\n3 2 2 0\n0 0 0 7 7\n1 1 0 7 7\n2 0 1 7 7\n");
     files_write_text("a.ele", "1 3 0\n0 0 1 2\n");
     files_write_text("a.prj", "EPSG:2056");
     static const char *const paths[] = {"a.off", "a.obj", "a.stl", "b.stl", "a.ply", "a.node", "a"};
@@ -225,7 +231,8 @@ static void test_read_edits(void **state)
 static void test_write(void **state)
 {
     (void)state;
-    static const char *const paths[] = {"a.off", "a.ply", "a.node", "a.obj", "a.stl", "a.csv", "a.vtk"};
+    static const char *const paths[] = {"a.off", "a.ply", "a.node", "a.obj",
+                                        "a.stl", "a.csv", "a.vtk"};
     for (size_t i = 0; i < sizeof paths / sizeof *paths; i++) {
         fail_each(write_mesh, paths[i]);
         files_clear();
@@ -234,7 +241,8 @@ static void test_write(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_read_meshes), cmocka_unit_test(test_read_points),
-                                       cmocka_unit_test(test_read_edits), cmocka_unit_test(test_write)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_read_meshes), cmocka_unit_test(test_read_points),
+        cmocka_unit_test(test_read_edits), cmocka_unit_test(test_write)};
     return cmocka_run_group_tests(tests, files_enter, files_leave);
 }

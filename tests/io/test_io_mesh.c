@@ -25,13 +25,17 @@ static void test_off(void **state)
     (void)state;
     expect_square("a.off", "OFF\n4 1 0\n" SQUARE_BODY "4 0 1 2 3\n");
     expect_square("a.off", "OFF 4 2\n" SQUARE_BODY "3 0 1 2\n3 0 2 3 255 0 0\n");
-    expect_square("a.off", "OFF\r\n4 2 0\r\n0 0 0\r\n1 0 0\r\n1 1 .5\r\n0 1 0\r\n3 0 1 2\r\n3 0 2 3\r\n");
+    expect_square("a.off",
+                  "OFF\r\n4 2 0\r\n0 0 0\r\n1 0 0\r\n1 1 .5\r\n0 1 0\r\n3 0 1 2\r\n3 0 2 3\r\n");
     expect_square("a.off", "OFF\r4 2 0\r0 0 0\r1 0 0\r1 1 .5\r0 1 0\r3 0 1 2\r3 0 2 3\r");
     expect_square("a.off", "\xef\xbb\xbfOFF\n4 1 0\n" SQUARE_BODY "4 0 1 2 3");
+    expect_square("a.off", "# made by hand\n\nOFF # faces\n\n4 1 5 # counts\n\n" SQUARE_BODY
+                           "\n4  0\t1 2 3 # last\n# end\n\n");
+    expect_square(
+        "a.off",
+        "COFF\n4 1 0\n0 0 0 255 0 0 255\n1 0 0 1 2 3 4\n1 1 .5\n0 1 0\n4 0 1 2 3 0.1 0.2 0.3 1\n");
     expect_square("a.off",
-                  "# made by hand\n\nOFF # faces\n\n4 1 5 # counts\n\n" SQUARE_BODY "\n4  0\t1 2 3 # last\n# end\n\n");
-    expect_square("a.off", "COFF\n4 1 0\n0 0 0 255 0 0 255\n1 0 0 1 2 3 4\n1 1 .5\n0 1 0\n4 0 1 2 3 0.1 0.2 0.3 1\n");
-    expect_square("a.off", "NOFF\n4 1 0\n0 0 0 0 0 1\n1 0 0 0 0 1\n1 1 .5 0 0 1\n0 1 0 0 0 1\n4 0 1 2 3\n");
+                  "NOFF\n4 1 0\n0 0 0 0 0 1\n1 0 0 0 0 1\n1 1 .5 0 0 1\n0 1 0 0 0 1\n4 0 1 2 3\n");
     expect_square("a.off", "STCNOFF\n4 1 0\n" SQUARE_BODY "4 0 1 2 3\n");
     /* the contents tell the format, whatever the name */
     expect_square("a.txt", "OFF\n4 1 0\n" SQUARE_BODY "4 0 1 2 3\n");
@@ -54,8 +58,8 @@ static void test_obj(void **state)
     expect_square("a.obj", SQUARE_V "f -4 -3 -2 -1\n");
     expect_square("a.obj", "f 1 2 3 4\n" SQUARE_V); /* faces may come first */
     expect_square("a.obj", SQUARE_V "f 1 \\\n2 3\\\r\n 4\n");
-    expect_square("a.obj",
-                  "v 0 0 \\\n0\nv 1 0 0 1.0\nv 1 1 .5 0.1 0.2 0.3\n  v  0\t1  0\r\nf 1// 2// 3// 4// # face\n");
+    expect_square("a.obj", "v 0 0 \\\n0\nv 1 0 0 1.0\nv 1 1 .5 0.1 0.2 0.3\n  v  0\t1  0\r\nf 1// "
+                           "2// 3// 4// # face\n");
     expect_square("a.obj", SQUARE_V "f 1 2 3\nf 1 3 4\\");
     expect_square("a.txt", "# by hand\n" SQUARE_V "f 1 2 3\nf 1 3 4\n");
     mw_mesh_file file = mesh_file_read_text("cloud.obj", "v 0 0 0\n");
@@ -69,14 +73,19 @@ static void test_ply_ascii(void **state)
 #define PLY_XYZ "property float x\nproperty double y\nproperty float32 z\n"
     expect_square("a.ply",
                   "ply\nformat ascii 1.0\ncomment c\nobj_info i\nelement vertex 4\n" PLY_XYZ
-                  "element face 1\nproperty list uchar int vertex_indices\nend_header\n" SQUARE_BODY "4 0 1 2 3\n");
-    expect_square("a.ply",
-                  "ply\nformat ascii 1.0\nelement face 2\nproperty list int8 uint16 vertex_index\nproperty uchar red\n"
-                  "element vertex 4\nproperty list uchar int extra\n" PLY_XYZ "element edge 1\nproperty int a\n"
-                  "end_header\n3 0 1 2 255\n3 0 2 3 0\n1 7 0 0 0\n0 1 0 0\n2 7 8 1 1 .5\n0 0 1 0\n9\n\n");
+                  "element face 1\nproperty list uchar int vertex_indices\nend_header\n" SQUARE_BODY
+                  "4 0 1 2 3\n");
+    expect_square(
+        "a.ply",
+        "ply\nformat ascii 1.0\nelement face 2\nproperty list int8 uint16 vertex_index\nproperty "
+        "uchar red\n"
+        "element vertex 4\nproperty list uchar int extra\n" PLY_XYZ
+        "element edge 1\nproperty int a\n"
+        "end_header\n3 0 1 2 255\n3 0 2 3 0\n1 7 0 0 0\n0 1 0 0\n2 7 8 1 1 .5\n0 0 1 0\n9\n\n");
     mw_mesh_file file = mesh_file_read_text(
-        "a.ply", "ply\nformat ascii 1.0\nelement vertex 2\nproperty float y\nproperty int8 quality\n"
-                 "property float x\nproperty float t\nend_header\n1 -3 2 0.25\n\n3 nan 4 inf\n");
+        "a.ply",
+        "ply\nformat ascii 1.0\nelement vertex 2\nproperty float y\nproperty int8 quality\n"
+        "property float x\nproperty float t\nend_header\n1 -3 2 0.25\n\n3 nan 4 inf\n");
     assert_int_equal(file.point_count, 2);
     assert_false(file.has_z);
     mesh_file_expect_points(&file, (const double[]){2, 1, 0, 4, 3, 0});
@@ -87,22 +96,24 @@ static void test_ply_ascii(void **state)
     assert_true(file.fields[1][0] == 0.25 && file.fields[1][1] == INFINITY);
     mw_mesh_file_release(&file);
     /* an element without properties has no data, whatever its count */
-    file =
-        mesh_file_read_text("a.ply", "ply\nformat ascii 1.0\nelement nothing 999999999999\nelement vertex 1\n" PLY_XYZ
-                                     "end_header\n1 2 3\n");
+    file = mesh_file_read_text(
+        "a.ply", "ply\nformat ascii 1.0\nelement nothing 999999999999\nelement vertex 1\n" PLY_XYZ
+                 "end_header\n1 2 3\n");
     mesh_file_expect_points(&file, (const double[]){1, 2, 3});
     mw_mesh_file_release(&file);
 }
 
-/* Strips of triangles: every second one turned, -1 between strips, corners repeated to join them. */
+/* Strips of triangles: every second one turned, -1 between strips, corners repeated to join them.
+ * */
 static void test_ply_strips(void **state)
 {
     (void)state;
-    mw_mesh_file file =
-        mesh_file_read_text("a.ply", "ply\nformat ascii 1.0\nelement vertex 6\n" PLY_XYZ "element tristrips 2\n"
-                                     "property list int int vertex_indices\nend_header\n0 0 0\n0 0 0\n0 0 0\n0 0 0\n"
-                                     "0 0 0\n0 0 0\n9 0 1 2 3 -1 3 4 5 -1\n6 0 1 2 2 3 4\n");
-    mesh_file_expect_triangles(&file, 6, 5, (const uint32_t[]){0, 1, 2, 2, 1, 3, 3, 4, 5, 0, 1, 2, 3, 2, 4});
+    mw_mesh_file file = mesh_file_read_text(
+        "a.ply", "ply\nformat ascii 1.0\nelement vertex 6\n" PLY_XYZ "element tristrips 2\n"
+                 "property list int int vertex_indices\nend_header\n0 0 0\n0 0 0\n0 0 0\n0 0 0\n"
+                 "0 0 0\n0 0 0\n9 0 1 2 3 -1 3 4 5 -1\n6 0 1 2 2 3 4\n");
+    mesh_file_expect_triangles(&file, 6, 5,
+                               (const uint32_t[]){0, 1, 2, 2, 1, 3, 3, 4, 5, 0, 1, 2, 3, 2, 4});
     mw_mesh_file_release(&file);
 }
 
@@ -116,16 +127,20 @@ static void test_ply_binary(void **state)
     for (int big = 0; big < 2; big++) {
         char file_bytes[2048];
         size_t n =
-            (size_t)sprintf(file_bytes, "ply\nformat binary_%s_endian 1.0\nelement vertex 3\n", big ? "big" : "little");
-        for (int k = 0; k < 10; k++) n += (size_t)sprintf(file_bytes + n, "property %s p%d\n", types[k], k);
-        n += (size_t)sprintf(file_bytes + n, "property float x\nproperty double y\nelement face 1\n"
-                                             "property list ushort short vertex_indices\nend_header\n");
-#define PUT(type, value)                                                                                               \
-    do {                                                                                                               \
-        type put_ = (type)(value);                                                                                     \
-        unsigned char raw_[8];                                                                                         \
-        memcpy(raw_, &put_, sizeof put_);                                                                              \
-        for (size_t b_ = 0; b_ < sizeof put_; b_++) file_bytes[n++] = (char)raw_[big ? sizeof put_ - 1 - b_ : b_];     \
+            (size_t)sprintf(file_bytes, "ply\nformat binary_%s_endian 1.0\nelement vertex 3\n",
+                            big ? "big" : "little");
+        for (int k = 0; k < 10; k++)
+            n += (size_t)sprintf(file_bytes + n, "property %s p%d\n", types[k], k);
+        n += (size_t)sprintf(file_bytes + n,
+                             "property float x\nproperty double y\nelement face 1\n"
+                             "property list ushort short vertex_indices\nend_header\n");
+#define PUT(type, value)                                                                           \
+    do {                                                                                           \
+        type put_ = (type)(value);                                                                 \
+        unsigned char raw_[8];                                                                     \
+        memcpy(raw_, &put_, sizeof put_);                                                          \
+        for (size_t b_ = 0; b_ < sizeof put_; b_++)                                                \
+            file_bytes[n++] = (char)raw_[big ? sizeof put_ - 1 - b_ : b_];                         \
     } while (0)
         for (int v = 0; v < 3; v++) {
             PUT(int8_t, -100 - v);
@@ -150,10 +165,12 @@ static void test_ply_binary(void **state)
         mesh_file_expect_triangles(&file, 3, 1, (const uint32_t[]){2, 1, 0});
         assert_int_equal(file.field_count, 10);
         for (int v = 0; v < 3; v++) {
-            const double wanted[] = {-100 - v,         200 + v,  -30000 - v, 60000 + v, -2000000000.0 - v,
-                                     4000000000.0 + v, -5e9 - v, 5e9 + v,    0.5 + v,   0.1 + v};
+            const double wanted[] = {-100 - v,          200 + v,          -30000 - v, 60000 + v,
+                                     -2000000000.0 - v, 4000000000.0 + v, -5e9 - v,   5e9 + v,
+                                     0.5 + v,           0.1 + v};
             for (int k = 0; k < 10; k++) assert_true(file.fields[k][v] == wanted[k]);
-            assert_true(file.points[3 * v] == v && file.points[3 * v + 1] == v * v && file.points[3 * v + 2] == 0);
+            assert_true(file.points[3 * v] == v && file.points[3 * v + 1] == v * v &&
+                        file.points[3 * v + 2] == 0);
         }
         mw_mesh_file_release(&file);
         /* cut anywhere, the file is refused */
@@ -171,8 +188,9 @@ static void test_ply_binary(void **state)
 static void test_ply_crlf_header(void **state)
 {
     (void)state;
-    static const char contents[] = "ply\r\nformat binary_little_endian 1.0\r\nelement vertex 1\r\nproperty uchar x\r\n"
-                                   "property uchar y\r\nend_header\r\n\x0a\x0d";
+    static const char contents[] =
+        "ply\r\nformat binary_little_endian 1.0\r\nelement vertex 1\r\nproperty uchar x\r\n"
+        "property uchar y\r\nend_header\r\n\x0a\x0d";
     mw_mesh_file file = mesh_file_read_bytes("a.ply", BYTES(contents));
     mesh_file_expect_points(&file, (const double[]){10, 13, 0});
     mw_mesh_file_release(&file);
@@ -181,21 +199,22 @@ static void test_ply_crlf_header(void **state)
 static void test_stl(void **state)
 {
     (void)state;
-    static const char text[] =
-        "solid a name\n" STL_FACET("0 0 0", "1 0 0", "1 1 0.5") STL_FACET("-0.0 0 0", "1 1 .5", "0 1 0") "endsolid\n";
+    static const char text[] = "solid a name\n" STL_FACET("0 0 0", "1 0 0", "1 1 0.5")
+        STL_FACET("-0.0 0 0", "1 1 .5", "0 1 0") "endsolid\n";
     expect_square("a.stl", text);
     expect_square("a.dat", text);
     mw_mesh_file file = mesh_file_read_text("a.stl", text);
     assert_int_equal(file.welded, 2);
     mw_mesh_file_release(&file);
     /* two solids, other letters, no name */
-    file =
-        mesh_file_read_text("a.stl", "SOLID\n" STL_FACET("0 0 0", "1 0 0", "0 1 0") "ENDSOLID x\n\nsolid b\n" STL_FACET(
-                                         "0 0 1", "1 0 1", "0 1 1") "endsolid b\n");
+    file = mesh_file_read_text(
+        "a.stl", "SOLID\n" STL_FACET("0 0 0", "1 0 0", "0 1 0") "ENDSOLID x\n\nsolid b\n" STL_FACET(
+                     "0 0 1", "1 0 1", "0 1 1") "endsolid b\n");
     mesh_file_expect_triangles(&file, 6, 2, (const uint32_t[]){0, 1, 2, 3, 4, 5});
     mw_mesh_file_release(&file);
     char room[512];
-    static const float corners[2][9] = {{0, 0, 0, 1, 0, 0, 1, 1, 0.5f}, {-0.0f, 0, 0, 1, 1, 0.5f, 0, 1, 0}};
+    static const float corners[2][9] = {{0, 0, 0, 1, 0, 0, 1, 1, 0.5f},
+                                        {-0.0f, 0, 0, 1, 1, 0.5f, 0, 1, 0}};
     static const char *const headers[] = {"made by hand", "solid although binary"};
     for (int h = 0; h < 2; h++) {
         file = mesh_file_read_bytes("b.stl", mesh_file_stl(room, headers[h], 2, corners, 2));
@@ -226,7 +245,8 @@ static void test_node_ele(void **state)
 {
     (void)state;
     mw_mesh_file file;
-    static const char zero[] = "4 2 0 0\n0 0 0\n1 1 0\n2 1 1\n3 0 1\n", triangles[] = "2 3 0\n0 0 1 2\n1 0 2 3\n";
+    static const char zero[] = "4 2 0 0\n0 0 0\n1 1 0\n2 1 1\n3 0 1\n",
+                      triangles[] = "2 3 0\n0 0 1 2\n1 0 2 3\n";
     static const char *const names[] = {"p.node", "p.ele", "p"};
     for (int i = 0; i < 3; i++) {
         read_pair(zero, triangles, names[i], &file);
@@ -234,8 +254,10 @@ static void test_node_ele(void **state)
         assert_false(file.has_z);
         mw_mesh_file_release(&file);
     }
-    /* from 1, attributes, markers, comments, CRLF, a header that says less, six corners, attributes of triangles */
-    read_pair("# a comment\r\n4  2  2  1 # counts\r\n 1  0 0  10 0.5  1\r\n\r\n2 1 0 11 nan 1 # two\r\n3 1 1 12 -1e5 "
+    /* from 1, attributes, markers, comments, CRLF, a header that says less, six corners,
+     * attributes of triangles */
+    read_pair("# a comment\r\n4  2  2  1 # counts\r\n 1  0 0  10 0.5  1\r\n\r\n2 1 0 11 nan 1 # "
+              "two\r\n3 1 1 12 -1e5 "
               "0\r\n4 0 1 13 0 1\r\n# end",
               "2 6 1\n1 1 2 3 1 2 3 7.5\n2 1 3 4 1 1 1 8\n", "p", &file);
     mesh_file_expect_triangles(&file, 4, 2, square_triangles);
@@ -251,7 +273,8 @@ static void test_node_ele(void **state)
     mesh_file_expect_points(&file, square_points);
     assert_true(file.has_z);
     mw_mesh_file_release(&file);
-    read_pair("# attributes: depth , z\n4 2 2\n0 0 0 7 0\n1 1 0 7 0\n2 1 1 7 .5\n3 0 1 8 0\n", triangles, "p", &file);
+    read_pair("# attributes: depth , z\n4 2 2\n0 0 0 7 0\n1 1 0 7 0\n2 1 1 7 .5\n3 0 1 8 0\n",
+              triangles, "p", &file);
     mesh_file_expect_points(&file, square_points);
     assert_int_equal(file.field_count, 1);
     assert_string_equal(file.field_names[0], "depth");
@@ -292,7 +315,8 @@ static void test_line_ends(void **state)
         mw_mesh_file file = mesh_file_read("lines.off");
         assert_int_equal(file.point_count, 60000);
         for (size_t i = 0; i < 60000; i++)
-            if (file.points[3 * i] != (double)i || file.points[3 * i + 2] != (double)(i % 7)) fail_msg("vertex %zu", i);
+            if (file.points[3 * i] != (double)i || file.points[3 * i + 2] != (double)(i % 7))
+                fail_msg("vertex %zu", i);
         mw_mesh_file_release(&file);
     }
     files_clear();

@@ -1,4 +1,5 @@
-/* test_io_number.c - numbers as text, both ways, against the C library, and in a locale with a decimal comma. */
+/* test_io_number.c - numbers as text, both ways, against the C library, and in a locale with a
+ * decimal comma. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -55,7 +56,8 @@ static void expect_number(const char *text)
     double value;
     const char *end = mw__read_double(text, &value);
     double wanted = strtod(text, NULL);
-    if (!end || *end || bits_of(value) != bits_of(wanted)) fail_msg("'%s' is read as %a, not %a", text, value, wanted);
+    if (!end || *end || bits_of(value) != bits_of(wanted))
+        fail_msg("'%s' is read as %a, not %a", text, value, wanted);
 }
 
 static uint64_t new_seed(void)
@@ -65,7 +67,8 @@ static uint64_t new_seed(void)
     return seed;
 }
 
-/* Doubles of many kinds: any bits, unit interval, few decimals, all exponents, beside powers of ten and of two. */
+/* Doubles of many kinds: any bits, unit interval, few decimals, all exponents, beside powers of
+ * ten and of two. */
 static double random_double(uint64_t *random, int kind)
 {
     uint64_t b = mw__random(random);
@@ -105,7 +108,8 @@ static void test_read_random(void **state)
             expect_number(text);
         }
         uint64_t digits = mw__random(&random) >> mw__random_below(&random, 60);
-        snprintf(text, sizeof text, "%llue%d", (unsigned long long)digits, (int)mw__random_below(&random, 70) - 35);
+        snprintf(text, sizeof text, "%llue%d", (unsigned long long)digits,
+                 (int)mw__random_below(&random, 70) - 35);
         expect_number(text);
     }
 }
@@ -117,13 +121,15 @@ static void test_read_middles(void **state)
     uint64_t random = new_seed();
     char text[128];
     for (int i = 0; i < 100000; i++) {
-        uint64_t middle = (mw__random(&random) >> 10 | UINT64_C(1) << 53) | 1; /* 54 bits, the last one set */
+        /* 54 bits, the last one set */
+        uint64_t middle = (mw__random(&random) >> 10 | UINT64_C(1) << 53) | 1;
         int shift = (int)mw__random_below(&random, 9);
         snprintf(text, sizeof text, "%llu", (unsigned long long)(middle << shift));
         expect_number(text);
         snprintf(text, sizeof text, "%llu.0000001", (unsigned long long)middle);
         expect_number(text);
-        snprintf(text, sizeof text, "%llu.%d", (unsigned long long)(middle >> 3), (int)(mw__random(&random) % 8) * 125);
+        snprintf(text, sizeof text, "%llu.%d", (unsigned long long)(middle >> 3),
+                 (int)(mw__random(&random) % 8) * 125);
         expect_number(text);
         snprintf(text, sizeof text, "%.60e", ldexp((double)(middle >> 1), -60));
         expect_number(text);
@@ -243,13 +249,16 @@ static void test_read_rest(void **state)
     (void)state;
     const struct {
         const char *text, *rest;
-    } cases[] = {{"1,5", ",5"},    {"1e", "e"},   {"1e+", "e+"}, {"0x10", "x10"}, {"1.2.3", ".3"},
-                 {"12abc", "abc"}, {"nano", "o"}, {"1 2", " 2"}, {"inf2", "2"},   {"infinit", "init"}};
+    } cases[] = {{"1,5", ",5"},   {"1e", "e"},        {"1e+", "e+"}, {"0x10", "x10"},
+                 {"1.2.3", ".3"}, {"12abc", "abc"},   {"nano", "o"}, {"1 2", " 2"},
+                 {"inf2", "2"},   {"infinit", "init"}};
     double value;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
         assert_string_equal(mw__read_double(cases[i].text, &value), cases[i].rest);
-    static const char *const none[] = {"", "-", "+", ".", "-.", "e5", ".e5", "abc", "--1", "+-1", " 1", "na", ",5"};
-    for (size_t i = 0; i < sizeof none / sizeof *none; i++) assert_null(mw__read_double(none[i], &value));
+    static const char *const none[] = {"",    "-",   "+",   ".",  "-.", "e5", ".e5",
+                                       "abc", "--1", "+-1", " 1", "na", ",5"};
+    for (size_t i = 0; i < sizeof none / sizeof *none; i++)
+        assert_null(mw__read_double(none[i], &value));
     char large[1200];
     memset(large, '7', sizeof large);
     large[1000] = 0;
@@ -284,16 +293,19 @@ static void test_read_integers(void **state)
         assert_true(value == cases[i].value);
     }
     static const char *const none[] = {"", "-", "x", " 1", "--1"};
-    for (size_t i = 0; i < sizeof none / sizeof *none; i++) assert_null(mw__read_integer(none[i], &value));
+    for (size_t i = 0; i < sizeof none / sizeof *none; i++)
+        assert_null(mw__read_integer(none[i], &value));
 }
 
 /* The locale of the program has no say. */
 static void test_locale(void **state)
 {
     (void)state;
-    static const char *const names[] = {"de_DE.UTF-8", "fr_FR.UTF-8", "de_DE", "cs_CZ.UTF-8", "nl_NL.UTF-8"};
+    static const char *const names[] = {"de_DE.UTF-8", "fr_FR.UTF-8", "de_DE", "cs_CZ.UTF-8",
+                                        "nl_NL.UTF-8"};
     const char *set = NULL;
-    for (size_t i = 0; i < sizeof names / sizeof *names && !set; i++) set = setlocale(LC_ALL, names[i]);
+    for (size_t i = 0; i < sizeof names / sizeof *names && !set; i++)
+        set = setlocale(LC_ALL, names[i]);
     if (!set || localeconv()->decimal_point[0] != ',') {
         setlocale(LC_ALL, "C");
         print_message("no locale with a decimal comma is installed\n");
@@ -315,8 +327,9 @@ static void test_locale(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_write_random),  cmocka_unit_test(test_read_random), cmocka_unit_test(test_read_middles),
-        cmocka_unit_test(test_written_text),  cmocka_unit_test(test_read_text),   cmocka_unit_test(test_read_rest),
+        cmocka_unit_test(test_write_random),  cmocka_unit_test(test_read_random),
+        cmocka_unit_test(test_read_middles),  cmocka_unit_test(test_written_text),
+        cmocka_unit_test(test_read_text),     cmocka_unit_test(test_read_rest),
         cmocka_unit_test(test_read_integers), cmocka_unit_test(test_locale),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -230,7 +230,8 @@ static void test_full_device(void **state)
     assert_int_equal(mw_output_close(output, 1, NULL), MW_OK);
 }
 
-/* A limit on the size of files stands for a full disk: nothing is left. In a child, since the limit stays. */
+/* A limit on the size of files stands for a full disk: nothing is left. In a child, since the
+ * limit stays. */
 static void test_full_disk(void **state)
 {
     (void)state;
@@ -242,9 +243,11 @@ static void test_full_disk(void **state)
         mw_output *output = NULL;
         mw_error error = {0};
         signal(SIGXFSZ, SIG_IGN);
-        int right = setrlimit(RLIMIT_FSIZE, &limit) == 0 && mw_output_open("out.txt", &output, &error) == MW_OK;
+        int right = setrlimit(RLIMIT_FSIZE, &limit) == 0 &&
+                    mw_output_open("out.txt", &output, &error) == MW_OK;
         for (int i = 0; right && i < 100000; i++) mw_output_printf(output, "%d\n", i);
-        right = right && mw_output_failed(output) && mw_output_close(output, 1, &error) == MW_ERROR_SYSTEM;
+        right = right && mw_output_failed(output) &&
+                mw_output_close(output, 1, &error) == MW_ERROR_SYSTEM;
         _exit(right && strstr(error.message, "out.txt: File too large") ? 0 : 1);
     }
     int end = 0;
@@ -265,7 +268,8 @@ static void test_closed_pipe(void **state)
     void (*old)(int) = signal(SIGPIPE, SIG_IGN);
     mw_error error;
     mw_output *output = open_output(path);
-    for (int i = 0; i < 100000 && !mw_output_failed(output); i++) mw_output_printf(output, "%d\n", i);
+    for (int i = 0; i < 100000 && !mw_output_failed(output); i++)
+        mw_output_printf(output, "%d\n", i);
     assert_int_equal(mw_output_close(output, 1, &error), MW_ERROR_SYSTEM);
     files_expect_error(&error, MW_ERROR_SYSTEM, -1, "Broken pipe");
     signal(SIGPIPE, old);
@@ -302,7 +306,8 @@ static void test_standard_output(void **state)
     if (child == 0) {
         mw_output *output = NULL;
         int fd = open("captured.txt", O_WRONLY | O_CREAT, 0600);
-        if (fd < 0 || dup2(fd, STDOUT_FILENO) < 0 || mw_output_open("-", &output, NULL) != MW_OK) _exit(1);
+        if (fd < 0 || dup2(fd, STDOUT_FILENO) < 0 || mw_output_open("-", &output, NULL) != MW_OK)
+            _exit(1);
         mw_output_printf(output, "one\n");
         if (mw_output_close(output, 1, NULL) != MW_OK) _exit(2);
         _exit(write(STDOUT_FILENO, "two\n", 4) == 4 ? 0 : 3);
@@ -320,7 +325,9 @@ static void test_temporary_name(void **state)
     mw_output *output = open_output("named.txt");
     const char *temporary = mw_output_temporary(output);
     assert_non_null(temporary);
-    assert_int_equal(strncmp(strrchr(temporary, '/') ? strrchr(temporary, '/') + 1 : temporary, ".named.txt.", 11), 0);
+    assert_int_equal(strncmp(strrchr(temporary, '/') ? strrchr(temporary, '/') + 1 : temporary,
+                             ".named.txt.", 11),
+                     0);
     assert_true(files_exists(temporary));
     assert_int_equal(mw_output_close(output, 0, NULL), MW_OK);
     assert_int_equal(files_count(), 0);
@@ -354,7 +361,8 @@ static void test_long_name(void **state)
 
 int main(void)
 {
-#define BOTH_WAYS(test) cmocka_unit_test(test), cmocka_unit_test_setup_teardown(test, hide_proc, show_proc)
+#define BOTH_WAYS(test)                                                                            \
+    cmocka_unit_test(test), cmocka_unit_test_setup_teardown(test, hide_proc, show_proc)
     const struct CMUnitTest tests[] = {
         BOTH_WAYS(test_commit),
         BOTH_WAYS(test_abandon),

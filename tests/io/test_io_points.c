@@ -1,4 +1,5 @@
-/* test_io_points.c - points from text: separators, headers, columns, and rows that are refused by line. */
+/* test_io_points.c - points from text: separators, headers, columns, and rows that are refused by
+ * line. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -25,12 +26,15 @@ static mw_point_reader *open_text(const char *text, const char *columns, bool pa
         files_write_gzip("p.txt", contents);
     else
         files_write("p.txt", contents);
-    if (mw_point_reader_open("p.txt", &options, &reader, &error) != MW_OK) fail_msg("'%s': %s", text, error.message);
+    if (mw_point_reader_open("p.txt", &options, &reader, &error) != MW_OK)
+        fail_msg("'%s': %s", text, error.message);
     return reader;
 }
 
-/* The text has these columns ("x y z", in one string) and values, read one by one and all at once, plain and packed. */
-static void expect_values(const char *text, const char *columns, const char *names, size_t rows, const double *wanted)
+/* The text has these columns ("x y z", in one string) and values, read one by one and all at once,
+ * plain and packed. */
+static void expect_values(const char *text, const char *columns, const char *names, size_t rows,
+                          const double *wanted)
 {
     for (int round = 0; round < 2; round++) {
         mw_point_reader *reader = open_text(text, columns, round == 1);
@@ -54,7 +58,8 @@ static void expect_values(const char *text, const char *columns, const char *nam
         assert_int_equal(count, 0);
         assert_int_equal(total, rows);
         for (size_t i = 0; i < rows * width; i++)
-            if (memcmp(&values[i], &wanted[i], sizeof *values) != 0 && !(isnan(values[i]) && isnan(wanted[i])))
+            if (memcmp(&values[i], &wanted[i], sizeof *values) != 0 &&
+                !(isnan(values[i]) && isnan(wanted[i])))
                 fail_msg("'%s': value %zu is %g, not %g", text, i, values[i], wanted[i]);
         free(values);
         mw_point_reader_close(reader);
@@ -83,7 +88,8 @@ static void test_separators(void **state)
                   "1,2\n3.5,-4\n",
                   NULL, "x y", 2, two);
     expect_values("# points\n\n  # more\n1 2\n\n#\n3.5 -4\n\n", NULL, "x y", 2, two);
-    expect_values("1 2\t3 4\n5 6\t7 8\n", NULL, "x y z c4", 2, (const double[]){1, 2, 3, 4, 5, 6, 7, 8});
+    expect_values("1 2\t3 4\n5 6\t7 8\n", NULL, "x y z c4", 2,
+                  (const double[]){1, 2, 3, 4, 5, 6, 7, 8});
     expect_values("1,\t2\n3.5,\t-4\n", NULL, "x y", 2, two);
     expect_values("+1e0 2E+0\n35e-1 -4d0\n", NULL, "x y", 2, two);
 }
@@ -117,9 +123,11 @@ static void test_headers(void **state)
     expect_values("\"the x\"; \"the;y\"\n1;2\n3.5;-4\n", NULL, "the x the;y", 2, two);
     expect_values("wind speed\tdirection\n1\t2\n3.5\t-4\n", NULL, "wind speed direction", 2, two);
     /* the header says what x, y and z are */
-    expect_values("id,X,Y,Z\n7,1,2,3\n8,4,5,6\n", NULL, "X Y Z id", 2, (const double[]){1, 2, 3, 7, 4, 5, 6, 8});
+    expect_values("id,X,Y,Z\n7,1,2,3\n8,4,5,6\n", NULL, "X Y Z id", 2,
+                  (const double[]){1, 2, 3, 7, 4, 5, 6, 8});
     expect_values("lat,lon\n2,1\n-4,3.5\n", NULL, "lon lat", 2, two);
-    expect_values("name,Longitude,note,Latitude\na,1,b,2\nc,3.5,d,-4\n", NULL, "Longitude Latitude", 2, two);
+    expect_values("name,Longitude,note,Latitude\na,1,b,2\nc,3.5,d,-4\n", NULL, "Longitude Latitude",
+                  2, two);
     expect_values("northing easting h\n2 1 3\n5 4 6\n", NULL, "easting northing h", 2, three);
     /* columns of text are passed over, those with empty names and nothing in them too */
     expect_values("x,y,name\n1,2,here\n3.5,-4,\"there, too\"\n", NULL, "x y", 2, two);
@@ -152,7 +160,8 @@ static void test_missing(void **state)
                   (const double[]){1, 2, NAN, 3, 4, NAN, NAN, NAN, NAN, NAN});
     expect_values("1 2\nna -\n", NULL, "x y", 2, (const double[]){1, 2, NAN, NAN});
     /* in the first row, where it tells that the column has numbers only if its name does */
-    expect_values("x,y,z,id\n1,2,NA,NA\n3,4,5,6\n", NULL, "x y z", 2, (const double[]){1, 2, NAN, 3, 4, 5});
+    expect_values("x,y,z,id\n1,2,NA,NA\n3,4,5,6\n", NULL, "x y z", 2,
+                  (const double[]){1, 2, NAN, 3, 4, 5});
 }
 
 static void test_quotes(void **state)
@@ -209,7 +218,8 @@ static void test_table(void **state)
     expect_row(reader, 2, NULL);
     assert_int_equal(mw_point_reader_table(reader, &table, &error), MW_OK);
     assert_int_equal(table.decimal, ',');
-    assert_int_equal(mw_point_reader_select(reader, (const size_t[]){0, 1}, 2, &error), MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_point_reader_select(reader, (const size_t[]){0, 1}, 2, &error),
+                     MW_ERROR_ARGUMENT);
     mw_point_reader_close(reader);
 
     /* without names, between blanks */
@@ -232,7 +242,8 @@ static void test_table(void **state)
 
     /* a reader that keeps no table */
     assert_int_equal(mw_point_reader_open("p.txt", NULL, &reader, &error), MW_OK);
-    assert_int_equal(mw_point_reader_select(reader, (const size_t[]){1, 2}, 2, &error), MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_point_reader_select(reader, (const size_t[]){1, 2}, 2, &error),
+                     MW_ERROR_ARGUMENT);
     assert_int_equal(mw_point_reader_read(reader, values, 10, &count, &error), MW_OK);
     expect_row(reader, 0, NULL);
     mw_point_reader_close(reader);
@@ -250,14 +261,17 @@ static void test_axis_names(void **state)
         lonlat += set->lonlat != 0;
     }
     assert_true(lonlat >= 3);
-    static const char *const same[][2] = {{"POINT_X", "point_x"}, {"Point X", "point_x"}, {"pointx", "point_x"},
-                                          {"x [m]", "x"},         {"X(ft)", "x"},         {" x ", "x"}};
+    static const char *const same[][2] = {{"POINT_X", "point_x"}, {"Point X", "point_x"},
+                                          {"pointx", "point_x"},  {"x [m]", "x"},
+                                          {"X(ft)", "x"},         {" x ", "x"}};
     static const char *const other[][2] = {{"xx", "x"},    {"", "x"},    {"x", "point_x"},
                                            {"m (x)", "x"}, {"x m", "x"}, {"lone", "lon"}};
     for (size_t i = 0; i < sizeof same / sizeof *same; i++)
-        if (!mw_axis_name_matches(same[i][0], same[i][1])) fail_msg("'%s' is no '%s'", same[i][0], same[i][1]);
+        if (!mw_axis_name_matches(same[i][0], same[i][1]))
+            fail_msg("'%s' is no '%s'", same[i][0], same[i][1]);
     for (size_t i = 0; i < sizeof other / sizeof *other; i++)
-        if (mw_axis_name_matches(other[i][0], other[i][1])) fail_msg("'%s' is '%s'", other[i][0], other[i][1]);
+        if (mw_axis_name_matches(other[i][0], other[i][1]))
+            fail_msg("'%s' is '%s'", other[i][0], other[i][1]);
 }
 
 static void test_nothing(void **state)
@@ -284,12 +298,12 @@ static void test_node(void **state)
     assert_int_equal(count, 2);
     assert_memory_equal(values, wanted, sizeof wanted);
     mw_point_reader_close(reader);
-    static const char *const bads[] = {"3 2 0 0\n1 1 2\n2 3 4\n", "1 2 0 0\n1 1 2\n2 3 4\n", "2\n1 1 2 3\n",
-                                       "x y\n1 2\n", ""};
-    static const char *const says[] = {"p.node:3: 2 rows where 3 are announced",
-                                       "p.node:3: 2 rows where 1 are announced",
-                                       "p.node:2: 4 columns where the header has 3",
-                                       "p.node:1: a .node file begins with", "p.node:1: a .node file begins with"};
+    static const char *const bads[] = {"3 2 0 0\n1 1 2\n2 3 4\n", "1 2 0 0\n1 1 2\n2 3 4\n",
+                                       "2\n1 1 2 3\n", "x y\n1 2\n", ""};
+    static const char *const says[] = {
+        "p.node:3: 2 rows where 3 are announced", "p.node:3: 2 rows where 1 are announced",
+        "p.node:2: 4 columns where the header has 3", "p.node:1: a .node file begins with",
+        "p.node:1: a .node file begins with"};
     for (int i = 0; i < 5; i++) {
         mw_error error;
         files_write_text("p.node", bads[i]);
@@ -333,7 +347,8 @@ static const bad_points bads[] = {
     /* decimal commas that cannot be taken, or are doubtful */
     {"1,5 2,5\n", NULL, 1, 0, "decimal commas: write points"},
     {"1,5, 2,5\n", NULL, 1, 0, "decimal commas: write points"},
-    {"1 2\n1,5 2,5\n", NULL, 2, 1, "'1,5' is not a number (for decimal commas separate the columns by"},
+    {"1 2\n1,5 2,5\n", NULL, 2, 1,
+     "'1,5' is not a number (for decimal commas separate the columns by"},
     {"x y\n1,5 2,5\n", NULL, 2, 0, "decimal commas: write points"},
     {"x,y\n1,5,2,5\n", NULL, 2, 0, "4 columns where the header has 2 (are these decimal commas?)"},
     {"0.5;0,5\n", NULL, 1, 0, "decimal points and decimal commas in one table"},
@@ -372,8 +387,10 @@ static void test_malformed(void **state)
         } else {
             assert_null(reader);
         }
-        if (status != MW_ERROR_INPUT) fail_msg("case %zu: '%s' was taken (%s)", i, bads[i].text, bads[i].says);
-        files_expect_error(&error, MW_ERROR_INPUT, bads[i].line > 0 ? bads[i].line : error.line, bads[i].says);
+        if (status != MW_ERROR_INPUT)
+            fail_msg("case %zu: '%s' was taken (%s)", i, bads[i].text, bads[i].says);
+        files_expect_error(&error, MW_ERROR_INPUT, bads[i].line > 0 ? bads[i].line : error.line,
+                           bads[i].says);
         assert_int_equal(strncmp(error.message, "p.txt:", 6), 0);
         assert_int_equal(good, bads[i].good);
     }
@@ -391,7 +408,8 @@ static void test_arguments(void **state)
     assert_int_equal(mw_point_reader_table(NULL, NULL, &error), MW_ERROR_ARGUMENT);
     for (size_t i = 0; i < sizeof selections / sizeof *selections; i++) {
         mw_point_reader_options options = {.columns = selections[i]};
-        assert_int_equal(mw_point_reader_open("p.txt", &options, &reader, &error), MW_ERROR_ARGUMENT);
+        assert_int_equal(mw_point_reader_open("p.txt", &options, &reader, &error),
+                         MW_ERROR_ARGUMENT);
         assert_null(reader);
     }
     assert_int_equal(mw_point_reader_open(NULL, NULL, &reader, &error), MW_ERROR_ARGUMENT);
@@ -453,7 +471,8 @@ static void test_many(void **state)
     assert_non_null(values);
     size_t total = 0, count;
     do {
-        assert_int_equal(mw_point_reader_read(reader, values + 2 * total, 1000, &count, NULL), MW_OK);
+        assert_int_equal(mw_point_reader_read(reader, values + 2 * total, 1000, &count, NULL),
+                         MW_OK);
         total += count;
     } while (count > 0);
     assert_int_equal(total, ROWS);
@@ -467,7 +486,8 @@ static void test_many(void **state)
     files_clear();
 }
 
-/* Texts in columns beyond the coordinates are missing values, if the caller wants that, and are counted. */
+/* Texts in columns beyond the coordinates are missing values, if the caller wants that, and are
+ * counted. */
 static void test_texts(void **state)
 {
     (void)state;
@@ -483,10 +503,12 @@ static void test_texts(void **state)
     assert_int_equal(mw_point_reader_width(reader), 6);
     assert_int_equal(mw_point_reader_read(reader, values, 8, &count, &error), MW_OK);
     assert_int_equal(count, 4);
-    assert_true(isnan(values[4]) && isnan(values[6 + 2]) && isnan(values[6 + 3]) && values[18 + 4] == 5);
+    assert_true(isnan(values[4]) && isnan(values[6 + 2]) && isnan(values[6 + 3]) &&
+                values[18 + 4] == 5);
     assert_true(values[5] == 6 && isnan(values[12 + 5]) && isnan(values[18 + 5]));
     const uint64_t texts[] = {0, 0, 0, 2, 0, 2};
-    for (size_t k = 0; k < 6; k++) assert_int_equal(mw_point_reader_texts(reader, k, NULL), texts[k]);
+    for (size_t k = 0; k < 6; k++)
+        assert_int_equal(mw_point_reader_texts(reader, k, NULL), texts[k]);
     assert_int_equal(mw_point_reader_texts(reader, 6, &line), 0);
     assert_int_equal(line, -1);
     mw_point_reader_texts(reader, 3, &line);
@@ -510,12 +532,14 @@ static void test_texts(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_separators), cmocka_unit_test(test_decimal_commas), cmocka_unit_test(test_odd_numbers),
-        cmocka_unit_test(test_texts),      cmocka_unit_test(test_headers),        cmocka_unit_test(test_selection),
-        cmocka_unit_test(test_nothing),    cmocka_unit_test(test_node),           cmocka_unit_test(test_missing),
-        cmocka_unit_test(test_quotes),     cmocka_unit_test(test_table),          cmocka_unit_test(test_axis_names),
-        cmocka_unit_test(test_malformed),  cmocka_unit_test(test_arguments),      cmocka_unit_test(test_other_kinds),
-        cmocka_unit_test(test_many),
+        cmocka_unit_test(test_separators),  cmocka_unit_test(test_decimal_commas),
+        cmocka_unit_test(test_odd_numbers), cmocka_unit_test(test_texts),
+        cmocka_unit_test(test_headers),     cmocka_unit_test(test_selection),
+        cmocka_unit_test(test_nothing),     cmocka_unit_test(test_node),
+        cmocka_unit_test(test_missing),     cmocka_unit_test(test_quotes),
+        cmocka_unit_test(test_table),       cmocka_unit_test(test_axis_names),
+        cmocka_unit_test(test_malformed),   cmocka_unit_test(test_arguments),
+        cmocka_unit_test(test_other_kinds), cmocka_unit_test(test_many),
     };
     return cmocka_run_group_tests(tests, files_enter, files_leave);
 }

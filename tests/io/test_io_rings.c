@@ -34,7 +34,8 @@ static bool read_rings(const char *text, mw_constraint_file *file)
     return true;
 }
 
-static void expect_skipped(const mw_constraint_file *file, size_t i, uint32_t record, uint32_t polygon, uint32_t ring)
+static void expect_skipped(const mw_constraint_file *file, size_t i, uint32_t record,
+                           uint32_t polygon, uint32_t ring)
 {
     assert_true(i < file->skipped_count);
     assert_int_equal(file->skipped[i].record, record);
@@ -49,7 +50,8 @@ static void test_inner_ring(void **state)
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         char text[512];
         mw_constraint_file file;
-        snprintf(text, sizeof text, FEATURES(FEATURE("null") "," FEATURE(POLYGON(SQUARE ",%s," INNER))), wrong[i]);
+        snprintf(text, sizeof text,
+                 FEATURES(FEATURE("null") "," FEATURE(POLYGON(SQUARE ",%s," INNER))), wrong[i]);
         if (!read_rings(text, &file)) return;
         assert_int_equal(file.point_count, 7);
         assert_int_equal(file.segment_count, 7);
@@ -67,8 +69,8 @@ static void test_outer_ring(void **state)
 {
     (void)state;
     mw_constraint_file file;
-    if (!read_rings(FEATURES(FEATURE(MANY("[" SQUARE "],[" PLACE "," INNER "],[" INNER "," NEEDLE "]")) "," FEATURE(
-                        POLYGON(NEEDLE "," PLACE))),
+    if (!read_rings(FEATURES(FEATURE(MANY("[" SQUARE "],[" PLACE "," INNER "],[" INNER "," NEEDLE
+                                          "]")) "," FEATURE(POLYGON(NEEDLE "," PLACE))),
                     &file))
         return;
     assert_int_equal(file.segment_count, 7);

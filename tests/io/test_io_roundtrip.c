@@ -18,7 +18,8 @@
 
 enum { POINTS = 500, TRIANGLES = 900, FIELDS = 3 };
 
-/* A mesh with doubles of every kind; not a mesh that makes sense. The points differ, as STL needs it. */
+/* A mesh with doubles of every kind; not a mesh that makes sense. The points differ, as STL needs
+ * it. */
 typedef struct sample {
     double points[3 * POINTS], fields[FIELDS][POINTS], *field_list[FIELDS];
     uint32_t triangles[3 * TRIANGLES];
@@ -44,7 +45,8 @@ static void fill(sample *s, uint64_t seed, int has_z)
     static char names[FIELDS][32] = {"depth", "velocity u", "x"};
     uint64_t random = seed;
     for (size_t i = 0; i < 3 * POINTS; i++) s->points[i] = any_double(&random, (int)(i / 3));
-    for (size_t v = 0; v < POINTS; v++) s->points[3 * v] = (double)v + (double)(mw__random(&random) >> 12) * 0x1p-52;
+    for (size_t v = 0; v < POINTS; v++)
+        s->points[3 * v] = (double)v + (double)(mw__random(&random) >> 12) * 0x1p-52;
     for (size_t v = 0; v < POINTS; v += 7) s->points[3 * v + 1] = -0.0;
     for (size_t v = 0; v < POINTS && !has_z; v++) s->points[3 * v + 2] = 0;
     for (size_t f = 0; f < FIELDS; f++) {
@@ -54,9 +56,11 @@ static void fill(sample *s, uint64_t seed, int has_z)
         s->field_list[f] = s->fields[f];
         s->names[f] = names[f];
     }
-    for (size_t t = 0; t < TRIANGLES; t++) /* every vertex is used, and comes first in a triangle of its number */
+    for (size_t t = 0; t < TRIANGLES;
+         t++) /* every vertex is used, and comes first in a triangle of its number */
         for (size_t k = 0; k < 3; k++)
-            s->triangles[3 * t + k] = k == 0 ? (uint32_t)(t % POINTS) : mw__random_below(&random, POINTS);
+            s->triangles[3 * t + k] =
+                k == 0 ? (uint32_t)(t % POINTS) : mw__random_below(&random, POINTS);
     s->file = (mw_mesh_file){.points = s->points,
                              .triangles = s->triangles,
                              .point_count = POINTS,
@@ -77,11 +81,13 @@ static void expect_same_mesh(const mw_mesh_file *a, const mw_mesh_file *b)
     assert_int_equal(a->point_count, b->point_count);
     assert_int_equal(a->triangle_count, b->triangle_count);
     for (size_t i = 0; i < 3 * a->point_count; i++)
-        if (!same(a->points[i], b->points[i])) fail_msg("coordinate %zu: %a, %a", i, a->points[i], b->points[i]);
+        if (!same(a->points[i], b->points[i]))
+            fail_msg("coordinate %zu: %a, %a", i, a->points[i], b->points[i]);
     assert_memory_equal(a->triangles, b->triangles, 3 * a->triangle_count * sizeof *a->triangles);
 }
 
-static void expect_same_fields(const mw_mesh_file *a, const mw_mesh_file *b, const char *const *names)
+static void expect_same_fields(const mw_mesh_file *a, const mw_mesh_file *b,
+                               const char *const *names)
 {
     assert_int_equal(b->field_count, FIELDS);
     for (size_t f = 0; f < FIELDS; f++) {
@@ -106,8 +112,9 @@ static void test_every_format(void **state)
     static const struct {
         const char *path, *format;
         bool fields, planar;
-    } cases[] = {{"a.off", NULL, false, false},       {"a.obj", NULL, false, false},  {"a.ply", NULL, true, false},
-                 {"b.ply", "ply-ascii", true, false}, {"a.dat", "off", false, false}, {"a.node", NULL, true, true},
+    } cases[] = {{"a.off", NULL, false, false},  {"a.obj", NULL, false, false},
+                 {"a.ply", NULL, true, false},   {"b.ply", "ply-ascii", true, false},
+                 {"a.dat", "off", false, false}, {"a.node", NULL, true, true},
                  {"b.ele", NULL, true, true}};
     uint64_t seed = (uint64_t)time(NULL);
     print_message("seed %llu\n", (unsigned long long)seed);
@@ -156,7 +163,8 @@ static void test_stl_normals(void **state)
     (void)state;
     double points[] = {0, 0, 0, 2, 0, 0, 0, 3, 0};
     uint32_t triangles[] = {0, 1, 2, 0, 0, 1};
-    mw_mesh_file file = {.points = points, .triangles = triangles, .point_count = 3, .triangle_count = 2};
+    mw_mesh_file file = {
+        .points = points, .triangles = triangles, .point_count = 3, .triangle_count = 2};
     assert_int_equal(mw_write_mesh("n.stl", &file, NULL, NULL, NULL), MW_OK);
     char *text = files_read("n.stl", NULL);
     assert_non_null(text);
@@ -174,7 +182,8 @@ static void test_csv(void **state)
     assert_non_null(s);
     fill(s, 6, 1);
     assert_int_equal(mw_write_mesh("a.csv", &s->file, NULL, NULL, NULL), MW_OK);
-    mw_point_reader_options options = {.columns = "triangle,corner,vertex,x,y,z,depth,velocity_u,x_3"};
+    mw_point_reader_options options = {.columns =
+                                           "triangle,corner,vertex,x,y,z,depth,velocity_u,x_3"};
     mw_point_reader *reader;
     assert_int_equal(mw_point_reader_open("a.csv", &options, &reader, NULL), MW_OK);
     assert_int_equal(mw_point_reader_width(reader), 9);
@@ -198,7 +207,8 @@ static void test_csv(void **state)
 static void test_vtk(void **state)
 {
     (void)state;
-    double points[] = {0, 0, 0.1, 1, 0, -0.0, 1, 1, 1e-300, 0, 1, 4}, depth[] = {1, 2.5, NAN, -1e22};
+    double points[] = {0, 0, 0.1, 1, 0, -0.0, 1, 1, 1e-300, 0, 1, 4},
+           depth[] = {1, 2.5, NAN, -1e22};
     uint32_t triangles[] = {0, 1, 2, 0, 2, 3};
     char name[] = "water depth";
     char *names[] = {name};
@@ -214,11 +224,12 @@ static void test_vtk(void **state)
     assert_int_equal(mw_write_mesh("a.vtk", &file, NULL, NULL, NULL), MW_OK);
     char *text = files_read("a.vtk", NULL);
     assert_non_null(text);
-    assert_string_equal(text,
-                        "# vtk DataFile Version 3.0\nmeshwalk\nASCII\nDATASET UNSTRUCTURED_GRID\n"
-                        "POINTS 4 double\n0 0 0.1\n1 0 -0\n1 1 1e-300\n0 1 4\n"
-                        "CELLS 2 8\n3 0 1 2\n3 0 2 3\nCELL_TYPES 2\n5\n5\n"
-                        "POINT_DATA 4\nSCALARS water_depth double 1\nLOOKUP_TABLE default\n1\n2.5\nnan\n-1e+22\n");
+    assert_string_equal(
+        text,
+        "# vtk DataFile Version 3.0\nmeshwalk\nASCII\nDATASET UNSTRUCTURED_GRID\n"
+        "POINTS 4 double\n0 0 0.1\n1 0 -0\n1 1 1e-300\n0 1 4\n"
+        "CELLS 2 8\n3 0 1 2\n3 0 2 3\nCELL_TYPES 2\n5\n5\n"
+        "POINT_DATA 4\nSCALARS water_depth double 1\nLOOKUP_TABLE default\n1\n2.5\nnan\n-1e+22\n");
     free(text);
     files_clear();
 }
@@ -237,7 +248,8 @@ static void test_empty(void **state)
         assert_true(back.points[4] == 2 && back.points[5] == 3);
         mw_mesh_file_release(&back);
     }
-    static const char *const formats[] = {"off", "ply", "ply-ascii", "node", "stl", "csv", "vtk", "obj"};
+    static const char *const formats[] = {"off", "ply", "ply-ascii", "node",
+                                          "stl", "csv", "vtk",       "obj"};
     mw_mesh_file nothing = {0};
     for (size_t i = 0; i < sizeof formats / sizeof *formats; i++)
         assert_int_equal(mw_write_mesh("nothing.node", &nothing, formats[i], NULL, NULL), MW_OK);
@@ -257,8 +269,12 @@ static void test_field_names(void **state)
         name_list[i] = names[i];
         fields[i] = values;
     }
-    mw_mesh_file file = {
-        .points = points, .point_count = 1, .has_z = 1, .field_names = name_list, .fields = fields, .field_count = 6};
+    mw_mesh_file file = {.points = points,
+                         .point_count = 1,
+                         .has_z = 1,
+                         .field_names = name_list,
+                         .fields = fields,
+                         .field_count = 6};
     static const char *const paths[] = {"a.ply", "a.node"};
     for (int p = 0; p < 2; p++) {
         mw_mesh_file back = write_and_read(paths[p], NULL, &file);
@@ -270,8 +286,8 @@ static void test_field_names(void **state)
     files_clear();
 }
 
-static void expect_refused(const char *path, const char *format, const mw_mesh_file *file, mw_status status,
-                           const char *says)
+static void expect_refused(const char *path, const char *format, const mw_mesh_file *file,
+                           mw_status status, const char *says)
 {
     mw_error error;
     assert_int_equal(mw_write_mesh(path, file, format, NULL, &error), status);
@@ -293,7 +309,8 @@ static void test_refused(void **state)
     expect_refused("nowhere/a.node", NULL, &file, MW_ERROR_SYSTEM, "nowhere/a.node: No such file");
     expect_refused("nowhere/a.off", NULL, &file, MW_ERROR_SYSTEM, "nowhere/a.off: No such file");
     if (access("/dev/full", W_OK) == 0)
-        expect_refused("/dev/full", "ply", &file, MW_ERROR_SYSTEM, "/dev/full: No space left on device");
+        expect_refused("/dev/full", "ply", &file, MW_ERROR_SYSTEM,
+                       "/dev/full: No space left on device");
     expect_refused(NULL, "off", &file, MW_ERROR_ARGUMENT, "NULL");
     file.triangles = triangles;
     file.triangle_count = 1;
@@ -324,9 +341,15 @@ static void test_pair_or_nothing(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_every_format), cmocka_unit_test(test_stl),         cmocka_unit_test(test_stl_normals),
-        cmocka_unit_test(test_csv),          cmocka_unit_test(test_vtk),         cmocka_unit_test(test_empty),
-        cmocka_unit_test(test_refused),      cmocka_unit_test(test_field_names), cmocka_unit_test(test_pair_or_nothing),
+        cmocka_unit_test(test_every_format),
+        cmocka_unit_test(test_stl),
+        cmocka_unit_test(test_stl_normals),
+        cmocka_unit_test(test_csv),
+        cmocka_unit_test(test_vtk),
+        cmocka_unit_test(test_empty),
+        cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_field_names),
+        cmocka_unit_test(test_pair_or_nothing),
     };
     return cmocka_run_group_tests(tests, files_enter, files_leave);
 }

@@ -1,4 +1,5 @@
-/* test_io_shared.c - files of the world, where the shared data are present: the counts that others counted. */
+/* test_io_shared.c - files of the world, where the shared data are present: the counts that others
+ * counted. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -95,8 +96,10 @@ static void test_meshes(void **state)
         snprintf(path, sizeof path, "%s/%s", MW_TEST_SHARED, meshes[i].name);
         if (mw_read_mesh(path, NULL, &file, &error) != MW_OK) fail_msg("%s", error.message);
         if (file.point_count != meshes[i].points || file.triangle_count != meshes[i].triangles)
-            fail_msg("%s: %zu vertices, %zu triangles", path, file.point_count, file.triangle_count);
-        for (size_t k = 0; k < 3 * file.triangle_count; k++) assert_true(file.triangles[k] < file.point_count);
+            fail_msg("%s: %zu vertices, %zu triangles", path, file.point_count,
+                     file.triangle_count);
+        for (size_t k = 0; k < 3 * file.triangle_count; k++)
+            assert_true(file.triangles[k] < file.point_count);
         mw_mesh_file_release(&file);
     }
 }
@@ -135,7 +138,8 @@ static void test_refused(void **state)
     }
 }
 
-/* Points, and the corner and the extent that the list of the data, or the header of the file, gives. */
+/* Points, and the corner and the extent that the list of the data, or the header of the file,
+ * gives. */
 static const struct {
     const char *name;
     size_t count, width;
@@ -163,11 +167,13 @@ static void test_clouds(void **state)
         double values[8 * 1000], low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
         size_t count, total = 0;
         snprintf(path, sizeof path, "%s/%s", MW_TEST_SHARED, clouds[i].name);
-        if (mw_point_reader_open(path, NULL, &reader, &error) != MW_OK) fail_msg("%s", error.message);
+        if (mw_point_reader_open(path, NULL, &reader, &error) != MW_OK)
+            fail_msg("%s", error.message);
         size_t width = mw_point_reader_width(reader);
         assert_int_equal(width, clouds[i].width);
         do {
-            if (mw_point_reader_read(reader, values, 1000, &count, &error) != MW_OK) fail_msg("%s", error.message);
+            if (mw_point_reader_read(reader, values, 1000, &count, &error) != MW_OK)
+                fail_msg("%s", error.message);
             for (size_t k = 0; k < 2 * count; k++) {
                 double v = values[k / 2 * width + k % 2];
                 low[k % 2] = fmin(low[k % 2], v);
@@ -209,7 +215,8 @@ static void test_ground(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_meshes), cmocka_unit_test(test_refused),
-                                       cmocka_unit_test(test_clouds), cmocka_unit_test(test_ground)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_meshes), cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_clouds), cmocka_unit_test(test_ground)};
     return cmocka_run_group_tests(tests, files_enter, files_leave);
 }

@@ -1,4 +1,5 @@
-/* test_io_source.c - bytes and lines of an input, across the borders of blocks; limits that only large inputs reach. */
+/* test_io_source.c - bytes and lines of an input, across the borders of blocks; limits that only
+ * large inputs reach. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -35,8 +36,8 @@ static void test_lines(void **state)
     size_t size = 0;
     for (int i = 0; i < LINES; i++) {
         char *line = lines + i * (LONGEST + 1);
-        size_t length =
-            mw__random_below(&random, 8) ? mw__random_below(&random, 30) : mw__random_below(&random, LONGEST);
+        size_t length = mw__random_below(&random, 8) ? mw__random_below(&random, 30)
+                                                     : mw__random_below(&random, LONGEST);
         for (size_t k = 0; k < length; k++) line[k] = (char)('a' + mw__random_below(&random, 26));
         line[length] = 0;
         memcpy(text + size, line, length);
@@ -67,7 +68,8 @@ static void test_lines(void **state)
     free(lines);
 }
 
-/* Lines of this text, joined to as many as `wanted`, hold the bytes between their beginnings and ends. */
+/* Lines of this text, joined to as many as `wanted`, hold the bytes between their beginnings and
+ * ends. */
 static void expect_joined(mw_source *source, const char *text, size_t wanted)
 {
     char *line;
@@ -149,8 +151,8 @@ static void test_bytes(void **state)
 }
 
 /* "text" as often as it is wanted between two others; the reader says `says`. */
-static void expect_limit(const char *name, const char *before, const char *repeated, int times, const char *after,
-                         const char *says)
+static void expect_limit(const char *name, const char *before, const char *repeated, int times,
+                         const char *after, const char *says)
 {
     FILE *out = fopen(name, "w");
     assert_non_null(out);
@@ -174,8 +176,10 @@ static void test_limits(void **state)
 {
     (void)state;
     static const char head[] = "ply\nformat ascii 1.0\nelement vertex 1\n";
-    expect_limit("e.ply", head, "element e%d 0\n", 300, "end_header\n", "e.ply:259: more than 256 elements");
-    expect_limit("e.ply", head, "property int p%d\n", 5000, "end_header\n", "e.ply:4100: more than 4096 properties");
+    expect_limit("e.ply", head, "element e%d 0\n", 300, "end_header\n",
+                 "e.ply:259: more than 256 elements");
+    expect_limit("e.ply", head, "property int p%d\n", 5000, "end_header\n",
+                 "e.ply:4100: more than 4096 properties");
     expect_limit("e.csv", "0", ",%d", 5000, "\n", "e.csv:1: more than 4096 columns");
     expect_limit("e.obj", "v 0 0 0\nf", " 1 1 1 1 1 1 1 1 1 %d \\\n", 900000, "1\n",
                  "continued lines of more than 16777216");
@@ -189,7 +193,8 @@ static void test_many_columns(void **state)
     FILE *out = fopen("wide.csv", "w");
     assert_non_null(out);
     for (int row = 0; row < 3; row++)
-        for (int i = 0; i < COLUMNS; i++) fprintf(out, "%d%c", row * i, i + 1 < COLUMNS ? ';' : '\n');
+        for (int i = 0; i < COLUMNS; i++)
+            fprintf(out, "%d%c", row * i, i + 1 < COLUMNS ? ';' : '\n');
     fclose(out);
     mw_point_reader *reader;
     assert_int_equal(mw_point_reader_open("wide.csv", NULL, &reader, NULL), MW_OK);
@@ -220,8 +225,9 @@ static void test_arrays(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_lines),        cmocka_unit_test(test_joined_lines),
-                                       cmocka_unit_test(test_bytes),        cmocka_unit_test(test_limits),
-                                       cmocka_unit_test(test_many_columns), cmocka_unit_test(test_arrays)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_lines),        cmocka_unit_test(test_joined_lines),
+        cmocka_unit_test(test_bytes),        cmocka_unit_test(test_limits),
+        cmocka_unit_test(test_many_columns), cmocka_unit_test(test_arrays)};
     return cmocka_run_group_tests(tests, files_enter, files_leave);
 }

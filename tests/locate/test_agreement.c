@@ -1,5 +1,6 @@
-/* test_agreement.c - large and real meshes: all walks, starts, lanes and threads give the same answers, bit for bit, and
- * these are those of brute force. Real files are read from a folder of data beside the project where it is there. */
+/* test_agreement.c - large and real meshes: all walks, starts, lanes and threads give the same
+ * answers, bit for bit, and these are those of brute force. Real files are read from a folder of
+ * data beside the project where it is there. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -22,7 +23,8 @@ static arrays arrays_of(const mw_mesh *mesh)
     a.point_count = mw_mesh_vertex_count(mesh);
     for (uint32_t v = 0; v < a.point_count; v++) mw_mesh_vertex(mesh, v, a.points + 2 * (size_t)v);
     a.triangle_count = mw_mesh_triangle_count(mesh);
-    for (uint32_t t = 0; t < a.triangle_count; t++) mw_mesh_triangle(mesh, t, a.triangles + 3 * (size_t)t);
+    for (uint32_t t = 0; t < a.triangle_count; t++)
+        mw_mesh_triangle(mesh, t, a.triangles + 3 * (size_t)t);
     return a;
 }
 
@@ -30,7 +32,8 @@ static arrays triangulated(const double *points, size_t n, size_t stride)
 {
     mw_mesh *mesh;
     mw_error error;
-    if (mw_delaunay(points, n, stride, NULL, NULL, NULL, &mesh, &error)) fail_msg("%s", error.message);
+    if (mw_delaunay(points, n, stride, NULL, NULL, NULL, &mesh, &error))
+        fail_msg("%s", error.message);
     arrays a = arrays_of(mesh);
     mw_mesh_destroy(mesh);
     return a;
@@ -41,7 +44,8 @@ static uint32_t by_force(const arrays *a, const double *q)
 {
     for (uint32_t t = 0; t < a->triangle_count; t++) {
         const double *p[3];
-        for (size_t k = 0; k < 3; k++) p[k] = a->points + 2 * (size_t)a->triangles[3 * (size_t)t + k];
+        for (size_t k = 0; k < 3; k++)
+            p[k] = a->points + 2 * (size_t)a->triangles[3 * (size_t)t + k];
         double turn = mw_orient2d(p[0], p[1], p[2]);
         int inside = turn != 0;
         for (int k = 0; k < 3 && inside; k++) {
@@ -56,11 +60,12 @@ static uint32_t by_force(const arrays *a, const double *q)
 static void expect_same(const mw_location *a, const mw_location *b, size_t n, const char *how)
 {
     for (size_t i = 0; i < n; i++)
-        if (a[i].triangle != b[i].triangle || a[i].where != b[i].where || a[i].local != b[i].local ||
-            a[i].hole != b[i].hole ||
+        if (a[i].triangle != b[i].triangle || a[i].where != b[i].where ||
+            a[i].local != b[i].local || a[i].hole != b[i].hole ||
             (a[i].triangle != MW_NONE && memcmp(a[i].weight, b[i].weight, sizeof a[i].weight)))
             fail_msg("%s: query %zu is in triangle %u (%s), not %u (%s)", how, i, b[i].triangle,
-                     mw_where_name((mw_where)b[i].where), a[i].triangle, mw_where_name((mw_where)a[i].where));
+                     mw_where_name((mw_where)b[i].where), a[i].triangle,
+                     mw_where_name((mw_where)a[i].where));
 }
 
 static void try_combinations(const arrays *a, const double *q, size_t n, const mw_location *want)
@@ -76,14 +81,17 @@ static void try_combinations(const arrays *a, const double *q, size_t n, const m
             for (int start = MW_START_AUTO; start < MW_START_COUNT; start++) {
                 mw_query_options options = {.walk = (mw_walk_kind)walk,
                                             .start = (mw_start_kind)start,
-                                            .arithmetic = (mw_arithmetic)((walk + start + (int)layout) % 2),
+                                            .arithmetic =
+                                                (mw_arithmetic)((walk + start + (int)layout) % 2),
                                             .threads = 1 + (uint32_t)start % 3,
                                             .lanes = (uint32_t)(walk * 7 + start),
                                             .index = index[start]};
                 char how[96];
-                snprintf(how, sizeof how, "%s from %s, arithmetic %d, layout %d", mw_walk_name(options.walk),
-                         mw_start_name(options.start), options.arithmetic, layout);
-                assert_int_equal(mw_locate_batch(locator, q, n, 2, &options, at, NULL, NULL), MW_OK);
+                snprintf(how, sizeof how, "%s from %s, arithmetic %d, layout %d",
+                         mw_walk_name(options.walk), mw_start_name(options.start),
+                         options.arithmetic, layout);
+                assert_int_equal(mw_locate_batch(locator, q, n, 2, &options, at, NULL, NULL),
+                                 MW_OK);
                 expect_same(want, at, n, how);
             }
         starts_close(index);
@@ -129,7 +137,8 @@ static void clustered(double *p, uint64_t *random)
 {
     uint64_t centre = mw__random_below(random, 9);
     for (int k = 0; k < 2; k++)
-        p[k] = random_unit(&centre) + 0.01 * (random_unit(random) + random_unit(random) - 1) * random_unit(random);
+        p[k] = random_unit(&centre) +
+               0.01 * (random_unit(random) + random_unit(random) - 1) * random_unit(random);
 }
 
 static void on_grid(double *p, uint64_t *random)
@@ -171,8 +180,8 @@ static bool have(const char *name, char path[512])
 static void test_real_meshes(void **state)
 {
     (void)state;
-    const char *const names[] = {"domain/greenland.node.gz", "ocean/malpasset.node.gz", "terrain/mountain.obj.gz",
-                                 "terrain/terrain.stl.gz"};
+    const char *const names[] = {"domain/greenland.node.gz", "ocean/malpasset.node.gz",
+                                 "terrain/mountain.obj.gz", "terrain/terrain.stl.gz"};
     uint64_t random = 2;
     char path[512];
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
@@ -185,7 +194,8 @@ static void test_real_meshes(void **state)
         assert_int_equal(mw_check_arrays(&view, NULL, &check, NULL), MW_OK);
         if (check.valid) {
             arrays a = arrays_make((uint32_t)file.point_count, (uint32_t)file.triangle_count);
-            for (size_t v = 0; v < file.point_count; v++) arrays_point(&a, file.points[3 * v], file.points[3 * v + 1]);
+            for (size_t v = 0; v < file.point_count; v++)
+                arrays_point(&a, file.points[3 * v], file.points[3 * v + 1]);
             memcpy(a.triangles, file.triangles, 3 * file.triangle_count * sizeof *a.triangles);
             a.triangle_count = (uint32_t)file.triangle_count;
             agree(&a, &random);

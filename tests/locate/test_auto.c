@@ -1,5 +1,5 @@
-/* test_auto.c - what batches choose by: the caches, how much of the mesh queries touch, the order in which they come. And that answers
- * are the same whatever is chosen. */
+/* test_auto.c - what batches choose by: the caches, how much of the mesh queries touch, the order
+ * in which they come. And that answers are the same whatever is chosen. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -17,7 +17,7 @@
 
 enum { SIDE = 100 }; /* a grid has 20,000 triangles, 800 KB */
 
-/* --- queries over a mesh of 0..SIDE, whose edges are about 1 long ------------------------------------------------- */
+/* --- queries over a mesh of 0..SIDE, whose edges are about 1 long ----------------------------- */
 
 typedef enum query_spread { ANYWHERE, SMALL_PART, PATH, STEPS, ROWS, ODD, SPREADS } query_spread;
 
@@ -75,7 +75,7 @@ static double *draw(query_spread kind, size_t n, size_t stride, uint64_t *random
     return q;
 }
 
-/* --- answers ------------------------------------------------------------------------------------------------------ */
+/* --- answers ---------------------------------------------------------------------------------- */
 
 typedef struct ask {
     const mw_locator *locator;
@@ -88,17 +88,19 @@ static mw_counters answer(const ask *a, mw_query_options options, mw_location *a
     mw_error error;
     mw_counters counters;
     memset(at, 0x55, a->n * sizeof *at);
-    expect_ok(mw_locate_batch(a->locator, a->q, a->n, a->stride, &options, at, &counters, &error), "batch", &error);
+    expect_ok(mw_locate_batch(a->locator, a->q, a->n, a->stride, &options, at, &counters, &error),
+              "batch", &error);
     return counters;
 }
 
-static void expect_same(const mw_location *want, const mw_location *got, const ask *a, const char *how)
+static void expect_same(const mw_location *want, const mw_location *got, const ask *a,
+                        const char *how)
 {
     for (size_t i = 0; i < a->n; i++)
         if (memcmp(&want[i], &got[i], sizeof *want) != 0)
-            fail_msg("%s: query %zu of %zu, (%.17g, %.17g): triangle %u where %d, not %u %d", how, i, a->n,
-                     a->q[i * a->stride], a->q[i * a->stride + 1], got[i].triangle, got[i].where, want[i].triangle,
-                     want[i].where);
+            fail_msg("%s: query %zu of %zu, (%.17g, %.17g): triangle %u where %d, not %u %d", how,
+                     i, a->n, a->q[i * a->stride], a->q[i * a->stride + 1], got[i].triangle,
+                     got[i].where, want[i].triangle, want[i].where);
 }
 
 static void expect_auto(const ask *a)
@@ -133,7 +135,8 @@ static void expect_spreads(const mw_locator *locator, size_t most, uint64_t *ran
         }
 }
 
-/* A Delaunay mesh of n points, nearly all of them in 40..43 of 0..100; along a curve in memory, for the guide. */
+/* A Delaunay mesh of n points, nearly all of them in 40..43 of 0..100; along a curve in memory,
+ * for the guide. */
 static mw_mesh *refined_mesh(uint32_t n, uint64_t *random)
 {
     double *point = malloc(2 * n * sizeof *point);
@@ -171,7 +174,7 @@ static void test_answers(void **state)
     arrays_free(&holed);
 }
 
-/* --- choices ------------------------------------------------------------------------------------------------------ */
+/* --- choices ---------------------------------------------------------------------------------- */
 
 typedef struct auto_place {
     mw_mesh *mesh;
@@ -208,7 +211,8 @@ static void test_caches(void **state)
     assert_int_equal(a.reach, b.reach);
 }
 
-static mw_cache_level level_of_queries(const auto_place *p, const mw_caches *caches, const double *q, size_t n)
+static mw_cache_level level_of_queries(const auto_place *p, const mw_caches *caches,
+                                       const double *q, size_t n)
 {
     return mw__cache_level_of_queries(p->locator, caches, &(mw_queries){q, n, 2});
 }
@@ -219,7 +223,8 @@ static void test_room(void **state)
     uint64_t random = 33;
     print_message("seed %llu\n", (unsigned long long)random);
     enum { N = 20000, FEW = 600, FEWER = 100 };
-    const mw_caches small = {20000, 100000}, middling = {100000, 1000000}, large = {1000000, 2000000};
+    const mw_caches small = {20000, 100000}, middling = {100000, 1000000},
+                    large = {1000000, 2000000};
     assert_int_equal(mw__cache_level_of_mesh(p->locator, &small), MW_CACHE_NONE);
     assert_int_equal(mw__cache_level_of_mesh(p->locator, &middling), MW_CACHE_SHARED);
     assert_int_equal(mw__cache_level_of_mesh(p->locator, &large), MW_CACHE_OWN);
@@ -242,7 +247,8 @@ static void test_room(void **state)
     const mw_caches quarter = {200000, 400000};
     draw_box(part, N, 2, 0.3 * SIDE, 0.7 * SIDE, &random); /* 128 KB */
     assert_int_equal(level_of_queries(p, &quarter, part, N), MW_CACHE_OWN);
-    assert_int_equal(level_of_queries(p, &quarter, part, FEW), MW_CACHE_NONE); /* seldom met again */
+    /* seldom met again */
+    assert_int_equal(level_of_queries(p, &quarter, part, FEW), MW_CACHE_NONE);
     free(all);
     free(part);
 }
@@ -273,12 +279,14 @@ typedef struct verdict {
     bool densely, in_order;
 } verdict;
 
-static verdict judge(const auto_place *p, query_spread kind, size_t n, size_t at, double change, uint64_t *random)
+static verdict judge(const auto_place *p, query_spread kind, size_t n, size_t at, double change,
+                     uint64_t *random)
 {
     double *q = draw(kind, n, 3, random);
     if (at < n) q[3 * at] = change;
     mw_queries queries = {q, n, 3};
-    verdict v = {mw__queries_are_dense(p->locator, &queries), mw__queries_are_in_order(p->locator, &queries)};
+    verdict v = {mw__queries_are_dense(p->locator, &queries),
+                 mw__queries_are_in_order(p->locator, &queries)};
     free(q);
     return v;
 }
@@ -304,12 +312,14 @@ static void test_order(void **state)
         assert_false(judge(p, STEPS, n, no, 0, &random).densely);
     }
     expect_verdict(judge(p, ROWS, 1000000, 1000000, 0, &random), true, true);
-    expect_verdict(judge(p, ROWS, 5000, 5000, 0, &random), false, false); /* steps of 1.4, and back */
+    /* steps of 1.4, and back */
+    expect_verdict(judge(p, ROWS, 5000, 5000, 0, &random), false, false);
     assert_true(judge(p, STEPS, 1000, 1000, 0, &random).in_order);
     assert_false(judge(p, STEPS, 1000000, 1000000, 0, &random).in_order);
 }
 
-/* One stray query makes the extent of the queries large, but a small part in any order is still worth a sort. */
+/* One stray query makes the extent of the queries large, but a small part in any order is still
+ * worth a sort. */
 static void test_stray(void **state)
 {
     const auto_place *p = *state;

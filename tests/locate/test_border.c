@@ -1,4 +1,5 @@
-/* test_border.c - the nearest border edge, and points near the mesh, against all edges in rationals. */
+/* test_border.c - the nearest border edge, and points near the mesh, against all edges in
+ * rationals. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -46,8 +47,8 @@ static void distance2(mpq_t result, const double a[2], const double b[2], const 
 }
 
 /* The first triangle and edge, in order, of those border edges at the least distance. */
-static void nearest_by_force(const arrays *a, const mw_mesh *mesh, const double q[2], mpq_t least, uint32_t *triangle,
-                             uint32_t *edge)
+static void nearest_by_force(const arrays *a, const mw_mesh *mesh, const double q[2], mpq_t least,
+                             uint32_t *triangle, uint32_t *edge)
 {
     mpq_t d;
     mpq_init(d);
@@ -74,7 +75,8 @@ static mw_locator *locator_of(const mw_mesh *mesh)
     return locator;
 }
 
-/* |v - want| <= tolerance, and a rounding of the smallest doubles. An infinite v is for what is above the doubles. */
+/* |v - want| <= tolerance, and a rounding of the smallest doubles. An infinite v is for what is
+ * above the doubles. */
 static bool close_to(double v, const mpf_t want, const mpf_t tolerance)
 {
     mpf_t off, most;
@@ -90,8 +92,8 @@ static bool close_to(double v, const mpf_t want, const mpf_t tolerance)
 }
 
 /* Is the hit's point as far from q as the edge is, up to a rounding of the coordinates? */
-static bool foot_is_right(const mw_nearest_border_point *hit, const double q[2], const double a[2], const double b[2],
-                          const mpf_t want)
+static bool foot_is_right(const mw_nearest_border_point *hit, const double q[2], const double a[2],
+                          const double b[2], const mpf_t want)
 {
     for (int k = 0; k < 2; k++)
         if (!(hit->point[k] >= fmin(a[k], b[k]) && hit->point[k] <= fmax(a[k], b[k]))) return false;
@@ -121,7 +123,8 @@ static bool foot_is_right(const mw_nearest_border_point *hit, const double q[2],
 }
 
 /* r = (b - a) . (d - c), in rationals. */
-static void scalar_product(mpq_t r, const double a[2], const double b[2], const double c[2], const double d[2])
+static void scalar_product(mpq_t r, const double a[2], const double b[2], const double c[2],
+                           const double d[2])
 {
     mpq_t x, y, z;
     mpq_inits(x, y, z, NULL);
@@ -139,9 +142,10 @@ static void scalar_product(mpq_t r, const double a[2], const double b[2], const 
     mpq_clears(x, y, z, NULL);
 }
 
-/* The weights divide edge uv as the projection of q does, up to rounding in proportion to how far off q is. */
-static bool weights_are_right(const mw_nearest_border_point *hit, const double q[2], const double u[2],
-                              const double v[2])
+/* The weights divide edge uv as the projection of q does, up to rounding in proportion to how far
+ * off q is. */
+static bool weights_are_right(const mw_nearest_border_point *hit, const double q[2],
+                              const double u[2], const double v[2])
 {
     mpq_t along, length;
     mpq_inits(along, length, NULL);
@@ -155,10 +159,12 @@ static bool weights_are_right(const mw_nearest_border_point *hit, const double q
     mpq_clears(along, length, NULL);
     const double *w = hit->weight;
     uint32_t next = (hit->edge + 1) % 3;
-    return fabs(w[next] - share) <= off && fabs(w[hit->edge] + w[next] - 1) <= 0x1p-50 && w[(hit->edge + 2) % 3] == 0;
+    return fabs(w[next] - share) <= off && fabs(w[hit->edge] + w[next] - 1) <= 0x1p-50 &&
+           w[(hit->edge + 2) % 3] == 0;
 }
 
-static void compare(const arrays *a, const mw_mesh *mesh, const mw_locator *locator, const double q[2])
+static void compare(const arrays *a, const mw_mesh *mesh, const mw_locator *locator,
+                    const double q[2])
 {
     mpq_t least;
     mpf_t want, tolerance;
@@ -173,14 +179,20 @@ static void compare(const arrays *a, const mw_mesh *mesh, const mw_locator *loca
     mw_nearest_border_point hit;
     assert_int_equal(mw_nearest_border(locator, q[0], q[1], &hit, NULL), MW_OK);
     if (hit.triangle != triangle || hit.edge != edge)
-        fail_msg("(%.17g, %.17g): triangle %u edge %u, not %u %u", q[0], q[1], hit.triangle, hit.edge, triangle, edge);
+        fail_msg("(%.17g, %.17g): triangle %u edge %u, not %u %u", q[0], q[1], hit.triangle,
+                 hit.edge, triangle, edge);
     if (!close_to(hit.distance, want, tolerance))
-        fail_msg("(%.17g, %.17g): distance %.17g, not %.17g", q[0], q[1], hit.distance, mpf_get_d(want));
+        fail_msg("(%.17g, %.17g): distance %.17g, not %.17g", q[0], q[1], hit.distance,
+                 mpf_get_d(want));
     const uint32_t *v = a->triangles + 3 * (size_t)triangle;
-    if (!foot_is_right(&hit, q, a->points + 2 * (size_t)v[edge], a->points + 2 * (size_t)v[(edge + 1) % 3], want))
-        fail_msg("(%.17g, %.17g): nearest is (%.17g, %.17g)?", q[0], q[1], hit.point[0], hit.point[1]);
-    if (!weights_are_right(&hit, q, a->points + 2 * (size_t)v[edge], a->points + 2 * (size_t)v[(edge + 1) % 3]))
-        fail_msg("(%.17g, %.17g): weights %.17g %.17g %.17g?", q[0], q[1], hit.weight[0], hit.weight[1], hit.weight[2]);
+    if (!foot_is_right(&hit, q, a->points + 2 * (size_t)v[edge],
+                       a->points + 2 * (size_t)v[(edge + 1) % 3], want))
+        fail_msg("(%.17g, %.17g): nearest is (%.17g, %.17g)?", q[0], q[1], hit.point[0],
+                 hit.point[1]);
+    if (!weights_are_right(&hit, q, a->points + 2 * (size_t)v[edge],
+                           a->points + 2 * (size_t)v[(edge + 1) % 3]))
+        fail_msg("(%.17g, %.17g): weights %.17g %.17g %.17g?", q[0], q[1], hit.weight[0],
+                 hit.weight[1], hit.weight[2]);
     mpf_clears(want, tolerance, NULL);
     mpq_clear(least);
 }
@@ -241,12 +253,14 @@ static void compare_scaled(double sx, double sy, uint64_t *random)
     arrays_free(&a);
 }
 
-/* Where squares, areas or even differences leave the range of doubles; the same in x and y, or not. */
+/* Where squares, areas or even differences leave the range of doubles; the same in x and y, or
+ * not. */
 static void test_scales(void **state)
 {
     (void)state;
-    static const double scale[] = {1e100,  1e-100, 1e120,  1e-120, 1e155,  1e-155,    1e160,   1e-160, 1e200,
-                                   1e-200, 1e290,  1e-290, 1e300,  1e-300, 0x1p-1060, 1.5e308, 1};
+    static const double scale[] = {1e100, 1e-100, 1e120,     1e-120,  1e155, 1e-155,
+                                   1e160, 1e-160, 1e200,     1e-200,  1e290, 1e-290,
+                                   1e300, 1e-300, 0x1p-1060, 1.5e308, 1};
     enum { SCALES = sizeof scale / sizeof *scale };
     uint64_t random = 4;
     for (int i = 0; i < SCALES; i++) {
@@ -268,7 +282,8 @@ static void test_widest(void **state)
     mw_mesh *mesh;
     assert_int_equal(mw_mesh_create(&view, NULL, &mesh, NULL), MW_OK);
     mw_locator *locator = locator_of(mesh);
-    const double q[] = {0, -1e307, 0, 1e307, 1e308, -1e-300, -1e308, 1e308, 1.5e308, -1.5e308, 0.5, 1, 0, DBL_TRUE_MIN};
+    const double q[] = {0,     -1e307,  0,        1e307, 1e308, -1e-300, -1e308,
+                        1e308, 1.5e308, -1.5e308, 0.5,   1,     0,       DBL_TRUE_MIN};
     for (size_t i = 0; i < sizeof q / sizeof *q; i += 2) compare(&a, mesh, locator, q + i);
     mw_nearest_border_point hit;
     assert_int_equal(mw_nearest_border(locator, 3e307, -1e307, &hit, NULL), MW_OK);
@@ -335,11 +350,13 @@ static void test_near(void **state)
         if (want[i] == MW_OUTSIDE) continue;
         double x = 0, y = 0; /* the weights are those of the nearest point of the square */
         for (int k = 0; k < 3; k++) {
-            const double *p = a.points + 2 * (size_t)a.triangles[3 * (size_t)at[i].triangle + (size_t)k];
+            const double *p =
+                a.points + 2 * (size_t)a.triangles[3 * (size_t)at[i].triangle + (size_t)k];
             x += at[i].weight[k] * p[0];
             y += at[i].weight[k] * p[1];
         }
-        assert_true(fabs(x - fmin(fmax(q[2 * i], 0), 4)) < 1e-15 && fabs(y - fmin(fmax(q[2 * i + 1], 0), 4)) < 1e-15);
+        assert_true(fabs(x - fmin(fmax(q[2 * i], 0), 4)) < 1e-15 &&
+                    fabs(y - fmin(fmax(q[2 * i + 1], 0), 4)) < 1e-15);
     }
     mw_locator_destroy(locator);
     mw_mesh_destroy(mesh);
@@ -358,7 +375,8 @@ static void test_arguments(void **state)
     mw_cursor cursor;
     assert_int_equal(mw_mesh_create(&view, NULL, &mesh, NULL), MW_OK);
     assert_int_equal(mw_locator_create(mesh, NULL, &locator, NULL), MW_OK);
-    assert_int_equal(mw_nearest_border(locator, 0, 0, &hit, NULL), MW_ERROR_ARGUMENT); /* no index */
+    /* no index */
+    assert_int_equal(mw_nearest_border(locator, 0, 0, &hit, NULL), MW_ERROR_ARGUMENT);
     const double wrong[] = {1, -1, NAN, INFINITY};
     for (int i = 0; i < 4; i++) {
         mw_query_options options = {.tolerance = wrong[i]};
@@ -379,8 +397,9 @@ static void test_arguments(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_nearest), cmocka_unit_test(test_scales),    cmocka_unit_test(test_widest),
-        cmocka_unit_test(test_near),    cmocka_unit_test(test_near_tiny), cmocka_unit_test(test_arguments),
+        cmocka_unit_test(test_nearest),   cmocka_unit_test(test_scales),
+        cmocka_unit_test(test_widest),    cmocka_unit_test(test_near),
+        cmocka_unit_test(test_near_tiny), cmocka_unit_test(test_arguments),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
-/* test_border_walk.c - the border walk in meshes with pockets, holes and pieces, left open: the same answers as in the
- * filled mesh, holes included, and those of brute force in rationals. */
+/* test_border_walk.c - the border walk in meshes with pockets, holes and pieces, left open: the
+ * same answers as in the filled mesh, holes included, and those of brute force in rationals. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -23,10 +23,12 @@ static mw_locator *locator_of(const mw_mesh *mesh, mw_fill_mode fill)
 
 static bool same(const mw_location *a, const mw_location *b)
 {
-    return a->where == b->where && a->triangle == b->triangle && a->hole == b->hole && a->local == b->local;
+    return a->where == b->where && a->triangle == b->triangle && a->hole == b->hole &&
+           a->local == b->local;
 }
 
-static void compare(const mw_location *got, const mw_location *want, const double q[2], const char *how)
+static void compare(const mw_location *got, const mw_location *want, const double q[2],
+                    const char *how)
 {
     if (same(got, want)) return;
     fail_msg("%s: (%.17g, %.17g): %s triangle %d hole %d, not %s %d %d", how, q[0], q[1],
@@ -45,13 +47,15 @@ static bool is_refused(const arrays *a)
 }
 
 /* Answers in the filled mesh; of the first `exact` queries compared with brute force. */
-static mw_location *expect(const arrays *a, const mw_mesh *mesh, const double *q, size_t n, size_t exact)
+static mw_location *expect(const arrays *a, const mw_mesh *mesh, const double *q, size_t n,
+                           size_t exact)
 {
     mw_locator *filled = locator_of(mesh, MW_FILL_YES);
     mw_location *want = malloc(n * sizeof *want);
     assert_int_equal(mw_locate_batch(filled, q, n, 2, NULL, want, NULL, NULL), MW_OK);
     for (size_t i = 0; i < n && i < exact; i++) {
-        location_answer answer = location_oracle_locate(a->points, a->triangles, a->triangle_count, q + 2 * i);
+        location_answer answer =
+            location_oracle_locate(a->points, a->triangles, a->triangle_count, q + 2 * i);
         assert_int_equal(want[i].triangle, answer.triangle);
         assert_int_equal(want[i].local, answer.local);
     }
@@ -70,8 +74,8 @@ static void try_singles(const mw_locator *open, const mw_query_options *options,
     }
 }
 
-static void try_batch(const mw_locator *open, const mw_query_options *options, const double *q, const mw_location *want,
-                      size_t n, const char *how)
+static void try_batch(const mw_locator *open, const mw_query_options *options, const double *q,
+                      const mw_location *want, size_t n, const char *how)
 {
     mw_location *at = malloc(n * sizeof *at);
     assert_int_equal(mw_locate_batch(open, q, n, 2, options, at, NULL, NULL), MW_OK);
@@ -80,7 +84,8 @@ static void try_batch(const mw_locator *open, const mw_query_options *options, c
 }
 
 /* All starts and both arithmetics, single and in batches, in both layouts. */
-static void try_open(const arrays *a, const double *q, const mw_location *want, size_t n, uint64_t *random)
+static void try_open(const arrays *a, const double *q, const mw_location *want, size_t n,
+                     uint64_t *random)
 {
     for (mw_mesh_layout layout = MW_LAYOUT_HILBERT; layout <= MW_LAYOUT_AS_GIVEN; layout++) {
         mw_mesh *mesh = arrays_mesh(a, (mw_mesh_options){.layout = layout});
@@ -90,8 +95,8 @@ static void try_open(const arrays *a, const double *q, const mw_location *want, 
         for (int start = MW_START_AUTO; start < MW_START_COUNT; start++)
             for (int arithmetic = MW_EXACT; arithmetic <= MW_DOUBLE; arithmetic++) {
                 char how[80];
-                snprintf(how, sizeof how, "from %s, arithmetic %d, layout %d", mw_start_name((mw_start_kind)start),
-                         arithmetic, layout);
+                snprintf(how, sizeof how, "from %s, arithmetic %d, layout %d",
+                         mw_start_name((mw_start_kind)start), arithmetic, layout);
                 mw_query_options options = {.start = (mw_start_kind)start,
                                             .arithmetic = (mw_arithmetic)arithmetic,
                                             .seed = mw__random(random),
@@ -120,26 +125,29 @@ static void try_mesh(const arrays *a, size_t queries, size_t exact, uint64_t *ra
     free(q);
 }
 
-/* --- meshes ---------------------------------------------------------------------------------------------------------- */
+/* --- meshes ----------------------------------------------------------------------------------- */
 
-/* Give triangles vertices of their own, each corner with this chance: pieces that touch along edges and in vertices, by
- * equal coordinates only. */
+/* Give triangles vertices of their own, each corner with this chance: pieces that touch along
+ * edges and in vertices, by equal coordinates only. */
 static arrays tear(const arrays *a, double chance, uint64_t *random)
 {
     arrays torn = arrays_make(a->point_count + 3 * a->triangle_count, a->triangle_count);
-    for (uint32_t v = 0; v < a->point_count; v++) arrays_point(&torn, a->points[2 * v], a->points[2 * v + 1]);
+    for (uint32_t v = 0; v < a->point_count; v++)
+        arrays_point(&torn, a->points[2 * v], a->points[2 * v + 1]);
     for (uint32_t t = 0; t < a->triangle_count; t++) {
         uint32_t v[3];
         for (uint32_t k = 0; k < 3; k++) {
             v[k] = a->triangles[3 * t + k];
-            if (random_unit(random) < chance) v[k] = arrays_point(&torn, a->points[2 * v[k]], a->points[2 * v[k] + 1]);
+            if (random_unit(random) < chance)
+                v[k] = arrays_point(&torn, a->points[2 * v[k]], a->points[2 * v[k] + 1]);
         }
         arrays_triangle(&torn, v[0], v[1], v[2]);
     }
     return torn;
 }
 
-/* A band along a curve: left and right points in turn, two triangles between each pair and the next. */
+/* A band along a curve: left and right points in turn, two triangles between each pair and the
+ * next. */
 static arrays band(uint32_t n, void (*at)(uint32_t i, uint32_t n, double left[2], double right[2]))
 {
     arrays a = arrays_make(2 * n, 2 * n);
@@ -164,8 +172,8 @@ static void spiral(uint32_t i, uint32_t n, double left[2], double right[2])
     right[1] = (radius + 3) * sin(angle);
 }
 
-/* The same, mirrored: the border runs the other way round, and from each way out nearly all of it comes before the way in
- * that is next on the line. */
+/* The same, mirrored: the border runs the other way round, and from each way out nearly all of it
+ * comes before the way in that is next on the line. */
 static void mirrored_spiral(uint32_t i, uint32_t n, double left[2], double right[2])
 {
     spiral(i, n, right, left);
@@ -173,7 +181,8 @@ static void mirrored_spiral(uint32_t i, uint32_t n, double left[2], double right
     right[1] = -right[1];
 }
 
-/* Teeth of height 100 on a back: the line to a point in the next tooth leaves and comes back over and over. */
+/* Teeth of height 100 on a back: the line to a point in the next tooth leaves and comes back over
+ * and over. */
 static arrays comb(uint32_t teeth)
 {
     arrays a = arrays_make(5 * teeth, 3 * teeth);
@@ -224,10 +233,10 @@ static arrays nested(uint32_t rings)
     return a;
 }
 
-/* --- tests ----------------------------------------------------------------------------------------------------------- */
+/* --- tests ------------------------------------------------------------------------------------ */
 
-/* Grids with triangles taken out: lines along border edges and through border vertices, holes that share a vertex, pinched
- * pieces, islands. */
+/* Grids with triangles taken out: lines along border edges and through border vertices, holes that
+ * share a vertex, pinched pieces, islands. */
 static void test_punched(void **state)
 {
     (void)state;
@@ -273,7 +282,8 @@ static void test_offset_and_scale(void **state)
 {
     (void)state;
     uint64_t random = 24;
-    const double to[][3] = {{1, 5e6, 5e6}, {1e-9, 1, 1}, {1e-300, 0, 0}, {1e300, 0, 0}, {0x1p-1060, 0, 0}};
+    const double to[][3] = {
+        {1, 5e6, 5e6}, {1e-9, 1, 1}, {1e-300, 0, 0}, {1e300, 0, 0}, {0x1p-1060, 0, 0}};
     for (size_t i = 0; i < sizeof to / sizeof *to; i++) {
         arrays a = arrays_grid(5, i < 2 ? 0.3 : 0, &random);
         arrays_punch(&a, 0.3, &random);
@@ -311,7 +321,8 @@ static void test_flat(void **state)
     uint64_t random = 26;
     for (int i = 0; i < 10; i++) {
         arrays a = arrays_make(40, 60);
-        for (uint32_t x = 0; x < 6; x++) { /* a row below, with vertices inside the long edge above it */
+        for (uint32_t x = 0; x < 6;
+             x++) { /* a row below, with vertices inside the long edge above it */
             arrays_point(&a, x, 0);
             arrays_point(&a, x, -1);
         }
@@ -328,7 +339,8 @@ static void test_flat(void **state)
     }
 }
 
-/* A locator that is left open has no ghosts and, where the mesh allows it, no copy; only the border walk takes it. */
+/* A locator that is left open has no ghosts and, where the mesh allows it, no copy; only the
+ * border walk takes it. */
 static void test_options(void **state)
 {
     (void)state;
@@ -353,7 +365,8 @@ static void test_options(void **state)
     for (int walk = MW_WALK_AUTO; walk < MW_WALK_COUNT; walk++) {
         mw_query_options options = {.walk = (mw_walk_kind)walk};
         bool taken = walk == MW_WALK_AUTO || walk == MW_WALK_BORDER;
-        assert_int_equal(mw_cursor_init(open, &options, &cursor, NULL), taken ? MW_OK : MW_ERROR_ARGUMENT);
+        assert_int_equal(mw_cursor_init(open, &options, &cursor, NULL),
+                         taken ? MW_OK : MW_ERROR_ARGUMENT);
         assert_int_equal(mw_cursor_init(filled, &options, &cursor, NULL), MW_OK);
     }
     mw_locator_destroy(open);
@@ -367,7 +380,8 @@ static void test_options(void **state)
     arrays_punch(&a, 0.1, &random);
     mesh = arrays_mesh(&a, (mw_mesh_options){0});
     for (int many = 0; many < 2; many++) { /* what few queries do not pay for */
-        mw_locator *chosen = mesh_locator(mesh, (mw_locator_options){.queries = many ? 1000000 : 10});
+        mw_locator *chosen =
+            mesh_locator(mesh, (mw_locator_options){.queries = many ? 1000000 : 10});
         mw_locator_describe(chosen, &info);
         assert_int_equal(info.unfilled, !many);
         mw_locator_destroy(chosen);
@@ -402,7 +416,8 @@ static void test_counters(void **state)
     mw_counters one, more;
     for (uint32_t threads = 1; threads <= 3; threads += 2) {
         mw_query_options options = {.start = MW_START_RANDOM, .counters = 1, .threads = threads};
-        assert_int_equal(mw_locate_batch(open, q, N, 2, &options, at, threads == 1 ? &one : &more, NULL), MW_OK);
+        assert_int_equal(
+            mw_locate_batch(open, q, N, 2, &options, at, threads == 1 ? &one : &more, NULL), MW_OK);
     }
     assert_memory_equal(&one, &more, sizeof one);
     uint64_t outside = 0;
@@ -412,7 +427,8 @@ static void test_counters(void **state)
     assert_true(one.walk_runs >= N && one.border_runs >= outside);
     assert_true(one.border_runs - outside <= one.walk_runs - N + outside);
     assert_int_equal(one.cycles + one.handovers, 0);
-    assert_true(one.triangles_border_max <= one.triangles_border && one.triangles_walk_max <= one.triangles);
+    assert_true(one.triangles_border_max <= one.triangles_border &&
+                one.triangles_walk_max <= one.triangles);
     assert_true(one.border_edges <= one.orient_border && one.border_edges_max <= one.border_edges);
     assert_true(one.triangles > 0 && one.orient > one.triangles);
     mw_locator_destroy(open);
@@ -422,7 +438,7 @@ static void test_counters(void **state)
     arrays_free(&a);
 }
 
-/* --- the length of the way along borders ----------------------------------------------------------------------------- */
+/* --- the length of the way along borders ------------------------------------------------------ */
 
 /* Two triangles for each '#', the last row on top. */
 static arrays cells_mesh(const char *const *row, uint32_t rows, uint32_t columns)
@@ -440,8 +456,8 @@ static arrays cells_mesh(const char *const *row, uint32_t rows, uint32_t columns
     return a;
 }
 
-/* The most edges of the border that a walk from any triangle to one of these points tests: inside, outside, as shares of
- * all border edges. */
+/* The most edges of the border that a walk from any triangle to one of these points tests: inside,
+ * outside, as shares of all border edges. */
 static void longest(const arrays *a, const double *q, size_t n, double most[2])
 {
     mw_mesh *mesh = arrays_mesh(a, (mw_mesh_options){0});
@@ -466,28 +482,33 @@ static void longest(const arrays *a, const double *q, size_t n, double most[2])
     mw_mesh_destroy(mesh);
 }
 
-/* The thesis says that a walk visits at most all border edges once if the point is inside, twice if it is outside. So it
- * does in combs, fans, and spirals of one hand; but not in those of the other, nor in some small polyominoes. */
+/* The thesis says that a walk visits at most all border edges once if the point is inside, twice
+ * if it is outside. So it does in combs, fans, and spirals of one hand; but not in those of the
+ * other, nor in some small polyominoes. */
 static void test_published_bound(void **state)
 {
     (void)state;
-    static const char *const folded[2][6] = {{".#...#", ".###.#", "...#.#", "####.#", "...###", "...#.#"},
-                                             {".#..#.", ".#####", "....#.", ".#.###", "####.#", ".#.#.#"}};
+    static const char *const folded[2][6] = {
+        {".#...#", ".###.#", "...#.#", "####.#", "...###", "...#.#"},
+        {".#..#.", ".#####", "....#.", ".#.###", "####.#", ".#.#.#"}};
     uint64_t random = 29;
     enum { N = 200, COMB = 1, MIRRORED = 3, FOLDED = 4, SHAPES = 6 };
     double q[2 * N], most[2];
     arrays fan = arrays_fan(12);
     fan.triangle_count = 9; /* three quarters of it */
-    arrays shapes[SHAPES] = {
-        band(60, spiral),           comb(12), fan, band(200, mirrored_spiral), cells_mesh(folded[0], 6, 6),
-        cells_mesh(folded[1], 6, 6)};
+    arrays shapes[SHAPES] = {band(60, spiral),
+                             comb(12),
+                             fan,
+                             band(200, mirrored_spiral),
+                             cells_mesh(folded[0], 6, 6),
+                             cells_mesh(folded[1], 6, 6)};
     for (size_t i = 0; i < SHAPES; i++) {
         const double size[SHAPES] = {45, 24, 1, 45, 6, 6};
         for (int k = 0; k < N; k++) {
             bool centred = i == 0 || i == 2 || i == MIRRORED;
             q[2 * k] = size[i] * (centred ? 2 * random_unit(&random) - 1 : random_unit(&random));
-            q[2 * k + 1] =
-                (i == COMB ? 100 : size[i]) * (centred ? 2 * random_unit(&random) - 1 : random_unit(&random));
+            q[2 * k + 1] = (i == COMB ? 100 : size[i]) *
+                           (centred ? 2 * random_unit(&random) - 1 : random_unit(&random));
         }
         longest(&shapes[i], q, N, most);
         if (i < MIRRORED) assert_true(most[0] <= 1 && most[1] <= 2 && most[1] > 0.5);
@@ -498,8 +519,8 @@ static void test_published_bound(void **state)
     }
 }
 
-/* There is no bound in terms of the border alone; so walks that go on too long hand over to one that goes along no border
- * more than twice. */
+/* There is no bound in terms of the border alone; so walks that go on too long hand over to one
+ * that goes along no border more than twice. */
 static void long_spiral(uint32_t i, uint32_t n, double left[2], double right[2])
 {
     double angle = 400.0 * i / n, radius = 1 + angle;
@@ -523,8 +544,10 @@ static void test_long_ways(void **state)
     for (int i = 0; i < 2 * N; i++) q[i] = 800 * random_unit(&random) - 400;
     mw_location *want = expect(&a, mesh, q, N, 0);
     for (int arithmetic = MW_EXACT; arithmetic <= MW_DOUBLE; arithmetic++) {
-        mw_query_options options = {
-            .start = MW_START_RANDOM, .arithmetic = (mw_arithmetic)arithmetic, .counters = 1, .seed = 3};
+        mw_query_options options = {.start = MW_START_RANDOM,
+                                    .arithmetic = (mw_arithmetic)arithmetic,
+                                    .counters = 1,
+                                    .seed = 3};
         mw_cursor cursor;
         assert_int_equal(mw_cursor_init(open, &options, &cursor, NULL), MW_OK);
         for (int i = 0; i < N; i++) {
@@ -532,7 +555,8 @@ static void test_long_ways(void **state)
             compare(&at, &want[i], q + 2 * i, "long spiral");
         }
         assert_true(cursor.counters.cycles > 0 && cursor.counters.handovers > 0);
-        /* four times the border before handing over, with what a walk may take; twice it then, of triangles too */
+        /* four times the border before handing over, with what a walk may take; twice it then, of
+         * triangles too */
         assert_true(cursor.counters.border_edges_max < 5 * (uint64_t)info.border_edges);
         assert_true(cursor.counters.triangles_max < 40 * (uint64_t)info.triangles);
     }
@@ -552,11 +576,13 @@ static void test_short_ways(void **state)
     for (int i = 0; i < 2; i++) {
         mw_mesh *mesh = arrays_mesh(i == 0 ? &pieces : &convex, (mw_mesh_options){0});
         mw_locator *open = locator_of(mesh, MW_FILL_NO);
-        mw_query_options options = {.walk = MW_WALK_BORDER, .start = MW_START_RANDOM, .counters = 1};
+        mw_query_options options = {
+            .walk = MW_WALK_BORDER, .start = MW_START_RANDOM, .counters = 1};
         mw_cursor cursor;
         assert_int_equal(mw_cursor_init(open, &options, &cursor, NULL), MW_OK);
         for (int k = 0; k < 50; k++) {
-            mw_location at = mw_locate(open, &cursor, 30 + 20 * random_unit(&random), 50 * random_unit(&random));
+            mw_location at =
+                mw_locate(open, &cursor, 30 + 20 * random_unit(&random), 50 * random_unit(&random));
             assert_int_equal(at.where, MW_OUTSIDE);
         }
         assert_int_equal(cursor.counters.queries, 50);

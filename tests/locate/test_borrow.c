@@ -39,13 +39,15 @@ static foreign foreign_of(const arrays *a, mw_integer_type type, mw_neighbour_la
     mw_mesh *mesh = arrays_mesh(a, (mw_mesh_options){0});
     uint32_t *opposite = mesh_neighbours(mesh);
     for (size_t i = 0; i < n; i++) {
-        size_t k = layout == MW_NEIGHBOUR_OPPOSITE ? i % 3 : (i + 2) % 3; /* edge k is opposite to vertex k + 2 */
+        /* edge k is opposite to vertex k + 2 */
+        size_t k = layout == MW_NEIGHBOUR_OPPOSITE ? i % 3 : (i + 2) % 3;
         put_number(f.triangles, type, i, a->triangles[i]);
         put_number(f.neighbours, type, i, opposite[i - i % 3 + k]);
     }
     free(opposite);
     mw_mesh_destroy(mesh);
-    f.arrays = (mw_borrowed_arrays){.mesh = arrays_view(a), .neighbours = f.neighbours, .layout = layout};
+    f.arrays =
+        (mw_borrowed_arrays){.mesh = arrays_view(a), .neighbours = f.neighbours, .layout = layout};
     f.arrays.mesh.triangles = f.triangles;
     f.arrays.mesh.integer_type = type;
     return f;
@@ -69,21 +71,24 @@ static mw_borrowed *borrow(const foreign *f, mw_borrow_options options)
 
 static bool same(const mw_location *a, const mw_location *b)
 {
-    return a->triangle == b->triangle && (a->where == MW_IN_HOLE ? MW_OUTSIDE : a->where) == b->where &&
-           a->local == b->local && (a->triangle == MW_NONE || memcmp(a->weight, b->weight, sizeof a->weight) == 0);
+    return a->triangle == b->triangle &&
+           (a->where == MW_IN_HOLE ? MW_OUTSIDE : a->where) == b->where && a->local == b->local &&
+           (a->triangle == MW_NONE || memcmp(a->weight, b->weight, sizeof a->weight) == 0);
 }
 
-static void compare(const mw_location *want, const mw_location *got, const double *q, const char *how)
+static void compare(const mw_location *want, const mw_location *got, const double *q,
+                    const char *how)
 {
     if (!same(want, got))
-        fail_msg("%s: (%.17g, %.17g): triangle %u where %d local %d, not %u %d %d", how, q[0], q[1], got->triangle,
-                 got->where, got->local, want->triangle, want->where, want->local);
+        fail_msg("%s: (%.17g, %.17g): triangle %u where %d local %d, not %u %d %d", how, q[0], q[1],
+                 got->triangle, got->where, got->local, want->triangle, want->where, want->local);
 }
 
 /* By every walk, one by one and in batches. */
 static void try_walks(const mw_borrowed *mesh, const mw_location *want, const double *q, size_t n)
 {
-    static const mw_walk_kind walks[] = {MW_WALK_AUTO, MW_WALK_REMEMBERING, MW_WALK_BARYCENTRIC, MW_WALK_DIRECT};
+    static const mw_walk_kind walks[] = {MW_WALK_AUTO, MW_WALK_REMEMBERING, MW_WALK_BARYCENTRIC,
+                                         MW_WALK_DIRECT};
     mw_location *got = malloc(n * sizeof *got);
     for (size_t w = 0; w < sizeof walks / sizeof *walks; w++) {
         mw_borrowed_query_options options = {.walk = walks[w], .threads = 2, .in_order = w == 1};
@@ -94,7 +99,8 @@ static void try_walks(const mw_borrowed *mesh, const mw_location *want, const do
             mw_location at = mw_borrowed_locate(mesh, &cursor, q[2 * i], q[2 * i + 1]);
             compare(&want[i], &at, q + 2 * i, mw_walk_name(walks[w]));
         }
-        assert_int_equal(mw_borrowed_locate_batch(mesh, q, n, 0, &options, got, &counters, NULL), MW_OK);
+        assert_int_equal(mw_borrowed_locate_batch(mesh, q, n, 0, &options, got, &counters, NULL),
+                         MW_OK);
         for (size_t i = 0; i < n; i++) compare(&want[i], &got[i], q + 2 * i, "batch");
         assert_true(counters.queries <= n && counters.triangles_visited >= counters.queries);
     }
@@ -120,12 +126,14 @@ static void try_arrays(const arrays *a, uint64_t *random)
     mw_location *want = malloc(n * sizeof *want);
     assert_int_equal(mw_locate_batch(locator, q, n, 0, NULL, want, NULL, NULL), MW_OK);
     for (size_t i = 0; i < n && i < ORACLE; i++) {
-        location_answer sure = location_oracle_locate(a->points, a->triangles, a->triangle_count, q + 2 * i);
+        location_answer sure =
+            location_oracle_locate(a->points, a->triangles, a->triangle_count, q + 2 * i);
         assert_true(sure.triangle == want[i].triangle && sure.local == want[i].local);
     }
     for (int form = 0; form < 6; form++) {
         static const mw_integer_type types[] = {MW_UINT32, MW_INT32, MW_INT64};
-        foreign f = foreign_of(a, types[form % 3], form / 3 ? MW_NEIGHBOUR_ACROSS_EDGE : MW_NEIGHBOUR_OPPOSITE);
+        foreign f = foreign_of(a, types[form % 3],
+                               form / 3 ? MW_NEIGHBOUR_ACROSS_EDGE : MW_NEIGHBOUR_OPPOSITE);
         mw_borrowed *view = borrow(&f, (mw_borrow_options){.unchecked = form & 1});
         mw_borrowed_info info;
         mw_borrowed_describe(view, &info);
@@ -190,7 +198,8 @@ static void flat_triangles_own_no_point(void **state)
     uint64_t random = environment_print_seed("borrow", 13);
     (void)state;
     for (int at_hull = 0; at_hull < 2; at_hull++) {
-        /* a square with a vertex on its diagonal or its lowest side, where a flat triangle closes the gap */
+        /* a square with a vertex on its diagonal or its lowest side, where a flat triangle closes
+         * the gap */
         arrays a = arrays_make(5, 5);
         arrays_point(&a, 0, 0);
         arrays_point(&a, 2, 0);
@@ -224,8 +233,8 @@ static void expect_refused(const foreign *f, int64_t triangle, const char *words
     assert_null(mesh);
     assert_true(error.triangle >= 0);
     if ((triangle != ANY && error.triangle != triangle) || !strstr(error.message, words))
-        fail_msg("triangle %lld, \"%s\", not %lld, \"%s\"", (long long)error.triangle, error.message,
-                 (long long)triangle, words);
+        fail_msg("triangle %lld, \"%s\", not %lld, \"%s\"", (long long)error.triangle,
+                 error.message, (long long)triangle, words);
 }
 
 static void wrong_neighbours_are_refused(void **state)
@@ -291,8 +300,10 @@ static void wrong_calls_are_refused(void **state)
     mw_borrowed_cursor cursor;
     assert_int_equal(mw_mesh_borrow(NULL, NULL, &none, NULL), MW_ERROR_ARGUMENT);
     assert_int_equal(mw_mesh_borrow(&f.arrays, NULL, NULL, NULL), MW_ERROR_ARGUMENT);
-    assert_int_equal(mw_mesh_borrow(&f.arrays, &(mw_borrow_options){.convex = 1}, &none, NULL), MW_ERROR_ARGUMENT);
-    assert_int_equal(mw_mesh_borrow(&f.arrays, &(mw_borrow_options){.reserved = {1}}, &none, NULL), MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_mesh_borrow(&f.arrays, &(mw_borrow_options){.convex = 1}, &none, NULL),
+                     MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_mesh_borrow(&f.arrays, &(mw_borrow_options){.reserved = {1}}, &none, NULL),
+                     MW_ERROR_ARGUMENT);
     f.arrays.layout = (mw_neighbour_layout)2;
     assert_int_equal(mw_mesh_borrow(&f.arrays, NULL, &none, NULL), MW_ERROR_ARGUMENT);
     f.arrays.layout = MW_NEIGHBOUR_OPPOSITE;
@@ -300,8 +311,10 @@ static void wrong_calls_are_refused(void **state)
     assert_int_equal(mw_mesh_borrow(&f.arrays, NULL, &none, NULL), MW_ERROR_ARGUMENT);
     mw_borrowed_query_options straight = {.walk = MW_WALK_STRAIGHT};
     assert_int_equal(mw_borrowed_cursor_init(&straight, &cursor, NULL), MW_ERROR_ARGUMENT);
-    assert_int_equal(mw_borrowed_locate_batch(mesh, a.points, 1, 1, NULL, &at, NULL, NULL), MW_ERROR_ARGUMENT);
-    assert_int_equal(mw_borrowed_locate_batch(mesh, NULL, 1, 0, NULL, &at, NULL, NULL), MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_borrowed_locate_batch(mesh, a.points, 1, 1, NULL, &at, NULL, NULL),
+                     MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_borrowed_locate_batch(mesh, NULL, 1, 0, NULL, &at, NULL, NULL),
+                     MW_ERROR_ARGUMENT);
     cursor = (mw_borrowed_cursor){0};
     assert_int_equal(mw_borrowed_locate(mesh, &cursor, NAN, 0).where, MW_BAD);
     assert_int_equal(mw_borrowed_locate(mesh, &cursor, 0.3, INFINITY).where, MW_BAD);
@@ -337,25 +350,29 @@ static void damage_does_no_harm(void **state)
     for (int round = 0; round < ROUNDS; round++) {
         arrays a = arrays_grid(6, 0.8, &random);
         arrays_scramble(&a, 1, &random);
-        foreign f = foreign_of(&a, MW_INT32, round & 1 ? MW_NEIGHBOUR_ACROSS_EDGE : MW_NEIGHBOUR_OPPOSITE);
+        foreign f =
+            foreign_of(&a, MW_INT32, round & 1 ? MW_NEIGHBOUR_ACROSS_EDGE : MW_NEIGHBOUR_OPPOSITE);
         uint32_t *tri = f.triangles, *next = f.neighbours, size = 3 * a.triangle_count;
         for (int i = 0; i < 1 + round; i++) {
-            uint32_t junk =
-                mw__random_below(&random, 4) ? mw__random_below(&random, size / 3) : (uint32_t)mw__random(&random);
+            uint32_t junk = mw__random_below(&random, 4) ? mw__random_below(&random, size / 3)
+                                                         : (uint32_t)mw__random(&random);
             next[mw__random_below(&random, size)] = junk;
             if (round & 2) tri[mw__random_below(&random, size)] = junk;
         }
-        mw_borrowed *mesh = borrow(&f, (mw_borrow_options){.unchecked = 1, .convex = round & 4 ? 1 : 0});
+        mw_borrowed *mesh =
+            borrow(&f, (mw_borrow_options){.unchecked = 1, .convex = round & 4 ? 1 : 0});
         size_t n;
         double *q = arrays_queries(&a, EACH, &n, &random);
         for (int walk = 0; walk < 3; walk++) {
-            static const mw_walk_kind walks[] = {MW_WALK_REMEMBERING, MW_WALK_BARYCENTRIC, MW_WALK_DIRECT};
+            static const mw_walk_kind walks[] = {MW_WALK_REMEMBERING, MW_WALK_BARYCENTRIC,
+                                                 MW_WALK_DIRECT};
             mw_borrowed_cursor cursor = {.walk = (uint32_t)walks[walk]};
             for (size_t i = 0; i < n; i++) {
                 mw_location at = mw_borrowed_locate(mesh, &cursor, q[2 * i], q[2 * i + 1]);
                 location_answer in, all;
                 if (at.triangle != MW_NONE)
-                    assert_true(location_oracle_contains(a.points, tri + 3 * (size_t)at.triangle, q + 2 * i, &in));
+                    assert_true(location_oracle_contains(a.points, tri + 3 * (size_t)at.triangle,
+                                                         q + 2 * i, &in));
                 if (round & 6) continue;
                 all = location_oracle_locate(a.points, tri, a.triangle_count, q + 2 * i);
                 assert_int_equal(all.triangle == MW_NONE, at.triangle == MW_NONE);
@@ -396,7 +413,8 @@ static void coordinates_are_independent_of_orientation(void **state)
         mw_borrowed *mesh[2];
         for (int i = 0; i < 2; i++) {
             mesh[i] = borrow(&turned[i], (mw_borrow_options){0});
-            assert_int_equal(mw_borrowed_cursor_init(&(mw_borrowed_query_options){.walk = walks[w]}, &cursor[i], NULL),
+            assert_int_equal(mw_borrowed_cursor_init(&(mw_borrowed_query_options){.walk = walks[w]},
+                                                     &cursor[i], NULL),
                              MW_OK);
         }
         for (int q = 0; q < QUERIES; q++) {

@@ -1,5 +1,6 @@
-/* test_fast_path.c - the fast path of queries gives the very answers of the walks that count, bit for bit: from every start,
- * in any number of lanes, on any processor, alone and in batches; and leaves to the walks what rounding cannot decide. */
+/* test_fast_path.c - the fast path of queries gives the very answers of the walks that count, bit
+ * for bit: from every start, in any number of lanes, on any processor, alone and in batches; and
+ * leaves to the walks what rounding cannot decide. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -15,18 +16,21 @@
 #include <stdlib.h>
 #include <string.h>
 
-static void expect_same(const mw_location *want, const mw_location *got, const double *q, size_t n, const char *how)
+static void expect_same(const mw_location *want, const mw_location *got, const double *q, size_t n,
+                        const char *how)
 {
     for (size_t i = 0; i < n; i++)
         if (memcmp(&want[i], &got[i], sizeof *want) != 0)
-            fail_msg("%s: (%.17g, %.17g): triangle %u where %d weights %.17g %.17g, not %u %d %.17g %.17g", how,
-                     q[2 * i], q[2 * i + 1], got[i].triangle, got[i].where, got[i].weight[0], got[i].weight[1],
-                     want[i].triangle, want[i].where, want[i].weight[0], want[i].weight[1]);
+            fail_msg("%s: (%.17g, %.17g): triangle %u where %d weights %.17g %.17g, not %u %d "
+                     "%.17g %.17g",
+                     how, q[2 * i], q[2 * i + 1], got[i].triangle, got[i].where, got[i].weight[0],
+                     got[i].weight[1], want[i].triangle, want[i].where, want[i].weight[0],
+                     want[i].weight[1]);
 }
 
 /* Without the instructions that only some processors have. */
-static void expect_portable(const mw_locator *locator, const mw_query_options *options, const double *q, size_t n,
-                            const mw_location *want, mw_location *at)
+static void expect_portable(const mw_locator *locator, const mw_query_options *options,
+                            const double *q, size_t n, const mw_location *want, mw_location *at)
 {
     mw_cursor cursor;
     assert_int_equal(mw_cursor_init(locator, options, &cursor, NULL), MW_OK);
@@ -40,8 +44,8 @@ static void expect_portable(const mw_locator *locator, const mw_query_options *o
         }
 }
 
-static void expect_start(const mw_locator *locator, mw_query_options options, const double *q, size_t n,
-                         const mw_location *want, mw_location *at)
+static void expect_start(const mw_locator *locator, mw_query_options options, const double *q,
+                         size_t n, const mw_location *want, mw_location *at)
 {
     static const uint32_t lanes[] = {0, 1, 4, 7, 13, 64};
     mw_error error;
@@ -72,10 +76,13 @@ static void expect_fast_path(const arrays *a, size_t random_queries, uint64_t *r
     mw_counters counters;
     mw_error error;
     mw_query_options counted = {.walk = MW_WALK_CELESTIAL, .start = MW_START_SAMPLE, .counters = 1};
-    expect_ok(mw_locate_batch(locator, q, n, 2, &counted, want, &counters, &error), "counted", &error);
+    expect_ok(mw_locate_batch(locator, q, n, 2, &counted, want, &counters, &error), "counted",
+              &error);
     starts_open(locator, index);
     for (int start = MW_START_AUTO; start < MW_START_COUNT; start++)
-        expect_start(locator, (mw_query_options){.start = (mw_start_kind)start, .index = index[start]}, q, n, want, at);
+        expect_start(locator,
+                     (mw_query_options){.start = (mw_start_kind)start, .index = index[start]}, q, n,
+                     want, at);
     starts_close(index);
     mw_locator_destroy(locator);
     mw_mesh_destroy(mesh);
@@ -98,7 +105,8 @@ static void test_meshes(void **state)
         }
 }
 
-/* Ghosts in pockets and holes; long ways round the vertex of a fan; a mesh on which the remembering walk goes in circles. */
+/* Ghosts in pockets and holes; long ways round the vertex of a fan; a mesh on which the
+ * remembering walk goes in circles. */
 static void test_what_needs_the_walks(void **state)
 {
     (void)state;

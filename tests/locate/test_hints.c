@@ -1,5 +1,6 @@
-/* test_hints.c - batches whose queries begin at triangles of their own (mw_query_options.hints): the answers are those without,
- * whatever the hints; walks from good ones are short; what is written back is what was found; edits do no harm. */
+/* test_hints.c - batches whose queries begin at triangles of their own (mw_query_options.hints):
+ * the answers are those without, whatever the hints; walks from good ones are short; what is
+ * written back is what was found; edits do no harm. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -36,7 +37,8 @@ static hint_field field_create(const arrays *a, mw_locator_options options, uint
     f.at = calloc(f.n, sizeof *f.at);
     f.hint = calloc(f.n, sizeof *f.hint);
     f.given = calloc(f.n, sizeof *f.given);
-    expect_ok(mw_locate_batch(f.locator, f.query, f.n, 2, NULL, f.want, NULL, &error), "without hints", &error);
+    expect_ok(mw_locate_batch(f.locator, f.query, f.n, 2, NULL, f.want, NULL, &error),
+              "without hints", &error);
     return f;
 }
 
@@ -51,7 +53,7 @@ static void field_release(hint_field *f)
     free(f->given);
 }
 
-/* --- what is given ---------------------------------------------------------------------------------------------------- */
+/* --- what is given ---------------------------------------------------------------------------- */
 
 enum { NO_HINTS, ANY_TRIANGLE, ANY_NUMBER, LIMITS, GOOD, HINTS };
 static const char *const hints_name[] = {"none", "any triangle", "any number", "limits", "good"};
@@ -70,7 +72,7 @@ static void field_give_hints(hint_field *f, int kind)
     }
 }
 
-/* --- what comes back -------------------------------------------------------------------------------------------------- */
+/* --- what comes back -------------------------------------------------------------------------- */
 
 static void field_expect(hint_field *f, mw_query_options options, const char *how)
 {
@@ -78,12 +80,15 @@ static void field_expect(hint_field *f, mw_query_options options, const char *ho
     memcpy(f->hint, f->given, f->n * sizeof *f->hint);
     options.hints = f->hint;
     memset(f->at, 0x55, f->n * sizeof *f->at);
-    expect_ok(mw_locate_batch(f->locator, f->query, f->n, 2, &options, f->at, NULL, &error), how, &error);
+    expect_ok(mw_locate_batch(f->locator, f->query, f->n, 2, &options, f->at, NULL, &error), how,
+              &error);
     for (size_t i = 0; i < f->n; i++) {
         if (memcmp(&f->at[i], &f->want[i], sizeof f->at[i]) != 0)
-            fail_msg("hints %s: query %zu is answered differently from triangle %u", how, i, f->given[i]);
+            fail_msg("hints %s: query %zu is answered differently from triangle %u", how, i,
+                     f->given[i]);
         uint32_t next = f->want[i].triangle == MW_NONE ? f->given[i] : f->want[i].triangle;
-        if (f->hint[i] != next) fail_msg("hints %s: hint %zu became %u, not %u", how, i, f->hint[i], next);
+        if (f->hint[i] != next)
+            fail_msg("hints %s: hint %zu became %u, not %u", how, i, f->hint[i], next);
     }
 }
 
@@ -94,14 +99,16 @@ static void field_try_all(hint_field *f)
     for (int kind = 0; kind < HINTS; kind++) {
         field_give_hints(f, kind);
         for (int start = 0; start < MW_START_COUNT; start++) {
-            mw_query_options options = {.start = (mw_start_kind)start, .index = index[start], .threads = 1};
+            mw_query_options options = {
+                .start = (mw_start_kind)start, .index = index[start], .threads = 1};
             field_expect(f, options, hints_name[kind]);
             options.lanes = 1 + (uint32_t)start;
             options.counters = 1;
             field_expect(f, options, hints_name[kind]);
         }
         for (int walk = 0; walk < MW_WALK_COUNT; walk++) {
-            mw_query_options options = {.walk = (mw_walk_kind)walk, .lanes = (uint32_t)walk, .threads = 2};
+            mw_query_options options = {
+                .walk = (mw_walk_kind)walk, .lanes = (uint32_t)walk, .threads = 2};
             options.arithmetic = walk % 2 ? MW_EXACT : MW_DOUBLE;
             field_expect(f, options, hints_name[kind]);
         }
@@ -109,14 +116,15 @@ static void field_try_all(hint_field *f)
     starts_close(index);
 }
 
-/* --- the tests -------------------------------------------------------------------------------------------------------- */
+/* --- the tests -------------------------------------------------------------------------------- */
 
 static void test_meshes(void **state)
 {
     (void)state;
     uint64_t random = environment_seed(60);
     for (int kind = 0; kind < 4; kind++) {
-        arrays a = kind == 2 ? arrays_trap() : arrays_grid(kind == 0 ? 3 : 24, kind == 1 ? 0.4 : 0, &random);
+        arrays a = kind == 2 ? arrays_trap()
+                             : arrays_grid(kind == 0 ? 3 : 24, kind == 1 ? 0.4 : 0, &random);
         if (kind != 2) arrays_scramble(&a, 1, &random);
         if (kind == 3) arrays_punch(&a, 0.2, &random);
         hint_field f = field_create(&a, (mw_locator_options){0}, random);
@@ -133,7 +141,8 @@ static void arrays_add_cut(arrays *a, double x)
     static const uint32_t triangle[4][3] = {{0, 1, 2}, {0, 4, 3}, {3, 4, 1}, {0, 3, 1}};
     uint32_t v[5];
     for (int k = 0; k < 5; k++) v[k] = arrays_point(a, x + corner[k][0], corner[k][1]);
-    for (int k = 0; k < 4; k++) arrays_triangle(a, v[triangle[k][0]], v[triangle[k][1]], v[triangle[k][2]]);
+    for (int k = 0; k < 4; k++)
+        arrays_triangle(a, v[triangle[k][0]], v[triangle[k][1]], v[triangle[k][2]]);
 }
 
 /* Flat triangles have no tile, cut ones several: the tiles have other places than the triangles. */
@@ -152,7 +161,8 @@ static void test_other_tiles_than_triangles(void **state)
     arrays_free(&a);
 }
 
-/* Without ghosts only the border walk finds its way; with a tolerance points outside have a triangle. */
+/* Without ghosts only the border walk finds its way; with a tolerance points outside have a
+ * triangle. */
 static void test_open_border_and_tolerance(void **state)
 {
     (void)state;
@@ -164,7 +174,8 @@ static void test_open_border_and_tolerance(void **state)
         hint_field f = field_create(&a, made, random);
         mw_query_options options = {.tolerance = 0.2};
         mw_error error;
-        expect_ok(mw_locate_batch(f.locator, f.query, f.n, 2, &options, f.want, NULL, &error), "tolerance", &error);
+        expect_ok(mw_locate_batch(f.locator, f.query, f.n, 2, &options, f.want, NULL, &error),
+                  "tolerance", &error);
         for (int kind = 0; kind < HINTS; kind++) {
             field_give_hints(&f, kind);
             field_expect(&f, options, hints_name[kind]);
@@ -195,7 +206,8 @@ static void test_walks_are_short(void **state)
     assert_int_equal(mw_locate_batch(locator, q, N, 2, &options, at, &counters, NULL), MW_OK);
     assert_int_equal(counters.triangles_visited, N);
     /* What is far from its hint is led by the guide: a walk across the mesh would visit dozens. */
-    for (size_t i = 0; i < N; i++) hint[i] = mw__random_below(&random, mw_mesh_triangle_count(mesh));
+    for (size_t i = 0; i < N; i++)
+        hint[i] = mw__random_below(&random, mw_mesh_triangle_count(mesh));
     options.start = MW_START_AUTO;
     assert_int_equal(mw_locate_batch(locator, q, N, 2, &options, at, &counters, NULL), MW_OK);
     assert_true(counters.triangles_visited < 5 * N);
@@ -225,7 +237,8 @@ static void test_more_than_a_block(void **state)
     mw_query_options options = {.hints = hint};
     assert_int_equal(mw_locate_batch(locator, q, N, 2, &options, at, NULL, NULL), MW_OK);
     for (size_t i = 0; i < N; i++)
-        if (hint[i] != at[i % PLACES].triangle || hint[i] == MW_NONE) fail_msg("hint %zu is %u", i, hint[i]);
+        if (hint[i] != at[i % PLACES].triangle || hint[i] == MW_NONE)
+            fail_msg("hint %zu is %u", i, hint[i]);
     free(q);
     free(at);
     free(hint);
@@ -254,10 +267,13 @@ static void test_edits(void **state)
         if (edit % 4 == 3)
             assert_int_equal(mw_edit_undo(editor, NULL, NULL), MW_OK);
         else
-            mw_edit_insert(editor, 12 * random_unit(&random), 12 * random_unit(&random), NULL, NULL);
-        if (edit % 5 == 4) mw_edit_remove(editor, mw__random_below(&random, a.point_count), NULL, NULL);
+            mw_edit_insert(editor, 12 * random_unit(&random), 12 * random_unit(&random), NULL,
+                           NULL);
+        if (edit % 5 == 4)
+            mw_edit_remove(editor, mw__random_below(&random, a.point_count), NULL, NULL);
         const mw_locator *locator = mw_editor_locator(editor);
-        mw_query_options options = {.hints = hint, .start = edit % 2 ? MW_START_AUTO : MW_START_LAST};
+        mw_query_options options = {.hints = hint,
+                                    .start = edit % 2 ? MW_START_AUTO : MW_START_LAST};
         memset(at, 0, sizeof at);
         memset(want, 0, sizeof want);
         for (size_t i = 0; i < N; i++) q[i] += 0.2 * (random_unit(&random) - 0.5);

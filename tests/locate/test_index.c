@@ -1,5 +1,5 @@
-/* test_index.c - the starts that build an index: answers do not depend on it, whatever mesh it was made from; what it
- * reports, refuses, and survives. Layers have more in test_layers.c. */
+/* test_index.c - the starts that build an index: answers do not depend on it, whatever mesh it was
+ * made from; what it reports, refuses, and survives. Layers have more in test_layers.c. */
 /* wrap: malloc calloc realloc aligned_alloc */
 #include <stdarg.h>
 #include <stddef.h>
@@ -24,33 +24,39 @@ static mw_index *index_of(const mw_locator *locator, mw_start_kind start, uint32
     mw_index *index;
     mw_error error;
     mw_index_options options = {.cells = cells};
-    if (mw_index_create(locator, start, &options, &index, &error)) fail_msg("index: %s", error.message);
+    if (mw_index_create(locator, start, &options, &index, &error))
+        fail_msg("index: %s", error.message);
     return index;
 }
 
-static mw_counters answers(const mw_locator *locator, const mw_query_options *options, const double *q, size_t n,
-                           mw_location *at)
+static mw_counters answers(const mw_locator *locator, const mw_query_options *options,
+                           const double *q, size_t n, mw_location *at)
 {
     mw_counters counters;
     mw_error error;
-    if (mw_locate_batch(locator, q, n, 2, options, at, &counters, &error)) fail_msg("batch: %s", error.message);
+    if (mw_locate_batch(locator, q, n, 2, options, at, &counters, &error))
+        fail_msg("batch: %s", error.message);
     return counters;
 }
 
-static void expect_same(const mw_location *want, const mw_location *got, const double q[2], const char *how)
+static void expect_same(const mw_location *want, const mw_location *got, const double q[2],
+                        const char *how)
 {
-    if (want->triangle == got->triangle && want->where == got->where && want->local == got->local) return;
-    fail_msg("%s: (%.17g, %.17g): triangle %u where %d, not %u %d", how, q[0], q[1], got->triangle, got->where,
-             want->triangle, want->where);
+    if (want->triangle == got->triangle && want->where == got->where && want->local == got->local)
+        return;
+    fail_msg("%s: (%.17g, %.17g): triangle %u where %d, not %u %d", how, q[0], q[1], got->triangle,
+             got->where, want->triangle, want->where);
 }
 
 /* With the index as without, by all walks in both arithmetics, in batches and alone. */
-static void expect_guide(const mw_locator *locator, const mw_index *index, const double *q, size_t n)
+static void expect_guide(const mw_locator *locator, const mw_index *index, const double *q,
+                         size_t n)
 {
     mw_location *want = malloc(n * sizeof *want), *at = malloc(n * sizeof *at);
     size_t points = 0;
     for (size_t i = 0; i < n; i++) points += isfinite(q[2 * i]) && isfinite(q[2 * i + 1]);
-    answers(locator, &(mw_query_options){.walk = MW_WALK_CELESTIAL, .start = MW_START_RANDOM}, q, n, want);
+    answers(locator, &(mw_query_options){.walk = MW_WALK_CELESTIAL, .start = MW_START_RANDOM}, q, n,
+            want);
     for (int walk = MW_WALK_AUTO; walk < MW_WALK_COUNT; walk++)
         for (int arithmetic = MW_EXACT; arithmetic <= MW_DOUBLE; arithmetic++) {
             char how[80];
@@ -104,7 +110,8 @@ static arrays triangulated(const double *points, uint32_t n)
     a.point_count = mw_mesh_vertex_count(mesh);
     a.triangle_count = mw_mesh_triangle_count(mesh);
     for (uint32_t v = 0; v < a.point_count; v++) mw_mesh_vertex(mesh, v, a.points + 2 * (size_t)v);
-    for (uint32_t t = 0; t < a.triangle_count; t++) mw_mesh_triangle(mesh, t, a.triangles + 3 * (size_t)t);
+    for (uint32_t t = 0; t < a.triangle_count; t++)
+        mw_mesh_triangle(mesh, t, a.triangles + 3 * (size_t)t);
     mw_mesh_destroy(mesh);
     return a;
 }
@@ -181,7 +188,8 @@ static void test_scales(void **state)
 {
     (void)state;
     uint64_t random = 5;
-    const double to[][3] = {{-6, 0x1.4p1021, 0}, {0, 1e-9, 5e6}, {-6, 0x1p-1060, 0}, {0, 1e-300, 0}};
+    const double to[][3] = {
+        {-6, 0x1.4p1021, 0}, {0, 1e-9, 5e6}, {-6, 0x1p-1060, 0}, {0, 1e-300, 0}};
     for (size_t i = 0; i < sizeof to / sizeof *to; i++) {
         arrays a = arrays_grid(i == 1 ? 1 : 12, 0, &random);
         arrays_transform(&a, 1, to[i][0], to[i][0]);
@@ -240,19 +248,21 @@ static void test_fill(void **state)
                 if (given[d] && ring < nearest) nearest = ring;
             }
             assert_true(entry[c] < CELLS && given[entry[c]]);
-            int from = (int)entry[c], dx = abs(c % COLUMNS - from % COLUMNS), dy = abs(c / COLUMNS - from / COLUMNS);
+            int from = (int)entry[c], dx = abs(c % COLUMNS - from % COLUMNS),
+                dy = abs(c / COLUMNS - from / COLUMNS);
             assert_int_equal(dx > dy ? dx : dy, nearest);
         }
     }
 }
 
-/* It keeps nothing of the mesh it was made from, and guides in another: fewer triangles, more, elsewhere. */
+/* It keeps nothing of the mesh it was made from, and guides in another: fewer triangles, more,
+ * elsewhere. */
 static void test_other_mesh(void **state)
 {
     (void)state;
     uint64_t random = 7;
-    arrays mesh[4] = {arrays_grid(3, 0.4, &random), arrays_grid(20, 0.4, &random), arrays_grid(10, 0.4, &random),
-                      clusters(300, 100, &random)};
+    arrays mesh[4] = {arrays_grid(3, 0.4, &random), arrays_grid(20, 0.4, &random),
+                      arrays_grid(10, 0.4, &random), clusters(300, 100, &random)};
     arrays_transform(&mesh[2], 1e6, -1e8, 1e9);
     for (int from = 0; from < 4; from++)
         for (int start = MW_START_AUTO; start < MW_START_COUNT; start++) {
@@ -290,15 +300,18 @@ static void test_guides_well(void **state)
         double *q = malloc(2 * N * sizeof *q);
         mw_location *at = malloc(N * sizeof *at);
         for (size_t i = 0; i < N; i++) { /* where the triangles are */
-            const uint32_t *t = a.triangles + 3 * (size_t)mw__random_below(&random, a.triangle_count);
+            const uint32_t *t =
+                a.triangles + 3 * (size_t)mw__random_below(&random, a.triangle_count);
             for (size_t k = 0; k < 2; k++)
-                q[2 * i + k] = (a.points[2 * t[0] + k] + a.points[2 * t[1] + k] + a.points[2 * t[2] + k]) / 3;
+                q[2 * i + k] =
+                    (a.points[2 * t[0] + k] + a.points[2 * t[1] + k] + a.points[2 * t[2] + k]) / 3;
         }
         double visited[MW_START_COUNT] = {0};
         mw_index *index[MW_START_COUNT];
         starts_open(locator, index);
         for (int start = MW_START_RANDOM; start < MW_START_COUNT; start++) {
-            mw_query_options options = {.start = (mw_start_kind)start, .index = index[start], .counters = 1};
+            mw_query_options options = {
+                .start = (mw_start_kind)start, .index = index[start], .counters = 1};
             visited[start] = (double)answers(locator, &options, q, N, at).triangles_visited / N;
         }
         if (!clustered) assert_true(visited[MW_START_GRID] < 5);
@@ -316,7 +329,8 @@ static void test_guides_well(void **state)
     }
 }
 
-/* Long thin triangles, askew: cells are so too. And a triangle along the hull, where a query outside ended, is not near to what lies inside. */
+/* Long thin triangles, askew: cells are so too. And a triangle along the hull, where a query
+ * outside ended, is not near to what lies inside. */
 static void test_stretched(void **state)
 {
     (void)state;
@@ -326,7 +340,8 @@ static void test_stretched(void **state)
         double *p = malloc(2 * N * sizeof *p);
         for (size_t i = 0; i < N; i++) {
             double x = random_unit(&random);
-            double y = stretched ? 0.1 * (double)(i % ROWS) + 1e-9 * random_unit(&random) : random_unit(&random);
+            double y = stretched ? 0.1 * (double)(i % ROWS) + 1e-9 * random_unit(&random)
+                                 : random_unit(&random);
             p[2 * i] = 0.8 * x - 0.6 * y;
             p[2 * i + 1] = 0.6 * x + 0.8 * y;
         }
@@ -350,7 +365,8 @@ static void test_stretched(void **state)
     }
 }
 
-/* Points in a square with its corners, in a disc, on a circle: few edges along the hull, more, as many as points. */
+/* Points in a square with its corners, in a disc, on a circle: few edges along the hull, more, as
+ * many as points. */
 static mw_mesh *hull_mesh(int kind, uint32_t n, uint64_t *random)
 {
     double *p = malloc(2 * (size_t)n * sizeof *p);
@@ -367,7 +383,8 @@ static mw_mesh *hull_mesh(int kind, uint32_t n, uint64_t *random)
     return mesh;
 }
 
-/* What lies outside of the extent is led to an edge of the hull that it lies beyond: by the guide, and by a grid. */
+/* What lies outside of the extent is led to an edge of the hull that it lies beyond: by the guide,
+ * and by a grid. */
 static void test_outside(void **state)
 {
     (void)state;
@@ -379,8 +396,10 @@ static void test_outside(void **state)
         mw_mesh *mesh = hull_mesh(kind, N, &random);
         mw_locator *locator = mesh_locator(mesh, (mw_locator_options){0});
         mw_index *grid = index_of(locator, MW_START_GRID, 0);
-        for (size_t i = 0; i < QUERIES; i++) { /* within sixteen times the extent, beyond one side or two */
-            double out = (i & 1 ? 1 : -1) * (1.01 + 15 * random_unit(&random)), along = 32 * random_unit(&random) - 16;
+        for (size_t i = 0; i < QUERIES;
+             i++) { /* within sixteen times the extent, beyond one side or two */
+            double out = (i & 1 ? 1 : -1) * (1.01 + 15 * random_unit(&random)),
+                   along = 32 * random_unit(&random) - 16;
             q[2 * i] = i & 2 ? out : along;
             q[2 * i + 1] = i & 2 ? along : out;
         }
@@ -388,7 +407,8 @@ static void test_outside(void **state)
             mw_query_options options = {.index = own ? grid : NULL, .counters = 1};
             mw_counters counters = answers(locator, &options, q, QUERIES, at);
             for (size_t k = 0; k < QUERIES; k++) assert_int_equal(at[k].where, MW_OUTSIDE);
-            printf("outside, mesh %d: %.3f triangles a query\n", kind, (double)counters.triangles_visited / QUERIES);
+            printf("outside, mesh %d: %.3f triangles a query\n", kind,
+                   (double)counters.triangles_visited / QUERIES);
             assert_true((double)counters.triangles_visited / QUERIES < 1.5);
         }
         mw_index_destroy(grid);
@@ -420,12 +440,14 @@ static void test_crowded(void **state)
     for (int at_vertices = 0; at_vertices < 2; at_vertices++) {
         for (size_t i = 0; i < QUERIES; i++)
             for (size_t k = 0; k < 2; k++)
-                q[2 * i + k] = at_vertices ? p[2 * i + k] + 1e-6 * random_unit(&random) : random_unit(&random);
+                q[2 * i + k] =
+                    at_vertices ? p[2 * i + k] + 1e-6 * random_unit(&random) : random_unit(&random);
         mw_counters counters = answers(locator, &(mw_query_options){.counters = 1}, q, QUERIES, at);
         double visited = (double)counters.triangles_visited / QUERIES;
         printf("%s clusters: %.2f triangles a query\n", at_vertices ? "in" : "between", visited);
         assert_true(visited < 8);
-        answers(locator, &(mw_query_options){.walk = MW_WALK_CELESTIAL, .start = MW_START_SORTED}, q, QUERIES, want);
+        answers(locator, &(mw_query_options){.walk = MW_WALK_CELESTIAL, .start = MW_START_SORTED},
+                q, QUERIES, want);
         for (size_t i = 0; i < QUERIES; i++) expect_same(&want[i], &at[i], q + 2 * i, "counted");
         answers(locator, NULL, q, QUERIES, at);
         for (size_t i = 0; i < QUERIES; i++) expect_same(&want[i], &at[i], q + 2 * i, "plain");
@@ -444,8 +466,8 @@ static void test_describe(void **state)
     arrays a = arrays_grid(100, 0.4, &random);
     mw_mesh *mesh = arrays_mesh(&a, (mw_mesh_options){0});
     mw_locator *locator = mesh_locator(mesh, (mw_locator_options){0});
-    static const mw_start_kind starts[] = {MW_START_GRID, MW_START_BUCKETS, MW_START_TRIANGLE_BUCKETS,
-                                           MW_START_TWO_LEVEL_GRID};
+    static const mw_start_kind starts[] = {MW_START_GRID, MW_START_BUCKETS,
+                                           MW_START_TRIANGLE_BUCKETS, MW_START_TWO_LEVEL_GRID};
     for (size_t i = 0; i < sizeof starts / sizeof *starts; i++) {
         mw_start_kind start = starts[i];
         mw_index_info info, wanted, one;
@@ -466,7 +488,8 @@ static void test_describe(void **state)
         } else if (start == MW_START_BUCKETS || start == MW_START_TRIANGLE_BUCKETS) {
             assert_int_equal(wanted.cells, 30 * 30);
             assert_int_equal(one.cells, 1);
-            if (start == MW_START_BUCKETS) assert_int_equal(info.bytes, sizeof *chosen + 4 * (size_t)info.cells);
+            if (start == MW_START_BUCKETS)
+                assert_int_equal(info.bytes, sizeof *chosen + 4 * (size_t)info.cells);
         } else {
             assert_true(wanted.cells > 900 + 9000); /* all are crowded: 11 vertices each */
             assert_true(one.cells > 10000);         /* all are in one, which is a grid */
@@ -490,17 +513,22 @@ static void test_refuses(void **state)
     mw_index *grid = index_of(locator, MW_START_GRID, 0), *none = grid;
     mw_cursor cursor;
     mw_error error;
-    assert_int_equal(mw_index_create(locator, MW_START_SAMPLE, NULL, &none, &error), MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_index_create(locator, MW_START_SAMPLE, NULL, &none, &error),
+                     MW_ERROR_ARGUMENT);
     assert_null(none);
-    assert_int_equal(mw_index_create(locator, MW_START_COUNT, NULL, &none, &error), MW_ERROR_ARGUMENT);
-    assert_int_equal(mw_index_create(locator, MW_START_GRID, NULL, NULL, &error), MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_index_create(locator, MW_START_COUNT, NULL, &none, &error),
+                     MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_index_create(locator, MW_START_GRID, NULL, NULL, &error),
+                     MW_ERROR_ARGUMENT);
     assert_int_equal(mw_index_create(NULL, MW_START_GRID, NULL, &none, &error), MW_ERROR_ARGUMENT);
     const uint32_t too_many[] = {(1u << 30) + 1, 4000000000u, UINT32_MAX};
     for (int start = MW_START_GRID; start < MW_START_COUNT; start++)
         for (size_t i = 0; i < 3; i++) {
             mw_index_options options = {.cells = too_many[i]};
             none = grid;
-            assert_int_equal(mw_index_create(locator, (mw_start_kind)start, &options, &none, &error), MW_ERROR_LIMIT);
+            assert_int_equal(
+                mw_index_create(locator, (mw_start_kind)start, &options, &none, &error),
+                MW_ERROR_LIMIT);
             assert_int_equal(error.status, MW_ERROR_LIMIT);
             assert_null(none);
         }
@@ -508,14 +536,17 @@ static void test_refuses(void **state)
     for (int start = MW_START_AUTO; start < MW_START_COUNT; start++) {
         mw_query_options options = {.start = (mw_start_kind)start};
         bool needs = mw_start_has_index((mw_start_kind)start);
-        assert_int_equal(mw_cursor_init(locator, &options, &cursor, &error), needs ? MW_ERROR_ARGUMENT : MW_OK);
+        assert_int_equal(mw_cursor_init(locator, &options, &cursor, &error),
+                         needs ? MW_ERROR_ARGUMENT : MW_OK);
         options.index = grid;
         bool fits = start == MW_START_AUTO || start == MW_START_GRID;
-        assert_int_equal(mw_cursor_init(locator, &options, &cursor, &error), fits ? MW_OK : MW_ERROR_ARGUMENT);
+        assert_int_equal(mw_cursor_init(locator, &options, &cursor, &error),
+                         fits ? MW_OK : MW_ERROR_ARGUMENT);
         if (fits) assert_int_equal(cursor.start, MW_START_GRID);
         mw_location at;
-        assert_int_equal(mw_locate_batch(locator, (double[2]){1, 1}, 1, 2, &options, &at, NULL, &error),
-                         fits ? MW_OK : MW_ERROR_ARGUMENT);
+        assert_int_equal(
+            mw_locate_batch(locator, (double[2]){1, 1}, 1, 2, &options, &at, NULL, &error),
+            fits ? MW_OK : MW_ERROR_ARGUMENT);
     }
     mw_index_destroy(grid);
     mw_locator_destroy(locator);
@@ -559,29 +590,33 @@ static double off2(mw_point a, mw_point b)
     return (a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y);
 }
 
-/* The tree leads to the nearest vertex, wherever the query is; and where doubles do not hold distances, to any. */
+/* The tree leads to the nearest vertex, wherever the query is; and where doubles do not hold
+ * distances, to any. */
 static void test_nearest_vertex(void **state)
 {
     (void)state;
     uint64_t random = 13;
     for (int round = 0; round < 6; round++) {
-        arrays a =
-            round % 3 == 2 ? clusters(700, 30, &random) : arrays_grid(round % 3 ? 1 : 25, round < 3 ? 0.5 : 0, &random);
+        arrays a = round % 3 == 2 ? clusters(700, 30, &random)
+                                  : arrays_grid(round % 3 ? 1 : 25, round < 3 ? 0.5 : 0, &random);
         mw_mesh *mesh = arrays_mesh(&a, (mw_mesh_options){0});
         mw_locator *locator = mesh_locator(mesh, (mw_locator_options){0});
         const mw_tiling *tiling = &locator->tiling;
         mw_index *index = index_of(locator, MW_START_KD_TREE, 0);
         mw_index_info info;
         mw_index_describe(index, &info);
-        assert_true(info.vertices[0] <= tiling->point_count && info.bytes > 24 * (size_t)info.vertices[0]);
+        assert_true(info.vertices[0] <= tiling->point_count &&
+                    info.bytes > 24 * (size_t)info.vertices[0]);
         for (int i = 0; i < 800; i++) {
             mw_point near = tiling->point[mw__random_below(&random, tiling->point_count)];
             double far = i % 4 ? 2 : 1e3;
-            mw_point q = {near.x + far * (random_unit(&random) - 0.5), near.y + far * (random_unit(&random) - 0.5)};
+            mw_point q = {near.x + far * (random_unit(&random) - 0.5),
+                          near.y + far * (random_unit(&random) - 0.5)};
             if (i % 5 == 0) q = near;
             double least = INFINITY, reached = INFINITY;
             const uint32_t *v = first_tile(locator, index, q);
-            for (uint32_t k = 0; k < tiling->point_count; k++) least = fmin(least, off2(tiling->point[k], q));
+            for (uint32_t k = 0; k < tiling->point_count; k++)
+                least = fmin(least, off2(tiling->point[k], q));
             for (int k = 0; k < 3; k++) reached = fmin(reached, off2(tiling->point[v[k]], q));
             assert_true(reached == least);
         }
@@ -599,8 +634,8 @@ static bool in_cell(const mw_lattice *lattice, mw_point p, int64_t x, int64_t y)
     return cell % lattice->columns == x && cell / lattice->columns == y;
 }
 
-/* The tile of a bucket has a vertex in it; and of buckets that are empty, in one of the first ring round it that has a
- * vertex. */
+/* The tile of a bucket has a vertex in it; and of buckets that are empty, in one of the first ring
+ * round it that has a vertex. */
 static void test_spiral(void **state)
 {
     (void)state;
@@ -625,7 +660,8 @@ static void test_spiral(void **state)
                 bool there = false;
                 for (int64_t i = x - least; i <= x + least; i++)
                     for (int64_t j = y - least; j <= y + least; j++)
-                        for (int k = 0; k < 3; k++) there |= in_cell(lattice, tiling->point[v[k]], i, j);
+                        for (int k = 0; k < 3; k++)
+                            there |= in_cell(lattice, tiling->point[v[k]], i, j);
                 assert_true(there);
             }
         mw_index_destroy(index);
@@ -635,8 +671,9 @@ static void test_spiral(void **state)
     }
 }
 
-/* A query tests triangles of its bucket, and begins in the one that has it; the tests are counted alone and in batches.
- * Slivers across the extent are in many buckets each: then these are fewer. */
+/* A query tests triangles of its bucket, and begins in the one that has it; the tests are counted
+ * alone and in batches. Slivers across the extent are in many buckets each: then these are fewer.
+ * */
 static void test_triangle_buckets(void **state)
 {
     (void)state;
@@ -653,9 +690,11 @@ static void test_triangle_buckets(void **state)
         double q[2 * N];
         mw_location at[N];
         for (int i = 0; i < N; i++) {
-            const uint32_t *t = a.triangles + 3 * (size_t)mw__random_below(&random, a.triangle_count);
+            const uint32_t *t =
+                a.triangles + 3 * (size_t)mw__random_below(&random, a.triangle_count);
             for (int k = 0; k < 2; k++)
-                q[2 * i + k] = 0.25 * a.points[2 * t[0] + (uint32_t)k] + 0.25 * a.points[2 * t[1] + (uint32_t)k] +
+                q[2 * i + k] = 0.25 * a.points[2 * t[0] + (uint32_t)k] +
+                               0.25 * a.points[2 * t[1] + (uint32_t)k] +
                                0.5 * a.points[2 * t[2] + (uint32_t)k];
         }
         mw_query_options options = {.index = index, .walk = MW_WALK_REMEMBERING, .counters = 1};

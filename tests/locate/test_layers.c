@@ -107,12 +107,14 @@ static void check_layer(const mw_layer *layer, const mw_tiling *below)
         const mw_triangle *tri = &tiling->tri[t];
         assert_true(mw__has_area(tiling->point, tri));
         assert_int_equal(tri->v[3], tri->v[0]);
-        double area = mw__orient2d(tiling->point[tri->v[0]], tiling->point[tri->v[1]], tiling->point[tri->v[2]]);
+        double area = mw__orient2d(tiling->point[tri->v[0]], tiling->point[tri->v[1]],
+                                   tiling->point[tri->v[2]]);
         assert_true(fabs(tiling->area[t] - area) <= 1e-9 * area);
         for (uint32_t k = 0; k < 3; k++)
             if (tri->link[k] != MW_NONE)
-                assert_int_equal(tiling->tri[mw__link_triangle(tri->link[k])].link[mw__link_edge(tri->link[k])],
-                                 mw__link(t, k));
+                assert_int_equal(
+                    tiling->tri[mw__link_triangle(tri->link[k])].link[mw__link_edge(tri->link[k])],
+                    mw__link(t, k));
     }
     for (uint32_t v = 0; v < tiling->point_count; v++) {
         assert_true(layer->below[v] < below->tri_count);
@@ -175,12 +177,15 @@ static void test_structure(void **state)
     for (int i = 0; i < MESHES; i++) {
         mw_mesh *mesh = mesh_number(i, &random);
         mw_tiling tiling;
-        assert_int_equal(mw__tiling_create(mesh, (mw_tiling_options){0}, MW_ALONE, &tiling, NULL), MW_OK);
+        assert_int_equal(mw__tiling_create(mesh, (mw_tiling_options){0}, MW_ALONE, &tiling, NULL),
+                         MW_OK);
         for (uint32_t wanted = 0; wanted <= MW_MAX_LAYERS; wanted++)
             for (size_t r = 0; r < sizeof ratio / sizeof *ratio; r++) {
                 mw_layers layers;
-                mw_layers_options options = {.layers = wanted, .ratio = ratio[r], .seed = mw__random(&random)};
-                assert_int_equal(mw__layers_create(&tiling, &options, MW_ALONE, &layers, NULL), MW_OK);
+                mw_layers_options options = {
+                    .layers = wanted, .ratio = ratio[r], .seed = mw__random(&random)};
+                assert_int_equal(mw__layers_create(&tiling, &options, MW_ALONE, &layers, NULL),
+                                 MW_OK);
                 check_layers(&layers, &tiling, wanted);
                 descend(&layers, &tiling, &random);
                 mw__layers_release(&layers);
@@ -206,7 +211,8 @@ static void test_sizes(void **state)
         mw_mesh *mesh = points_mesh(cases[i].points, random_unit, &random);
         mw_tiling tiling;
         mw_layers layers;
-        assert_int_equal(mw__tiling_create(mesh, (mw_tiling_options){0}, MW_ALONE, &tiling, NULL), MW_OK);
+        assert_int_equal(mw__tiling_create(mesh, (mw_tiling_options){0}, MW_ALONE, &tiling, NULL),
+                         MW_OK);
         mw_layers_options options = {.layers = cases[i].asked, .ratio = cases[i].ratio};
         assert_int_equal(mw__layers_create(&tiling, &options, MW_ALONE, &layers, NULL), MW_OK);
         uint32_t vertices[MW_MAX_LAYERS];
@@ -232,16 +238,19 @@ static void test_no_layer(void **state)
     arrays_point(&flat, 25.5, 0.5);
     mw_mesh *mesh = delaunay_of(&flat);
     mw_tiling tiling;
-    assert_int_equal(mw__tiling_create(mesh, (mw_tiling_options){0}, MW_ALONE, &tiling, NULL), MW_OK);
+    assert_int_equal(mw__tiling_create(mesh, (mw_tiling_options){0}, MW_ALONE, &tiling, NULL),
+                     MW_OK);
     mw_layers layers;
-    assert_int_equal(mw__layers_create(&tiling, &(mw_layers_options){.layers = 3, .ratio = 1e-9, .seed = 1}, MW_ALONE,
-                                       &layers, NULL),
+    assert_int_equal(mw__layers_create(&tiling,
+                                       &(mw_layers_options){.layers = 3, .ratio = 1e-9, .seed = 1},
+                                       MW_ALONE, &layers, NULL),
                      MW_OK);
     assert_int_equal(layers.count, 1);
     bool seen[64] = {false};
     mw_layer_walk how = {MW_WALK_REMEMBERING, MW_WALK_REMEMBERING, true, true, NULL};
     mw_work work = {0};
-    for (int i = 0; i < 2000; i++) seen[mw__layers_first(&layers, (mw_point){1, 0}, &how, &random, &work)] = true;
+    for (int i = 0; i < 2000; i++)
+        seen[mw__layers_first(&layers, (mw_point){1, 0}, &how, &random, &work)] = true;
     for (uint32_t t = 0; t < tiling.tri_count; t++) assert_true(seen[t]);
     assert_int_equal(work.visited, 0);
     mw__layers_release(&layers);
@@ -256,13 +265,16 @@ static void test_any(void **state)
     uint64_t random = 23;
     arrays a = arrays_grid(20, 0, &random);
     for (uint32_t i = 0; i < a.point_count; i += 7) a.points[2 * i] = i % 2 ? NAN : INFINITY;
-    for (uint32_t i = 3; i < a.point_count; i += 5) memcpy(a.points + 2 * i, a.points, 2 * sizeof *a.points);
+    for (uint32_t i = 3; i < a.point_count; i += 5)
+        memcpy(a.points + 2 * i, a.points, 2 * sizeof *a.points);
     mw_mesh *mesh = arrays_mesh(&a, (mw_mesh_options){.tolerant = 1});
     mw_tiling tiling;
-    assert_int_equal(mw__tiling_create(mesh, (mw_tiling_options){.any = true}, MW_ALONE, &tiling, NULL), MW_OK);
-    mw_layers layers;
     assert_int_equal(
-        mw__layers_create(&tiling, &(mw_layers_options){.layers = 4, .ratio = 0.5}, MW_ALONE, &layers, NULL), MW_OK);
+        mw__tiling_create(mesh, (mw_tiling_options){.any = true}, MW_ALONE, &tiling, NULL), MW_OK);
+    mw_layers layers;
+    assert_int_equal(mw__layers_create(&tiling, &(mw_layers_options){.layers = 4, .ratio = 0.5},
+                                       MW_ALONE, &layers, NULL),
+                     MW_OK);
     assert_true(layers.count > 2);
     check_layers(&layers, &tiling, 4);
     descend(&layers, &tiling, &random);
@@ -272,21 +284,23 @@ static void test_any(void **state)
     arrays_free(&a);
 }
 
-/* The walk in the mesh that begins where the descent ended: its tiles, on average. To points inside of tiles, since on
- * edges some walks go round in cycles in plain doubles. */
-static double mean_walk(const mw_tiling *tiling, const mw_layers *layers, const mw_layer_walk *how, uint64_t *random)
+/* The walk in the mesh that begins where the descent ended: its tiles, on average. To points
+ * inside of tiles, since on edges some walks go round in cycles in plain doubles. */
+static double mean_walk(const mw_tiling *tiling, const mw_layers *layers, const mw_layer_walk *how,
+                        uint64_t *random)
 {
     enum { QUERIES = 500 };
     mw_arithmetic arithmetic = how->exact ? MW_EXACT : MW_DOUBLE;
     double sum = 0;
     for (int i = 0; i < QUERIES; i++) {
         const mw_triangle *near = &tiling->tri[mw__random_below(random, tiling->tri_count)];
-        mw_point a = tiling->point[near->v[0]], b = tiling->point[near->v[1]], c = tiling->point[near->v[2]];
+        mw_point a = tiling->point[near->v[0]], b = tiling->point[near->v[1]],
+                 c = tiling->point[near->v[2]];
         mw_point q = {0.5 * a.x + 0.3 * b.x + 0.2 * c.x, 0.5 * a.y + 0.3 * b.y + 0.2 * c.y};
         mw_work work = {0};
         uint32_t t = mw__layers_first(layers, q, how, random, &work);
-        mw_walk walk =
-            mw__walk_begin(tiling, q, t, mw__walk_fuel(how->walk, arithmetic, tiling), mw__random(random), &work);
+        mw_walk walk = mw__walk_begin(tiling, q, t, mw__walk_fuel(how->walk, arithmetic, tiling),
+                                      mw__random(random), &work);
         work = (mw_work){.visited = 1};
         mw__walk_kernels(how->walk, tiling)->run[how->exact][true](&walk);
         sum += (double)work.visited;
@@ -298,9 +312,11 @@ static void check_near(mw_mesh *mesh)
 {
     uint64_t random = 24;
     mw_tiling tiling;
-    assert_int_equal(mw__tiling_create(mesh, (mw_tiling_options){0}, MW_ALONE, &tiling, NULL), MW_OK);
+    assert_int_equal(mw__tiling_create(mesh, (mw_tiling_options){0}, MW_ALONE, &tiling, NULL),
+                     MW_OK);
     mw_layers layers;
-    assert_int_equal(mw__layers_create(&tiling, &(mw_layers_options){0}, MW_ALONE, &layers, NULL), MW_OK);
+    assert_int_equal(mw__layers_create(&tiling, &(mw_layers_options){0}, MW_ALONE, &layers, NULL),
+                     MW_OK);
     for (int walk = MW_WALK_AUTO + 1; walk < MW_WALK_COUNT; walk++)
         for (int i = 0; i < 2 * DESCENTS; i++) {
             mw_layer_walk how = {(mw_walk_kind)walk, MW_WALK_REMEMBERING, i % 2, true, NULL};
@@ -350,7 +366,8 @@ static uint32_t heaviest(const mw_tiling *tiling, uint32_t t, mw_point q)
     return v[weight[0] > weight[1] ? weight[0] > weight[2] ? 0 : 2 : weight[1] > weight[2] ? 1 : 2];
 }
 
-/* One layer above the mesh: the descent is one walk in it, counted as any other, then a vertex of its last tile. */
+/* One layer above the mesh: the descent is one walk in it, counted as any other, then a vertex of
+ * its last tile. */
 static void try_descent(mw_layers *layers, int walk, mw_descent descent, mw_point q, uint64_t seed)
 {
     const mw_tiling *top = &layers->layer[0].tiling;
@@ -361,7 +378,8 @@ static void try_descent(mw_layers *layers, int walk, mw_descent descent, mw_poin
     mw_verdict verdict = mw__walk_kernels((mw_walk_kind)walk, top)->run[true][true](&w);
     if (verdict == MW_VERDICT_UNSURE && !has_coordinates(walk))
         mw__walk_finish(&w, MW_WALK_REMEMBERING, 100000, top, true, true);
-    if (descent == MW_DESCENT_COORDINATE && !has_coordinates(walk)) expected.orient[MW_STAGE_WALK] += 2;
+    if (descent == MW_DESCENT_COORDINATE && !has_coordinates(walk))
+        expected.orient[MW_STAGE_WALK] += 2;
     bool heavy = descent == MW_DESCENT_COORDINATE;
 
     mw_work work = {.comparisons = 7};
@@ -369,7 +387,8 @@ static void try_descent(mw_layers *layers, int walk, mw_descent descent, mw_poin
     layers->descent = descent;
     uint32_t first = mw__layers_first(layers, q, &how, &same, &work);
     assert_true(same == seed);
-    assert_int_equal(first, layers->layer[0].below[heavy ? heaviest(top, w.t, q) : nearest(top, w.t, q)]);
+    assert_int_equal(first,
+                     layers->layer[0].below[heavy ? heaviest(top, w.t, q) : nearest(top, w.t, q)]);
     assert_memory_equal(&work, &expected, sizeof work);
 }
 
@@ -379,9 +398,12 @@ static void test_descent(void **state)
     uint64_t random = 26;
     mw_mesh *mesh = points_mesh(5000, random_unit, &random);
     mw_tiling tiling;
-    assert_int_equal(mw__tiling_create(mesh, (mw_tiling_options){0}, MW_ALONE, &tiling, NULL), MW_OK);
+    assert_int_equal(mw__tiling_create(mesh, (mw_tiling_options){0}, MW_ALONE, &tiling, NULL),
+                     MW_OK);
     mw_layers layers;
-    assert_int_equal(mw__layers_create(&tiling, &(mw_layers_options){.layers = 2}, MW_ALONE, &layers, NULL), MW_OK);
+    assert_int_equal(
+        mw__layers_create(&tiling, &(mw_layers_options){.layers = 2}, MW_ALONE, &layers, NULL),
+        MW_OK);
     for (int i = 0; i < 300; i++) {
         mw_point q = {1.2 * random_unit(&random) - 0.1, 1.2 * random_unit(&random) - 0.1};
         for (int walk = MW_WALK_AUTO + 1; walk < MW_WALK_COUNT; walk++)
@@ -399,10 +421,12 @@ static void test_seed(void **state)
     uint64_t random = 27;
     mw_mesh *mesh = points_mesh(5000, random_unit, &random);
     mw_tiling tiling;
-    assert_int_equal(mw__tiling_create(mesh, (mw_tiling_options){0}, MW_ALONE, &tiling, NULL), MW_OK);
+    assert_int_equal(mw__tiling_create(mesh, (mw_tiling_options){0}, MW_ALONE, &tiling, NULL),
+                     MW_OK);
     mw_layers layers[3];
     for (uint64_t i = 0; i < 3; i++)
-        assert_int_equal(mw__layers_create(&tiling, &(mw_layers_options){.seed = i / 2}, MW_ALONE, &layers[i], NULL),
+        assert_int_equal(mw__layers_create(&tiling, &(mw_layers_options){.seed = i / 2}, MW_ALONE,
+                                           &layers[i], NULL),
                          MW_OK);
     const mw_tiling *one = &layers[0].layer[0].tiling, *same = &layers[1].layer[0].tiling;
     const mw_tiling *other = &layers[2].layer[0].tiling;
@@ -423,17 +447,20 @@ static void test_chance(void **state)
     uint64_t random = 33;
     mw_mesh *mesh = points_mesh(POINTS, random_unit, &random);
     mw_tiling tiling;
-    assert_int_equal(mw__tiling_create(mesh, (mw_tiling_options){0}, MW_ALONE, &tiling, NULL), MW_OK);
+    assert_int_equal(mw__tiling_create(mesh, (mw_tiling_options){0}, MW_ALONE, &tiling, NULL),
+                     MW_OK);
     int times[POINTS] = {0};
     for (uint64_t seed = 0; seed < SEEDS; seed++) {
         mw_layers layers;
         mw_layers_options options = {.layers = 2, .ratio = 0.25, .seed = seed};
         assert_int_equal(mw__layers_create(&tiling, &options, MW_ALONE, &layers, NULL), MW_OK);
         assert_int_equal(layers.layer[0].tiling.point_count, POINTS / 4);
-        for (int v = 0; v < POINTS; v++) times[v] += has_point(&layers.layer[0].tiling, 0, tiling.point[v]);
+        for (int v = 0; v < POINTS; v++)
+            times[v] += has_point(&layers.layer[0].tiling, 0, tiling.point[v]);
         mw__layers_release(&layers);
     }
-    for (int v = 0; v < POINTS; v++) assert_in_range(times[v], SEEDS / 4 - 160, SEEDS / 4 + 160); /* 6 sigma */
+    /* 6 sigma */
+    for (int v = 0; v < POINTS; v++) assert_in_range(times[v], SEEDS / 4 - 160, SEEDS / 4 + 160);
     mw__tiling_release(&tiling);
     mw_mesh_destroy(mesh);
 }
@@ -444,7 +471,8 @@ static void test_options(void **state)
     uint64_t random = 28;
     mw_mesh *mesh = grid(4, 0, 0, &random);
     mw_tiling tiling;
-    assert_int_equal(mw__tiling_create(mesh, (mw_tiling_options){0}, MW_ALONE, &tiling, NULL), MW_OK);
+    assert_int_equal(mw__tiling_create(mesh, (mw_tiling_options){0}, MW_ALONE, &tiling, NULL),
+                     MW_OK);
     const mw_layers_options wrong[] = {{.layers = MW_MAX_LAYERS + 1},
                                        {.ratio = -0.1},
                                        {.ratio = 1},
@@ -455,7 +483,8 @@ static void test_options(void **state)
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         mw_layers layers;
         mw_error error;
-        assert_int_equal(mw__layers_create(&tiling, &wrong[i], MW_ALONE, &layers, &error), MW_ERROR_ARGUMENT);
+        assert_int_equal(mw__layers_create(&tiling, &wrong[i], MW_ALONE, &layers, &error),
+                         MW_ERROR_ARGUMENT);
         assert_int_equal(error.status, MW_ERROR_ARGUMENT);
         mw__layers_release(&layers);
     }
@@ -497,7 +526,8 @@ static void test_answers(void **state)
     for (int i = 0; i < MESHES; i++) {
         mw_mesh *mesh = mesh_number(i, &random);
         mw_locator *locator = mesh_locator(mesh, (mw_locator_options){0});
-        mw_index *index[] = {index_of(locator, NULL), index_of(locator, &(mw_index_options){.layers = 4, .ratio = 0.3}),
+        mw_index *index[] = {index_of(locator, NULL),
+                             index_of(locator, &(mw_index_options){.layers = 4, .ratio = 0.3}),
                              index_of(elsewhere, NULL)};
         double *q = queries_in(mesh, N, &random);
         mw_query_options plain = {.start = MW_START_RANDOM};
@@ -510,7 +540,8 @@ static void test_answers(void **state)
                                             .lanes = 1 + 7 * (uint32_t)(k % 3),
                                             .seed = mw__random(&random),
                                             .index = index[k / 2]};
-                assert_int_equal(mw_locate_batch(locator, q, N, 2, &options, have, NULL, NULL), MW_OK);
+                assert_int_equal(mw_locate_batch(locator, q, N, 2, &options, have, NULL, NULL),
+                                 MW_OK);
                 assert_memory_equal(want, have, sizeof want);
             }
         free(q);
@@ -529,7 +560,8 @@ static void test_describe(void **state)
     uint64_t random = 31;
     mw_mesh *mesh = points_mesh(20000, random_unit, &random);
     mw_locator *locator = mesh_locator(mesh, (mw_locator_options){0});
-    mw_index *few = index_of(locator, NULL), *many = index_of(locator, &(mw_index_options){.layers = 8, .ratio = 0.5});
+    mw_index *few = index_of(locator, NULL),
+             *many = index_of(locator, &(mw_index_options){.layers = 8, .ratio = 0.5});
     mw_index_info info[2];
     mw_index_describe(few, &info[0]);
     mw_index_describe(many, &info[1]);
@@ -545,7 +577,8 @@ static void test_describe(void **state)
     mw_index_options wrong[] = {{.layers = 9}, {.ratio = 1.5}, {.descent = (mw_descent)DESCENTS}};
     for (int i = 0; i < 3; i++) {
         mw_index *index;
-        assert_int_equal(mw_index_create(locator, MW_START_LAYERS, &wrong[i], &index, NULL), MW_ERROR_ARGUMENT);
+        assert_int_equal(mw_index_create(locator, MW_START_LAYERS, &wrong[i], &index, NULL),
+                         MW_ERROR_ARGUMENT);
         assert_null(index);
     }
     mw_index_destroy(few);
@@ -554,7 +587,8 @@ static void test_describe(void **state)
     mw_mesh_destroy(mesh);
 }
 
-/* The counters of a query contain the layers: with one layer as with the mesh alone, with more some tiles in each. */
+/* The counters of a query contain the layers: with one layer as with the mesh alone, with more
+ * some tiles in each. */
 static void test_counters(void **state)
 {
     (void)state;
@@ -599,14 +633,15 @@ static void test_memory(void **state)
     uint64_t random = 29;
     mw_mesh *mesh = points_mesh(300, random_unit, &random);
     mw_tiling tiling;
-    assert_int_equal(mw__tiling_create(mesh, (mw_tiling_options){0}, MW_ALONE, &tiling, NULL), MW_OK);
+    assert_int_equal(mw__tiling_create(mesh, (mw_tiling_options){0}, MW_ALONE, &tiling, NULL),
+                     MW_OK);
     bool failed = true;
     for (long after = 0; failed; after++) {
         mw_layers layers;
         mw_error error = {0};
         allocations_left = after;
-        mw_status status =
-            mw__layers_create(&tiling, &(mw_layers_options){.layers = 3, .ratio = 0.3}, MW_ALONE, &layers, &error);
+        mw_status status = mw__layers_create(
+            &tiling, &(mw_layers_options){.layers = 3, .ratio = 0.3}, MW_ALONE, &layers, &error);
         failed = allocations_left < 0;
         allocations_left = -1;
         assert_int_equal(status, failed ? MW_ERROR_MEMORY : MW_OK);
@@ -621,10 +656,12 @@ static void test_memory(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_structure), cmocka_unit_test(test_sizes),   cmocka_unit_test(test_no_layer),
-        cmocka_unit_test(test_any),       cmocka_unit_test(test_near),    cmocka_unit_test(test_descent),
-        cmocka_unit_test(test_seed),      cmocka_unit_test(test_chance),  cmocka_unit_test(test_options),
-        cmocka_unit_test(test_memory),    cmocka_unit_test(test_answers), cmocka_unit_test(test_describe),
+        cmocka_unit_test(test_structure), cmocka_unit_test(test_sizes),
+        cmocka_unit_test(test_no_layer),  cmocka_unit_test(test_any),
+        cmocka_unit_test(test_near),      cmocka_unit_test(test_descent),
+        cmocka_unit_test(test_seed),      cmocka_unit_test(test_chance),
+        cmocka_unit_test(test_options),   cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_answers),   cmocka_unit_test(test_describe),
         cmocka_unit_test(test_counters),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

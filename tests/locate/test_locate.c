@@ -1,4 +1,5 @@
-/* test_locate.c - every walk from every start in both arithmetics against brute force in rationals. */
+/* test_locate.c - every walk from every start in both arithmetics against brute force in
+ * rationals. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -20,7 +21,8 @@ static mw_mesh *mesh_of(const arrays *a, mw_mesh_layout layout)
     mw_arrays view = arrays_view(a);
     mw_mesh *mesh;
     mw_error error;
-    if (mw_mesh_create(&view, &(mw_mesh_options){.layout = layout}, &mesh, &error)) fail_msg("mesh: %s", error.message);
+    if (mw_mesh_create(&view, &(mw_mesh_options){.layout = layout}, &mesh, &error))
+        fail_msg("mesh: %s", error.message);
     return mesh;
 }
 
@@ -42,12 +44,14 @@ static bool is_embedding(const mw_arrays *view)
     return embedding;
 }
 
-static void compare(const mw_location *got, const location_answer *want, const double q[2], const char *how)
+static void compare(const mw_location *got, const location_answer *want, const double q[2],
+                    const char *how)
 {
     int where = got->where == MW_IN_HOLE ? MW_OUTSIDE : got->where;
-    if (got->triangle == want->triangle && where == want->where && got->local == want->local) return;
-    fail_msg("%s: (%.17g, %.17g): triangle %u where %d local %d, not %u %d %d", how, q[0], q[1], got->triangle,
-             got->where, got->local, want->triangle, want->where, want->local);
+    if (got->triangle == want->triangle && where == want->where && got->local == want->local)
+        return;
+    fail_msg("%s: (%.17g, %.17g): triangle %u where %d local %d, not %u %d %d", how, q[0], q[1],
+             got->triangle, got->where, got->local, want->triangle, want->where, want->local);
 }
 
 /* Weights are not negative, sum to 1, vanish where they must, and reproduce the point. */
@@ -60,7 +64,8 @@ static void check_weights(const arrays *a, const mw_location *at, const double q
     double sum = 0, x = 0, y = 0, size = 0;
     int zeros = 0;
     for (int k = 0; k < 3; k++) {
-        const double *p = a->points + 2 * (size_t)a->triangles[3 * (size_t)at->triangle + (size_t)k];
+        const double *p =
+            a->points + 2 * (size_t)a->triangles[3 * (size_t)at->triangle + (size_t)k];
         assert_true(at->weight[k] >= 0 && at->weight[k] <= 1);
         zeros += at->weight[k] == 0;
         sum += at->weight[k];
@@ -75,8 +80,8 @@ static void check_weights(const arrays *a, const mw_location *at, const double q
     if (at->where == MW_ON_VERTEX) assert_true(zeros == 2 && at->weight[at->local] == 1);
 }
 
-static void try_singles(const arrays *a, const mw_locator *locator, const mw_query_options *options, const double *q,
-                        const location_answer *want, size_t n, const char *how)
+static void try_singles(const arrays *a, const mw_locator *locator, const mw_query_options *options,
+                        const double *q, const location_answer *want, size_t n, const char *how)
 {
     mw_cursor cursor;
     assert_int_equal(mw_cursor_init(locator, options, &cursor, NULL), MW_OK);
@@ -113,8 +118,9 @@ static void try_everything(const arrays *a, size_t queries, uint64_t *random)
             for (int start = MW_START_AUTO; start < MW_START_COUNT; start++)
                 for (int arithmetic = MW_EXACT; arithmetic <= MW_DOUBLE; arithmetic++) {
                     char how[80];
-                    snprintf(how, sizeof how, "%s from %s, arithmetic %d, layout %d", mw_walk_name((mw_walk_kind)walk),
-                             mw_start_name((mw_start_kind)start), arithmetic, layout);
+                    snprintf(how, sizeof how, "%s from %s, arithmetic %d, layout %d",
+                             mw_walk_name((mw_walk_kind)walk), mw_start_name((mw_start_kind)start),
+                             arithmetic, layout);
                     mw_query_options options = {.walk = (mw_walk_kind)walk,
                                                 .start = (mw_start_kind)start,
                                                 .arithmetic = (mw_arithmetic)arithmetic,
@@ -231,7 +237,8 @@ static void test_bad_points(void **state)
     arrays a = arrays_grid(3, 0, &random);
     mw_mesh *mesh = mesh_of(&a, 0);
     mw_locator *locator = locator_of(mesh, 0);
-    const double q[] = {NAN, 1, 1, INFINITY, -INFINITY, NAN, 1.5, 1.5, 1e308, -1e308, 5e-324, 5e-324, -5e-324, 1};
+    const double q[] = {NAN, 1,     1,      INFINITY, -INFINITY, NAN,     1.5,
+                        1.5, 1e308, -1e308, 5e-324,   5e-324,    -5e-324, 1};
     mw_location at[7];
     mw_index *index[MW_START_COUNT];
     starts_open(locator, index);
@@ -239,7 +246,8 @@ static void test_bad_points(void **state)
         mw_query_options options = {.start = (mw_start_kind)start, .index = index[start]};
         assert_int_equal(mw_locate_batch(locator, q, 7, 0, &options, at, NULL, NULL), MW_OK);
         for (int i = 0; i < 7; i++) {
-            location_answer want = location_oracle_locate(a.points, a.triangles, a.triangle_count, q + 2 * i);
+            location_answer want =
+                location_oracle_locate(a.points, a.triangles, a.triangle_count, q + 2 * i);
             compare(&at[i], &want, q + 2 * i, "odd points");
         }
     }
@@ -252,7 +260,8 @@ static void test_bad_points(void **state)
 static mw_location locate_in(const double points[6], double x, double y)
 {
     const uint32_t corners[3] = {0, 1, 2};
-    mw_arrays view = {.points = points, .point_count = 3, .triangles = corners, .triangle_count = 1};
+    mw_arrays view = {
+        .points = points, .point_count = 3, .triangles = corners, .triangle_count = 1};
     mw_mesh *mesh;
     mw_locator *locator;
     mw_cursor cursor;
@@ -309,9 +318,11 @@ static void test_any(void **state)
     for (int round = 0; round < 3000; round++) {
         enum { V = 6, T = 4 };
         arrays a = arrays_make(V, T);
-        for (int i = 0; i < V; i++) arrays_point(&a, mw__random_below(&random, 3), mw__random_below(&random, 3));
+        for (int i = 0; i < V; i++)
+            arrays_point(&a, mw__random_below(&random, 3), mw__random_below(&random, 3));
         for (int i = 0; i < T; i++) {
-            uint32_t u = mw__random_below(&random, V), v = (u + 1 + mw__random_below(&random, V - 1)) % V, w = u;
+            uint32_t u = mw__random_below(&random, V),
+                     v = (u + 1 + mw__random_below(&random, V - 1)) % V, w = u;
             while (w == u || w == v) w = mw__random_below(&random, V);
             arrays_triangle(&a, u, v, w);
         }
@@ -327,15 +338,18 @@ static void test_any(void **state)
         if (status == MW_OK) {
             made++;
             for (int i = 0; i < MW_WALK_COUNT; i++) {
-                mw_query_options options = {.walk = (mw_walk_kind)i, .start = MW_START_RANDOM, .seed = (uint64_t)i};
+                mw_query_options options = {
+                    .walk = (mw_walk_kind)i, .start = MW_START_RANDOM, .seed = (uint64_t)i};
                 mw_cursor cursor;
                 assert_int_equal(mw_cursor_init(locator, &options, &cursor, NULL), MW_OK);
-                double q[2] = {mw__random_below(&random, 5) / 2.0, mw__random_below(&random, 5) / 2.0};
+                double q[2] = {mw__random_below(&random, 5) / 2.0,
+                               mw__random_below(&random, 5) / 2.0};
                 mw_location at = mw_locate(locator, &cursor, q[0], q[1]);
                 check_weights(&a, &at, q);
                 location_answer answer;
                 if (at.triangle != MW_NONE)
-                    assert_true(location_oracle_contains(a.points, a.triangles + 3 * (size_t)at.triangle, q, &answer));
+                    assert_true(location_oracle_contains(
+                        a.points, a.triangles + 3 * (size_t)at.triangle, q, &answer));
             }
             assert_true((mw_locator_void_promise(locator) == NULL) == is_embedding(&view));
             mw_locator_destroy(locator);
@@ -346,7 +360,8 @@ static void test_any(void **state)
     assert_true(made > 2000); /* of 3000 */
 }
 
-/* Remembering where the mesh is Delaunay, celestial where it is far from that: seen in what the walks count. */
+/* Remembering where the mesh is Delaunay, celestial where it is far from that: seen in what the
+ * walks count. */
 static void test_auto_looks_at_the_mesh(void **state)
 {
     (void)state;
@@ -356,7 +371,8 @@ static void test_auto_looks_at_the_mesh(void **state)
         mw_arrays view = arrays_view(&a);
         mw_mesh *mesh;
         if (delaunay)
-            assert_int_equal(mw_delaunay(a.points, a.point_count, 2, NULL, NULL, NULL, &mesh, NULL), MW_OK);
+            assert_int_equal(mw_delaunay(a.points, a.point_count, 2, NULL, NULL, NULL, &mesh, NULL),
+                             MW_OK);
         else
             assert_int_equal(mw_mesh_create(&view, NULL, &mesh, NULL), MW_OK);
         mw_locator *locator;
@@ -383,7 +399,8 @@ static void test_auto_looks_at_the_mesh(void **state)
 }
 
 /* Counters do not depend on the number of threads, answers on nothing. */
-/* In doubles, too, a walk that left the hull where the point is outside was right: that is no hand-over. */
+/* In doubles, too, a walk that left the hull where the point is outside was right: that is no
+ * hand-over. */
 static void test_no_handover_outside(void **state)
 {
     (void)state;
@@ -399,12 +416,14 @@ static void test_no_handover_outside(void **state)
         q[2 * i + 1] = i % 2 ? -10 - 50 * random_unit(&random) : 30 + 50 * random_unit(&random);
     }
     for (mw_walk_kind walk = MW_WALK_AUTO + 1; walk < MW_WALK_COUNT; walk++) {
-        mw_query_options options = {.walk = walk, .start = MW_START_RANDOM, .arithmetic = MW_DOUBLE, .counters = 1};
+        mw_query_options options = {
+            .walk = walk, .start = MW_START_RANDOM, .arithmetic = MW_DOUBLE, .counters = 1};
         mw_location at[N];
         mw_counters counters;
         assert_int_equal(mw_locate_batch(locator, q, N, 2, &options, at, &counters, NULL), MW_OK);
         for (int i = 0; i < N; i++) assert_int_equal(at[i].where, MW_OUTSIDE);
-        if (counters.handovers) fail_msg("%s: %d hand-overs", mw_walk_name(walk), (int)counters.handovers);
+        if (counters.handovers)
+            fail_msg("%s: %d hand-overs", mw_walk_name(walk), (int)counters.handovers);
     }
     mw_locator_destroy(locator);
     mw_mesh_destroy(mesh);
@@ -429,10 +448,14 @@ static void test_determinism(void **state)
     for (int start = MW_START_AUTO; start < MW_START_COUNT; start++) {
         mw_counters one = {0};
         for (uint32_t threads = 1; threads <= 5; threads += 2) {
-            mw_query_options options = {
-                .start = (mw_start_kind)start, .threads = threads, .counters = 1, .seed = 5, .index = index[start]};
+            mw_query_options options = {.start = (mw_start_kind)start,
+                                        .threads = threads,
+                                        .counters = 1,
+                                        .seed = 5,
+                                        .index = index[start]};
             mw_counters counters;
-            assert_int_equal(mw_locate_batch(locator, q, N, 2, &options, again, &counters, NULL), MW_OK);
+            assert_int_equal(mw_locate_batch(locator, q, N, 2, &options, again, &counters, NULL),
+                             MW_OK);
             for (int i = 0; i < N; i++)
                 if (!isnan(first[i].weight[0]) || !isnan(again[i].weight[0]))
                     assert_memory_equal(&first[i], &again[i], sizeof *first);

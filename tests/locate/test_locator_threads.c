@@ -1,5 +1,5 @@
-/* test_locator_threads.c - a locator, its guide and its grids are the same, bit for bit, whatever the number of threads that made
- * them. */
+/* test_locator_threads.c - a locator, its guide and its grids are the same, bit for bit, whatever
+ * the number of threads that made them. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -18,7 +18,7 @@ enum { VERTICES = 60000 }; /* enough for three threads to be worth it */
 
 static const uint32_t teams[] = {2, 3, 7};
 
-/* --- meshes -------------------------------------------------------------------------------------------------------- */
+/* --- meshes ----------------------------------------------------------------------------------- */
 
 static arrays triangulated(const double *points)
 {
@@ -47,7 +47,8 @@ static arrays clusters(void)
     for (uint32_t i = 0; i < 2 * CLUSTERS; i++) middle[i] = random_unit(&random);
     for (uint32_t i = 0; i < VERTICES; i++)
         for (uint32_t k = 0; k < 2; k++)
-            points[2 * i + k] = middle[2 * (i % CLUSTERS) + k] + 0.001 * (random_unit(&random) + random_unit(&random));
+            points[2 * i + k] = middle[2 * (i % CLUSTERS) + k] +
+                                0.001 * (random_unit(&random) + random_unit(&random));
     arrays a = triangulated(points);
     free(points);
     return a;
@@ -65,7 +66,8 @@ static arrays stretched(void)
     return a;
 }
 
-/* Without triangles here and there, so that there are holes, pockets, and vertices that no triangle has; some are clockwise. */
+/* Without triangles here and there, so that there are holes, pockets, and vertices that no
+ * triangle has; some are clockwise. */
 static arrays with_holes(void)
 {
     uint64_t random = 3;
@@ -85,7 +87,7 @@ static arrays with_holes(void)
     return a;
 }
 
-/* --- comparing ----------------------------------------------------------------------------------------------------- */
+/* --- comparing -------------------------------------------------------------------------------- */
 
 static void expect_same_grid(const mw_grid *a, const mw_grid *b)
 {
@@ -136,8 +138,10 @@ static void expect_same(arrays a, mw_start_kind guide)
         mw_index *index = grid_of(one);
         if (layout == MW_LAYOUT_HILBERT) assert_int_equal(one->guide.start, guide);
         for (size_t i = 0; i < sizeof teams / sizeof *teams; i++) {
-            mw_mesh *same = arrays_mesh(&a, (mw_mesh_options){.layout = layout, .threads = teams[i]});
-            mw_locator *several = mesh_locator(same, (mw_locator_options){.threads = teams[i], .areas = 1});
+            mw_mesh *same =
+                arrays_mesh(&a, (mw_mesh_options){.layout = layout, .threads = teams[i]});
+            mw_locator *several =
+                mesh_locator(same, (mw_locator_options){.threads = teams[i], .areas = 1});
             mw_index *grid = grid_of(several);
             expect_same_locator(one, several);
             expect_same_index(index, grid);

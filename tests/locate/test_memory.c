@@ -1,5 +1,5 @@
-/* Every allocation of the library fails once: the call reports it, and nothing is lost or broken (leaks show in a build
- * with the address sanitizer). */
+/* Every allocation of the library fails once: the call reports it, and nothing is lost or broken
+ * (leaks show in a build with the address sanitizer). */
 /* wrap: malloc calloc realloc aligned_alloc */
 #include <stdarg.h>
 #include <stddef.h>
@@ -60,7 +60,9 @@ static mw_status tile_job(const mw_arrays *view, mw_error *error)
     mw_status status;
     mw_mesh *mesh = make(view, &status, error);
     mw_tiling tiling = {0};
-    if (!status) status = mw__tiling_create(mesh, (mw_tiling_options){.any = true}, MW_ALONE, &tiling, error);
+    if (!status)
+        status =
+            mw__tiling_create(mesh, (mw_tiling_options){.any = true}, MW_ALONE, &tiling, error);
     mw__tiling_release(&tiling);
     mw_mesh_destroy(mesh);
     return status;
@@ -72,7 +74,8 @@ static mw_status locator_job(const mw_arrays *view, mw_error *error)
     mw_mesh *mesh = make(view, &status, error);
     mw_locator *locator = NULL;
     if (!status)
-        status = mw_locator_create(mesh, &(mw_locator_options){.any = 1, .border = 1, .areas = 1}, &locator, error);
+        status = mw_locator_create(mesh, &(mw_locator_options){.any = 1, .border = 1, .areas = 1},
+                                   &locator, error);
     mw_locator_destroy(locator);
     mw_mesh_destroy(mesh);
     return status;
@@ -83,7 +86,9 @@ static mw_status open_job(const mw_arrays *view, mw_error *error)
     mw_status status;
     mw_mesh *mesh = make(view, &status, error);
     mw_locator *locator = NULL;
-    if (!status) status = mw_locator_create(mesh, &(mw_locator_options){.any = 1, .fill = MW_FILL_NO}, &locator, error);
+    if (!status)
+        status = mw_locator_create(mesh, &(mw_locator_options){.any = 1, .fill = MW_FILL_NO},
+                                   &locator, error);
     mw_locator_destroy(locator);
     mw_mesh_destroy(mesh);
     return status;
@@ -116,7 +121,8 @@ static mw_status order_job(const mw_arrays *view, mw_error *error)
 static mw_status delaunay_job(const mw_arrays *view, mw_error *error)
 {
     mw_mesh *mesh;
-    mw_status status = mw_delaunay(view->points, view->point_count, 0, NULL, NULL, NULL, &mesh, error);
+    mw_status status =
+        mw_delaunay(view->points, view->point_count, 0, NULL, NULL, NULL, &mesh, error);
     mw_mesh_destroy(mesh);
     return status;
 }
@@ -130,8 +136,8 @@ static mw_status layout_job(const mw_arrays *view, mw_error *error)
     wide.point_stride = 3;
     for (size_t i = 0; i < view->point_count; i++)
         memcpy((double *)wide.points + 3 * i, view->points + 2 * i, 2 * sizeof(double));
-    mw_status status =
-        mw_mesh_create(&wide, &(mw_mesh_options){.layout = MW_LAYOUT_HILBERT, .threads = 1}, &mesh, error);
+    mw_status status = mw_mesh_create(
+        &wide, &(mw_mesh_options){.layout = MW_LAYOUT_HILBERT, .threads = 1}, &mesh, error);
     mw_mesh_destroy(mesh);
     free((double *)wide.points);
     return status;
@@ -213,7 +219,8 @@ static void test_defective(void **state)
     arrays a = arrays_grid(6, 0, &random);
     for (uint32_t i = 0; i < a.point_count; i++) a.points[2 * i] += i % 5 == 0 ? 2.3 : 0;
     arrays b = arrays_make(a.point_count, a.triangle_count + 3);
-    for (uint32_t i = 0; i < a.point_count; i++) arrays_point(&b, a.points[2 * i], a.points[2 * i + 1]);
+    for (uint32_t i = 0; i < a.point_count; i++)
+        arrays_point(&b, a.points[2 * i], a.points[2 * i + 1]);
     for (uint32_t i = 0; i < a.triangle_count; i++)
         arrays_triangle(&b, a.triangles[3 * i], a.triangles[3 * i + 1], a.triangles[3 * i + 2]);
     for (uint32_t i = 0; i < 3; i++) arrays_triangle(&b, i, i, 20);
@@ -268,8 +275,9 @@ static void test_fields(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_convex),    cmocka_unit_test(test_punched),   cmocka_unit_test(test_cut),
-        cmocka_unit_test(test_defective), cmocka_unit_test(test_bad_index), cmocka_unit_test(test_layout),
+        cmocka_unit_test(test_convex),    cmocka_unit_test(test_punched),
+        cmocka_unit_test(test_cut),       cmocka_unit_test(test_defective),
+        cmocka_unit_test(test_bad_index), cmocka_unit_test(test_layout),
         cmocka_unit_test(test_fields),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

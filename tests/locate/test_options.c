@@ -54,12 +54,12 @@ static void things_release(things *all)
 /* --- reserved members ------------------------------------------------------------------------- */
 
 /* One function for each function that takes options: calls it, and releases what it made. */
-#define TAKER(name, type, ...)                                                                                         \
-    static mw_status name(const things *all, const void *given, mw_error *error)                                       \
-    {                                                                                                                  \
-        const type *options = given;                                                                                   \
-        (void)all;                                                                                                     \
-        __VA_ARGS__                                                                                                    \
+#define TAKER(name, type, ...)                                                                     \
+    static mw_status name(const things *all, const void *given, mw_error *error)                   \
+    {                                                                                              \
+        const type *options = given;                                                               \
+        (void)all;                                                                                 \
+        __VA_ARGS__                                                                                \
     }
 
 TAKER(take_mesh, mw_mesh_options, {
@@ -149,7 +149,8 @@ TAKER(take_delaunay, mw_delaunay_options, {
 })
 TAKER(take_kind, mw_kind_options, {
     mw_mesh *out;
-    mw_status status = mw_triangulate(MW_KIND_GREEDY, all->plane.points, 6, 2, options, NULL, NULL, &out, error);
+    mw_status status =
+        mw_triangulate(MW_KIND_GREEDY, all->plane.points, 6, 2, options, NULL, NULL, &out, error);
     mw_mesh_destroy(out);
     return status;
 })
@@ -183,9 +184,9 @@ typedef struct taker {
     size_t first, bytes; /* of the reserved member */
 } taker;
 
-#define ROW(take, type)                                                                                                \
-    {                                                                                                                  \
-        take, #type, offsetof(type, reserved), sizeof((type *)0)->reserved                                             \
+#define ROW(take, type)                                                                            \
+    {                                                                                              \
+        take, #type, offsetof(type, reserved), sizeof((type *)0)->reserved                         \
     }
 
 static const taker takers[] = {
@@ -255,7 +256,9 @@ static void test_cells_are_bounded(void **state)
         mw_star_index *index;
         mw_star_index_info info;
         mw_star_index_options most = {.cells = UINT32_C(1) << 30, .levels = MW_STAR_MAX_LEVELS + 1};
-        assert_int_equal(mw_star_index_create(all.star, (mw_star_start_kind)start, &most, &index, &error), MW_OK);
+        assert_int_equal(
+            mw_star_index_create(all.star, (mw_star_start_kind)start, &most, &index, &error),
+            MW_OK);
         mw_star_index_describe(index, &info);
         assert_true(info.cells > 0 && info.cells <= 65536);
         mw_star_index_destroy(index);
@@ -291,7 +294,8 @@ static void test_zeroed_cursor_in_the_plane(void **state)
             uint32_t triangles[64];
             mw_walk_path(locators[i], &path, x, y, triangles, 64, &walked);
             expect_same_location(&want, &walked);
-            if (i && k % 7 == 3) assert_int_equal(mw_edit_insert(editor, 0.3 + 0.05 * k, 1.1, NULL, &error), MW_OK);
+            if (i && k % 7 == 3)
+                assert_int_equal(mw_edit_insert(editor, 0.3 + 0.05 * k, 1.1, NULL, &error), MW_OK);
         }
     }
     mw_editor_destroy(editor);
@@ -322,7 +326,8 @@ static void test_zeroed_cursor_in_space(void **state)
 
 /* --- sizes of samples ------------------------------------------------------------------------- */
 
-/* The printed sizes of Appendix D, Table 1, and twice the fourth root; never more than triangles. */
+/* The printed sizes of Appendix D, Table 1, and twice the fourth root; never more than triangles.
+ * */
 static void test_sample_sizes(void **state)
 {
     (void)state;
@@ -335,9 +340,11 @@ static void test_sample_sizes(void **state)
         mw_error error;
         mw_cursor cursor;
         for (uint32_t k = 0; k < 2 * printed[i][0]; k++) points[k] = random_unit(&random);
-        assert_int_equal(mw_delaunay(points, printed[i][0], 2, NULL, NULL, NULL, &mesh, &error), MW_OK);
+        assert_int_equal(mw_delaunay(points, printed[i][0], 2, NULL, NULL, NULL, &mesh, &error),
+                         MW_OK);
         mw_locator *locator = mesh_locator(mesh, (mw_locator_options){0});
-        mw_query_options options = {.start = MW_START_SAMPLE, .samples = MW_SAMPLE_CUBE_ROOT_OF_VERTICES};
+        mw_query_options options = {.start = MW_START_SAMPLE,
+                                    .samples = MW_SAMPLE_CUBE_ROOT_OF_VERTICES};
         assert_int_equal(mw_cursor_init(locator, &options, &cursor, &error), MW_OK);
         assert_int_equal(cursor.sample, printed[i][1]);
         options.samples = MW_SAMPLE_FOURTH_ROOT_OF_VERTICES;

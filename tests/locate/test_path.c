@@ -1,5 +1,5 @@
-/* test_path.c - the triangles that a query visits: each walk's path is that of its query, goes over edges, passes over
- * ghosts, and ends in the answer. */
+/* test_path.c - the triangles that a query visits: each walk's path is that of its query, goes
+ * over edges, passes over ghosts, and ends in the answer. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -19,7 +19,8 @@
 
 enum { ROOM = 20000 };
 
-/* What is tried: a mesh, its locator, and whether there may be ghosts or open borders on the way. */
+/* What is tried: a mesh, its locator, and whether there may be ghosts or open borders on the way.
+ * */
 typedef struct path_trial {
     const arrays *a;
     const mw_mesh *mesh;
@@ -52,13 +53,15 @@ static bool is_at_border(const path_trial *r, uint32_t t)
     return r->border[v[0]] || r->border[v[1]] || r->border[v[2]];
 }
 
-/* Each triangle is across an edge of the one before; ghosts, and ways along a border, are between triangles at borders. */
+/* Each triangle is across an edge of the one before; ghosts, and ways along a border, are between
+ * triangles at borders. */
 static void check_steps(const path_trial *r, size_t n)
 {
     for (size_t i = 0; i + 1 < n; i++) {
         uint32_t s = r->path[i], t = r->path[i + 1];
         bool gap = !r->whole && is_at_border(r, s) && is_at_border(r, t);
-        if (!gap && !are_neighbours(r->mesh, s, t)) fail_msg("step %zu: triangles %u and %u share no edge", i, s, t);
+        if (!gap && !are_neighbours(r->mesh, s, t))
+            fail_msg("step %zu: triangles %u and %u share no edge", i, s, t);
     }
 }
 
@@ -66,7 +69,8 @@ static void check_end(const path_trial *r, size_t n, const mw_location *at, cons
 {
     location_answer in;
     if (at->triangle == MW_NONE) return;
-    if (!r->whole && at->where != MW_INSIDE) return; /* the walk may end in a ghost beside the triangle */
+    /* the walk may end in a ghost beside the triangle */
+    if (!r->whole && at->where != MW_INSIDE) return;
     assert_true(n > 0);
     const uint32_t last = r->path[n - 1];
     if (at->where == MW_INSIDE) assert_int_equal(last, at->triangle);
@@ -75,11 +79,12 @@ static void check_end(const path_trial *r, size_t n, const mw_location *at, cons
 
 static bool same(const mw_location *a, const mw_location *b)
 {
-    return memcmp(a->weight, b->weight, sizeof a->weight) == 0 && a->triangle == b->triangle && a->hole == b->hole &&
-           a->where == b->where && a->local == b->local;
+    return memcmp(a->weight, b->weight, sizeof a->weight) == 0 && a->triangle == b->triangle &&
+           a->hole == b->hole && a->where == b->where && a->local == b->local;
 }
 
-/* A query, and its path by a cursor in the same state: what they do and leave behind is the same. */
+/* A query, and its path by a cursor in the same state: what they do and leave behind is the same.
+ * */
 static void try_query(path_trial *r, mw_cursor *cursor, const double q[2])
 {
     mw_cursor written = *cursor, cut = *cursor, uncounted = *cursor;
@@ -104,12 +109,14 @@ static void try_query(path_trial *r, mw_cursor *cursor, const double q[2])
     assert_true(uncounted.last == cursor->last && uncounted.random == cursor->random);
 }
 
-static void try_walk(path_trial *r, mw_query_options options, uint32_t fuel, const double *q, size_t n)
+static void try_walk(path_trial *r, mw_query_options options, uint32_t fuel, const double *q,
+                     size_t n)
 {
     mw_cursor cursor;
     options.counters = 1;
     assert_int_equal(mw_cursor_init(r->locator, &options, &cursor, NULL), MW_OK);
-    if (fuel) cursor.fuel = fuel; /* walks run dry: the celestial one, or that along all the border, takes over */
+    /* walks run dry: the celestial one, or that along all the border, takes over */
+    if (fuel) cursor.fuel = fuel;
     for (size_t i = 0; i < n; i++) try_query(r, &cursor, q + 2 * i);
 }
 
@@ -135,8 +142,9 @@ static void try_filled(const arrays *a, bool whole, uint64_t *random)
 {
     size_t n;
     double *q = arrays_queries(a, 12, &n, random);
-    path_trial *r =
-        open_trial(a, whole, (mw_locator_options){.fill = MW_FILL_YES, .areas = (int)(mw__random(random) >> 63)});
+    path_trial *r = open_trial(
+        a, whole,
+        (mw_locator_options){.fill = MW_FILL_YES, .areas = (int)(mw__random(random) >> 63)});
     mw_index *index[MW_START_COUNT];
     starts_open(r->locator, index);
     for (int walk = MW_WALK_AUTO; walk < MW_WALK_COUNT; walk++)
@@ -160,7 +168,9 @@ static void try_open(const arrays *a, uint64_t *random)
     path_trial *r = open_trial(a, false, (mw_locator_options){.fill = MW_FILL_NO});
     for (int start = MW_START_RANDOM; start <= MW_START_LAST; start++)
         for (uint32_t fuel = 0; fuel < 40; fuel += 7)
-            try_walk(r, (mw_query_options){.start = (mw_start_kind)start, .seed = mw__random(random)}, fuel, q, n);
+            try_walk(r,
+                     (mw_query_options){.start = (mw_start_kind)start, .seed = mw__random(random)},
+                     fuel, q, n);
     close_trial(r);
     free(q);
 }
@@ -213,8 +223,8 @@ static arrays strip(void)
     return a;
 }
 
-static size_t path_from(const path_trial *r, mw_query_options options, const double from[2], const double to[2],
-                        uint32_t *path)
+static size_t path_from(const path_trial *r, mw_query_options options, const double from[2],
+                        const double to[2], uint32_t *path)
 {
     mw_cursor cursor;
     options.start = MW_START_LAST;
@@ -233,7 +243,8 @@ static void test_strip(void **state)
     path_trial *r = open_trial(&a, true, (mw_locator_options){0});
     for (int walk = MW_WALK_AUTO; walk < MW_WALK_COUNT; walk++)
         for (int arithmetic = MW_EXACT; arithmetic <= MW_DOUBLE; arithmetic++) {
-            mw_query_options options = {.walk = (mw_walk_kind)walk, .arithmetic = (mw_arithmetic)arithmetic};
+            mw_query_options options = {.walk = (mw_walk_kind)walk,
+                                        .arithmetic = (mw_arithmetic)arithmetic};
             if (walk == MW_WALK_FAST_STOCHASTIC) options.steps = 1;
             size_t n = path_from(r, options, left, right, r->path);
             assert_true(n >= 8 && r->path[0] == 0 && r->path[n - 1] == 7);
@@ -256,18 +267,22 @@ static void test_gap(void **state)
     static const double left[2] = {0.2, 1.4}, right[2] = {2.9, 1.6};
     uint64_t random = 5;
     arrays a = arrays_grid(3, 0, &random);
-    memmove(a.triangles + 24, a.triangles + 30, 24 * sizeof *a.triangles); /* without the middle cell */
+    /* without the middle cell */
+    memmove(a.triangles + 24, a.triangles + 30, 24 * sizeof *a.triangles);
     a.triangle_count -= 2;
     path_trial *filled = open_trial(&a, false, (mw_locator_options){.fill = MW_FILL_YES});
-    size_t n = path_from(filled, (mw_query_options){.walk = MW_WALK_STRAIGHT}, left, right, filled->path);
+    size_t n =
+        path_from(filled, (mw_query_options){.walk = MW_WALK_STRAIGHT}, left, right, filled->path);
     check_steps(filled, n);
     bool gap = false;
-    for (size_t i = 0; i + 1 < n; i++) gap |= !are_neighbours(filled->mesh, filled->path[i], filled->path[i + 1]);
+    for (size_t i = 0; i + 1 < n; i++)
+        gap |= !are_neighbours(filled->mesh, filled->path[i], filled->path[i + 1]);
     assert_true(gap);
     path_trial *open = open_trial(&a, false, (mw_locator_options){.fill = MW_FILL_NO});
     size_t round = path_from(open, (mw_query_options){0}, left, right, open->path);
     check_steps(open, round);
-    for (size_t i = 0; i + 1 < round; i++) assert_true(are_neighbours(open->mesh, open->path[i], open->path[i + 1]));
+    for (size_t i = 0; i + 1 < round; i++)
+        assert_true(are_neighbours(open->mesh, open->path[i], open->path[i + 1]));
     assert_true(round > n && open->path[round - 1] == filled->path[n - 1]);
     close_trial(filled);
     close_trial(open);
@@ -279,7 +294,8 @@ static bool is_on_line(const path_trial *r, uint32_t t, const double a[2], const
 {
     double least = INFINITY, most = -INFINITY;
     for (size_t k = 0; k < 3; k++) {
-        double side = mw_orient2d(a, b, r->a->points + 2 * (size_t)r->a->triangles[3 * (size_t)t + k]);
+        double side =
+            mw_orient2d(a, b, r->a->points + 2 * (size_t)r->a->triangles[3 * (size_t)t + k]);
         least = fmin(least, side);
         most = fmax(most, side);
     }
@@ -289,11 +305,14 @@ static bool is_on_line(const path_trial *r, uint32_t t, const double a[2], const
 static bool is_corner(const path_trial *r, uint32_t t, const double at[2])
 {
     for (size_t k = 0; k < 3; k++)
-        if (memcmp(r->a->points + 2 * (size_t)r->a->triangles[3 * (size_t)t + k], at, 2 * sizeof *at) == 0) return true;
+        if (memcmp(r->a->points + 2 * (size_t)r->a->triangles[3 * (size_t)t + k], at,
+                   2 * sizeof *at) == 0)
+            return true;
     return false;
 }
 
-/* The stages are as long as the counters say; a stage that follows another counts the triangle that it begins in again. */
+/* The stages are as long as the counters say; a stage that follows another counts the triangle
+ * that it begins in again. */
 static void check_stages(const uint8_t *stages, size_t n, const mw_counters *c)
 {
     uint64_t of[4] = {0};
@@ -305,13 +324,14 @@ static void check_stages(const uint8_t *stages, size_t n, const mw_counters *c)
 }
 
 /* The walks along a line pass the triangles that it meets, from where they say that it begins. */
-static void check_line(const path_trial *r, const uint8_t *stages, size_t n, const mw_walk_way *way, mw_walk_kind walk,
-                       const double q[2])
+static void check_line(const path_trial *r, const uint8_t *stages, size_t n, const mw_walk_way *way,
+                       mw_walk_kind walk, const double q[2])
 {
-    bool vertex = walk == MW_WALK_STRAIGHT || walk == MW_WALK_HYBRID || walk == MW_WALK_NORMAL_STRAIGHT_TURN;
+    bool vertex =
+        walk == MW_WALK_STRAIGHT || walk == MW_WALK_HYBRID || walk == MW_WALK_NORMAL_STRAIGHT_TURN;
     bool line = vertex || walk == MW_WALK_NORMAL_STRAIGHT || (walk == MW_WALK_BORDER && n > 1);
-    bool legs =
-        walk == MW_WALK_ORTHOGONAL || walk == MW_WALK_IMPROVED_ORTHOGONAL || walk == MW_WALK_IMPROVED_ORTHOGONAL_VERTEX;
+    bool legs = walk == MW_WALK_ORTHOGONAL || walk == MW_WALK_IMPROVED_ORTHOGONAL ||
+                walk == MW_WALK_IMPROVED_ORTHOGONAL_VERTEX;
     assert_int_equal(way->line_points, line ? 2 : legs ? 3 : 0);
     if (!way->line_points) return;
     assert_memory_equal(way->line[way->line_points - 1], q, 2 * sizeof *q);
@@ -335,8 +355,10 @@ static void test_stages_and_lines(void **state)
         for (int i = 0; i < 200; i++) {
             double at[4];
             for (int k = 0; k < 4; k++) at[k] = N * (0.25 + 0.5 * random_unit(&random));
-            mw_query_options options = {
-                .walk = (mw_walk_kind)walk, .start = MW_START_LAST, .counters = 1, .finish = MW_WALK_STOCHASTIC};
+            mw_query_options options = {.walk = (mw_walk_kind)walk,
+                                        .start = MW_START_LAST,
+                                        .counters = 1,
+                                        .finish = MW_WALK_STOCHASTIC};
             mw_cursor cursor, again;
             assert_int_equal(mw_cursor_init(r->locator, &options, &cursor, NULL), MW_OK);
             mw_locate(r->locator, &cursor, at[0], at[1]);
@@ -345,7 +367,8 @@ static void test_stages_and_lines(void **state)
             mw_walk_way way = {.triangles = r->path, .stages = stages, .capacity = sizeof stages};
             size_t n = mw_walk_follow(r->locator, &cursor, at[2], at[3], &way, NULL);
             assert_true(n < sizeof stages);
-            assert_int_equal(mw_walk_path(r->locator, &again, at[2], at[3], r->short_path, ROOM, NULL), n);
+            assert_int_equal(
+                mw_walk_path(r->locator, &again, at[2], at[3], r->short_path, ROOM, NULL), n);
             assert_memory_equal(r->path, r->short_path, n * sizeof *r->path);
             check_stages(stages, n, &cursor.counters);
             check_line(r, stages, n, &way, (mw_walk_kind)walk, at + 2);
@@ -376,8 +399,9 @@ static void test_no_point(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_convex), cmocka_unit_test(test_holes),    cmocka_unit_test(test_strip),
-        cmocka_unit_test(test_gap),    cmocka_unit_test(test_no_point), cmocka_unit_test(test_stages_and_lines),
+        cmocka_unit_test(test_convex),   cmocka_unit_test(test_holes),
+        cmocka_unit_test(test_strip),    cmocka_unit_test(test_gap),
+        cmocka_unit_test(test_no_point), cmocka_unit_test(test_stages_and_lines),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

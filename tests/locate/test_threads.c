@@ -1,5 +1,5 @@
-/* test_threads.c - one mesh and one locator, many threads: the same answers, bit for bit, and (under ThreadSanitizer) no
- * data race. */
+/* test_threads.c - one mesh and one locator, many threads: the same answers, bit for bit, and
+ * (under ThreadSanitizer) no data race. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -49,7 +49,8 @@ static mw_mesh *with_hole(const mw_mesh *whole, const double *points)
         }
         kept += near < 3;
     }
-    mw_arrays view = {.points = points, .point_count = POINTS, .triangles = triangles, .triangle_count = kept};
+    mw_arrays view = {
+        .points = points, .point_count = POINTS, .triangles = triangles, .triangle_count = kept};
     mw_mesh *mesh;
     assert_int_equal(mw_mesh_create(&view, NULL, &mesh, NULL), MW_OK);
     free(triangles);
@@ -66,7 +67,8 @@ static int make_world(void **state)
     mw_mesh_destroy(whole);
     w.query = random_numbers((size_t)2 * QUERIES, -0.05, 1.05, 2);
     /* Some at vertices, where the rule of ties decides. */
-    for (size_t i = 0; i < POINTS; i++) memcpy(w.query + 20 * i, points + 2 * i, 2 * sizeof(double));
+    for (size_t i = 0; i < POINTS; i++)
+        memcpy(w.query + 20 * i, points + 2 * i, 2 * sizeof(double));
     free(points);
     w.value = random_numbers(POINTS, 0, 100, 3);
     mw_locator_options options = {.border = 1};
@@ -94,7 +96,7 @@ static int destroy_world(void **state)
     return 0;
 }
 
-/* --- what the threads do: each returns NULL, or what went wrong ---------------------------------------------------- */
+/* --- what the threads do: each returns NULL, or what went wrong ------------------------------- */
 
 typedef struct locate_job {
     const locate_world *world;
@@ -146,7 +148,8 @@ static void *border_and_values(void *argument)
         const double *q = w->query + 2 * i;
         if (mw_nearest_border(w->locator, q[0], q[1], &hit, NULL)) return "no nearest border";
         mw_interpolate(w->mesh, w->value, &w->answer[i], 1, &value);
-        if ((w->answer[i].triangle == MW_NONE) != isnan(value)) return "a value where there is no triangle";
+        if ((w->answer[i].triangle == MW_NONE) != isnan(value))
+            return "a value where there is no triangle";
     }
     return NULL;
 }
@@ -159,10 +162,12 @@ static void *batches(void *argument)
     uint32_t *hint = malloc(QUERIES * sizeof *hint);
     int same = location && hint;
     if (same) memset(hint, 0xff, QUERIES * sizeof *hint);
-    for (int round = 0; same && round < 3; round++) { /* the first without hints, the last with good ones */
+    for (int round = 0; same && round < 3;
+         round++) { /* the first without hints, the last with good ones */
         mw_query_options options = {.threads = 2, .seed = j->number, .lanes = 1 + 7 * j->number};
         if (round > 0) options.hints = hint;
-        mw_status status = mw_locate_batch(w->locator, w->query, QUERIES, 2, &options, location, NULL, NULL);
+        mw_status status =
+            mw_locate_batch(w->locator, w->query, QUERIES, 2, &options, location, NULL, NULL);
         same = !status && memcmp(location, w->answer, QUERIES * sizeof *location) == 0;
     }
     free(location);
@@ -182,12 +187,13 @@ static void *locators(void *argument)
         mw_status status = mw_cursor_init(locator, NULL, &cursor, NULL);
         mw_location at = mw_locate(locator, &cursor, w->query[0], w->query[1]);
         mw_locator_destroy(locator);
-        if (status || memcmp(&at, &w->answer[0], sizeof at) != 0) return "another locator answers differently";
+        if (status || memcmp(&at, &w->answer[0], sizeof at) != 0)
+            return "another locator answers differently";
     }
     return NULL;
 }
 
-/* --- the tests ----------------------------------------------------------------------------------------------------- */
+/* --- the tests -------------------------------------------------------------------------------- */
 
 static void test_world(void **state)
 {
@@ -225,9 +231,12 @@ static void test_batch_threads(void **state)
     for (int walk = 0; walk < MW_WALK_COUNT; walk++) {
         mw_counters one = {0}, more;
         for (uint32_t threads = 1; threads <= THREADS; threads++) {
-            mw_query_options options = {.walk = (mw_walk_kind)walk, .threads = threads, .counters = 1};
+            mw_query_options options = {
+                .walk = (mw_walk_kind)walk, .threads = threads, .counters = 1};
             memset(location, 0, QUERIES * sizeof *location);
-            assert_int_equal(mw_locate_batch(w->locator, w->query, QUERIES, 2, &options, location, &more, NULL), MW_OK);
+            assert_int_equal(
+                mw_locate_batch(w->locator, w->query, QUERIES, 2, &options, location, &more, NULL),
+                MW_OK);
             assert_memory_equal(location, w->answer, QUERIES * sizeof *location);
             if (threads == 1) one = more;
             assert_memory_equal(&one, &more, sizeof one);

@@ -1,7 +1,7 @@
-/* test_trap.c - the mesh data/trap.off is what data/README.md says: for the queries of data/trap.csv Lawson's walk, the
- * remembering walk and those that follow the least value cycle, in exact arithmetic, from the triangles named there.
- * The walks are written here once more, from their definitions, as a choice of the edge to cross. And the library's walks
- * get out of there. */
+/* test_trap.c - the mesh data/trap.off is what data/README.md says: for the queries of
+ * data/trap.csv Lawson's walk, the remembering walk and those that follow the least value cycle,
+ * in exact arithmetic, from the triangles named there. The walks are written here once more, from
+ * their definitions, as a choice of the edge to cross. And the library's walks get out of there. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -28,7 +28,8 @@ static void read_queries(trap_data *trap)
     mw_error error;
     size_t count;
     double more[2];
-    if (mw_point_reader_open(MW_TEST_SOURCE "/data/trap.csv", NULL, &reader, &error)) fail_msg("%s", error.message);
+    if (mw_point_reader_open(MW_TEST_SOURCE "/data/trap.csv", NULL, &reader, &error))
+        fail_msg("%s", error.message);
     assert_int_equal(mw_point_reader_width(reader), 2);
     assert_int_equal(mw_point_reader_read(reader, trap->query[0], QUERIES, &count, NULL), MW_OK);
     assert_int_equal(count, QUERIES);
@@ -42,7 +43,8 @@ static int trap_read(void **state)
     static trap_data trap;
     mw_mesh_file file;
     mw_error error;
-    if (mw_read_mesh(MW_TEST_SOURCE "/data/trap.off", NULL, &file, &error)) fail_msg("%s", error.message);
+    if (mw_read_mesh(MW_TEST_SOURCE "/data/trap.off", NULL, &file, &error))
+        fail_msg("%s", error.message);
     mw_arrays view = mw_mesh_file_arrays(&file);
     if (mw_mesh_create(&view, NULL, &trap.mesh, &error)) fail_msg("%s", error.message);
     mw_mesh_file_release(&file);
@@ -141,8 +143,8 @@ static int direct(const mw_mesh *mesh, uint32_t t, int entry, const double q[2])
     return least(mesh, t, false, q);
 }
 
-/* Walk until the walk ends or comes to a triangle by the same edge again. Returns whether it did the latter; *t is the
- * last triangle. */
+/* Walk until the walk ends or comes to a triangle by the same edge again. Returns whether it did
+ * the latter; *t is the last triangle. */
 static bool cycles(const mw_mesh *mesh, choice *choose, uint32_t *t, const double q[2])
 {
     bool been[TRIANGLES][4] = {{false}};
@@ -167,7 +169,8 @@ static bool contains(const mw_mesh *mesh, uint32_t t, const double q[2])
     return location_oracle_contains(corner[0], (const uint32_t[3]){0, 1, 2}, q, &answer);
 }
 
-/* From every triangle but those inside the ring the walk goes round the ring; from there it ends at q. */
+/* From every triangle but those inside the ring the walk goes round the ring; from there it ends
+ * at q. */
 static void expect_trapped(const trap_data *trap, choice *choose)
 {
     for (int i = 0; i < QUERIES; i++)
@@ -190,7 +193,8 @@ static void test_mesh(void **state)
     assert_int_equal(info.flat_triangles + info.clockwise_triangles + info.unused_vertices, 0);
 }
 
-/* The queries lie inside the ring, and its triangles with an odd number have two edges that lie in q's way. */
+/* The queries lie inside the ring, and its triangles with an odd number have two edges that lie in
+ * q's way. */
 static void test_queries(void **state)
 {
     trap_data *trap = *state;
@@ -201,7 +205,8 @@ static void test_queries(void **state)
             corners_of(trap->mesh, t, corner);
             int beyond = 0;
             for (int k = 0; k < 3; k++)
-                beyond += location_oracle_orient(corner[k], corner[(k + 1) % 3], trap->query[i]) < 0;
+                beyond +=
+                    location_oracle_orient(corner[k], corner[(k + 1) % 3], trap->query[i]) < 0;
             if (t < RING) assert_int_equal(beyond, 1 + t % 2);
         }
 }
@@ -227,13 +232,15 @@ static void test_direct(void **state)
 }
 
 /* What the library's walks do in the trap: from each start they answer, and say how. */
-static mw_counters locate_all(const trap_data *trap, mw_walk_kind walk, mw_arithmetic arithmetic, int areas)
+static mw_counters locate_all(const trap_data *trap, mw_walk_kind walk, mw_arithmetic arithmetic,
+                              int areas)
 {
     enum { ROUNDS = 20 };
     mw_locator *locator;
     mw_cursor cursor;
     mw_locator_options how = {.areas = areas};
-    mw_query_options options = {.walk = walk, .start = MW_START_RANDOM, .arithmetic = arithmetic, .counters = 1};
+    mw_query_options options = {
+        .walk = walk, .start = MW_START_RANDOM, .arithmetic = arithmetic, .counters = 1};
     assert_int_equal(mw_locator_create(trap->mesh, &how, &locator, NULL), MW_OK);
     assert_int_equal(mw_cursor_init(locator, &options, &cursor, NULL), MW_OK);
     for (int round = 0; round < ROUNDS; round++)
@@ -250,10 +257,12 @@ static mw_counters locate_all(const trap_data *trap, mw_walk_kind walk, mw_arith
 /* From 33 of 40 triangles these walks go round; they are caught, counted and ended by another. */
 static void test_caught(void **state)
 {
-    const mw_walk_kind trapped[] = {MW_WALK_LAWSON, MW_WALK_REMEMBERING, MW_WALK_BARYCENTRIC, MW_WALK_DIRECT};
+    const mw_walk_kind trapped[] = {MW_WALK_LAWSON, MW_WALK_REMEMBERING, MW_WALK_BARYCENTRIC,
+                                    MW_WALK_DIRECT};
     for (size_t i = 0; i < sizeof trapped / sizeof *trapped; i++)
         for (int how = 0; how < 4; how++) {
-            mw_counters c = locate_all(*state, trapped[i], how & 1 ? MW_DOUBLE : MW_EXACT, how >> 1);
+            mw_counters c =
+                locate_all(*state, trapped[i], how & 1 ? MW_DOUBLE : MW_EXACT, how >> 1);
             assert_true(c.cycles > c.queries / 2);
             assert_int_equal(c.handovers, c.cycles);
         }
@@ -273,9 +282,10 @@ static void test_not_caught(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_mesh),        cmocka_unit_test(test_queries),
-                                       cmocka_unit_test(test_lawson),      cmocka_unit_test(test_remembering),
-                                       cmocka_unit_test(test_barycentric), cmocka_unit_test(test_direct),
-                                       cmocka_unit_test(test_caught),      cmocka_unit_test(test_not_caught)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_mesh),        cmocka_unit_test(test_queries),
+        cmocka_unit_test(test_lawson),      cmocka_unit_test(test_remembering),
+        cmocka_unit_test(test_barycentric), cmocka_unit_test(test_direct),
+        cmocka_unit_test(test_caught),      cmocka_unit_test(test_not_caught)};
     return cmocka_run_group_tests(tests, trap_read, trap_release);
 }

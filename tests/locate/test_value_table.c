@@ -1,4 +1,5 @@
-/* test_value_table.c - tables of values: each value has the bits that mw_interpolate gives it alone. */
+/* test_value_table.c - tables of values: each value has the bits that mw_interpolate gives it
+ * alone. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -59,7 +60,8 @@ static void case_release(table_case *c)
 }
 
 /* Value k of all vertices by itself. */
-static void case_one(const table_case *c, bool narrow, size_t stride, size_t k, double result[POINTS])
+static void case_one(const table_case *c, bool narrow, size_t stride, size_t k,
+                     double result[POINTS])
 {
     double values[VERTICES];
     for (size_t v = 0; v < VERTICES; v++)
@@ -82,13 +84,16 @@ static void test_values_are_those_of_one(void **state)
     for (size_t count = 0; count <= MOST; count++)
         for (size_t stride = 0; stride <= STRIDE; stride += STRIDE) {
             mw_value_table table = {.values = c.wide, .count = count, .stride = stride};
-            assert_int_equal(mw_interpolate_table(c.mesh, &table, c.at, POINTS, NULL, wide, &error), MW_OK);
+            assert_int_equal(mw_interpolate_table(c.mesh, &table, c.at, POINTS, NULL, wide, &error),
+                             MW_OK);
             table.values = c.narrow;
             table.type = MW_FLOAT32;
-            assert_int_equal(mw_interpolate_table(c.mesh, &table, c.at, POINTS, NULL, narrow, &error), MW_OK);
+            assert_int_equal(
+                mw_interpolate_table(c.mesh, &table, c.at, POINTS, NULL, narrow, &error), MW_OK);
             for (size_t k = 0; k < count; k++) {
                 case_one(&c, false, stride ? stride : count, k, one);
-                for (size_t i = 0; i < POINTS; i++) assert_true(same_double(one[i], wide[i * count + k]));
+                for (size_t i = 0; i < POINTS; i++)
+                    assert_true(same_double(one[i], wide[i * count + k]));
                 case_one(&c, true, stride ? stride : count, k, one);
                 for (size_t i = 0; i < POINTS; i++)
                     assert_true(same_double((double)(float)one[i], (double)narrow[i * count + k]));
@@ -97,8 +102,9 @@ static void test_values_are_those_of_one(void **state)
     case_release(&c);
 }
 
-/* Many points in a mesh whose vertices and triangles have other places in memory than their numbers: values side by side
- * and field by field, in one type and the other, by any number of threads. */
+/* Many points in a mesh whose vertices and triangles have other places in memory than their
+ * numbers: values side by side and field by field, in one type and the other, by any number of
+ * threads. */
 typedef struct large_case {
     mw_mesh *mesh;
     mw_location *at;
@@ -112,7 +118,10 @@ static large_case large_create(size_t count)
     uint64_t random = environment_seed(30);
     arrays a = arrays_grid(CELLS, 0.4, &random);
     arrays_scramble(&a, 1, &random);
-    large_case c = {.mesh = arrays_mesh(&a, (mw_mesh_options){0}), .n = N, .vertices = a.point_count, .count = count};
+    large_case c = {.mesh = arrays_mesh(&a, (mw_mesh_options){0}),
+                    .n = N,
+                    .vertices = a.point_count,
+                    .count = count};
     mw_locator *locator = mesh_locator(c.mesh, (mw_locator_options){0});
     double *q = malloc(2 * sizeof *q * N);
     c.at = malloc(N * sizeof *c.at);
@@ -126,22 +135,26 @@ static large_case large_create(size_t count)
     return c;
 }
 
-static void large_expect(const large_case *c, const mw_value_table *table, const void *result, const char *how)
+static void large_expect(const large_case *c, const mw_value_table *table, const void *result,
+                         const char *how)
 {
     for (size_t i = 0; i < c->n; i++)
         for (size_t k = 0; k < c->count; k++) {
             size_t at = table->step > 1 ? k * c->n + i : i * c->count + k;
             bool narrow = table->type == MW_FLOAT32;
-            double got = narrow ? (double)((const float *)result)[at] : ((const double *)result)[at];
+            double got =
+                narrow ? (double)((const float *)result)[at] : ((const double *)result)[at];
             double want = narrow ? (double)(float)c->one[k * c->n + i] : c->one[k * c->n + i];
-            if (!same_double(want, got)) fail_msg("%s: value %zu of point %zu is %g, not %g", how, k, i, got, want);
+            if (!same_double(want, got))
+                fail_msg("%s: value %zu of point %zu is %g, not %g", how, k, i, got, want);
         }
 }
 
 static void large_try(large_case *c, mw_value_type type)
 {
     size_t all = c->vertices * c->count, size = type == MW_FLOAT32 ? sizeof(float) : sizeof(double);
-    void *rows = malloc(all * size), *fields = malloc(all * size), *result = malloc(c->n * c->count * size);
+    void *rows = malloc(all * size), *fields = malloc(all * size),
+         *result = malloc(c->n * c->count * size);
     double *field = malloc(c->vertices * sizeof *field);
     for (size_t k = 0; k < c->count; k++) {
         for (size_t v = 0; v < c->vertices; v++) {
@@ -156,12 +169,18 @@ static void large_try(large_case *c, mw_value_type type)
         mw_interpolate(c->mesh, field, c->at, c->n, c->one + k * c->n);
     }
     const mw_value_table side_by_side = {.values = rows, .type = type, .count = c->count},
-                         by_field = {.values = fields, .type = type, .count = c->count, .step = c->vertices};
+                         by_field = {.values = fields,
+                                     .type = type,
+                                     .count = c->count,
+                                     .step = c->vertices};
     for (uint32_t threads = 1; threads < 4; threads++) {
         mw_interpolate_options options = {.threads = threads};
-        assert_int_equal(mw_interpolate_table(c->mesh, &side_by_side, c->at, c->n, &options, result, NULL), MW_OK);
+        assert_int_equal(
+            mw_interpolate_table(c->mesh, &side_by_side, c->at, c->n, &options, result, NULL),
+            MW_OK);
         large_expect(c, &side_by_side, result, "side by side");
-        assert_int_equal(mw_interpolate_table(c->mesh, &by_field, c->at, c->n, &options, result, NULL), MW_OK);
+        assert_int_equal(
+            mw_interpolate_table(c->mesh, &by_field, c->at, c->n, &options, result, NULL), MW_OK);
         large_expect(c, &by_field, result, "field by field");
     }
     free(rows);
@@ -190,19 +209,28 @@ static void test_arguments(void **state)
     table_case c = case_create();
     mw_error error;
     double result[POINTS];
-    mw_value_table good = {.values = c.wide, .count = 1}, unknown = good, tight = good, none = {.count = 1};
+    mw_value_table good = {.values = c.wide, .count = 1}, unknown = good, tight = good,
+                   none = {.count = 1};
     unknown.type = (mw_value_type)2;
     tight.count = 3;
     tight.stride = 2;
-    assert_int_equal(mw_interpolate_table(c.mesh, &good, c.at, POINTS, NULL, result, &error), MW_OK);
+    assert_int_equal(mw_interpolate_table(c.mesh, &good, c.at, POINTS, NULL, result, &error),
+                     MW_OK);
     assert_int_equal(mw_interpolate_table(c.mesh, &good, NULL, 0, NULL, NULL, &error), MW_OK);
-    assert_int_equal(mw_interpolate_table(NULL, &good, c.at, POINTS, NULL, result, &error), MW_ERROR_ARGUMENT);
-    assert_int_equal(mw_interpolate_table(c.mesh, NULL, c.at, POINTS, NULL, result, &error), MW_ERROR_ARGUMENT);
-    assert_int_equal(mw_interpolate_table(c.mesh, &good, NULL, POINTS, NULL, result, &error), MW_ERROR_ARGUMENT);
-    assert_int_equal(mw_interpolate_table(c.mesh, &good, c.at, POINTS, NULL, NULL, &error), MW_ERROR_ARGUMENT);
-    assert_int_equal(mw_interpolate_table(c.mesh, &none, c.at, POINTS, NULL, result, &error), MW_ERROR_ARGUMENT);
-    assert_int_equal(mw_interpolate_table(c.mesh, &unknown, c.at, POINTS, NULL, result, &error), MW_ERROR_ARGUMENT);
-    assert_int_equal(mw_interpolate_table(c.mesh, &tight, c.at, POINTS, NULL, result, &error), MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_interpolate_table(NULL, &good, c.at, POINTS, NULL, result, &error),
+                     MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_interpolate_table(c.mesh, NULL, c.at, POINTS, NULL, result, &error),
+                     MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_interpolate_table(c.mesh, &good, NULL, POINTS, NULL, result, &error),
+                     MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_interpolate_table(c.mesh, &good, c.at, POINTS, NULL, NULL, &error),
+                     MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_interpolate_table(c.mesh, &none, c.at, POINTS, NULL, result, &error),
+                     MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_interpolate_table(c.mesh, &unknown, c.at, POINTS, NULL, result, &error),
+                     MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_interpolate_table(c.mesh, &tight, c.at, POINTS, NULL, result, &error),
+                     MW_ERROR_ARGUMENT);
     assert_string_equal(error.message, "a stride of 2 for 3 values");
     tight.step = 8; /* values may be anywhere then */
     assert_int_equal(mw_interpolate_table(c.mesh, &tight, c.at, 1, NULL, result, &error), MW_OK);

@@ -1,5 +1,6 @@
-/* test_visibility_walks.c - what is special about the fast stochastic, forgetful, barycentric and direct walks: what they count,
- * the way they take, and that rounding leads none of them round in a cycle. */
+/* test_visibility_walks.c - what is special about the fast stochastic, forgetful, barycentric and
+ * direct walks: what they count, the way they take, and that rounding leads none of them round in
+ * a cycle. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -15,14 +16,15 @@
 #include <stdbool.h>
 #include <stdlib.h>
 
-/* A Delaunay mesh of jittered points in the square from 0 to n, its triangles in random order, begun at any corner and
- * every second one clockwise. */
+/* A Delaunay mesh of jittered points in the square from 0 to n, its triangles in random order,
+ * begun at any corner and every second one clockwise. */
 static mw_mesh *jittered(uint32_t n, uint64_t *random)
 {
     arrays a = arrays_grid(n, 0.9, random);
     mw_mesh *delaunay = mesh_delaunay(a.points, a.point_count);
     assert_int_equal(mw_mesh_triangle_count(delaunay), a.triangle_count);
-    for (uint32_t t = 0; t < a.triangle_count; t++) mw_mesh_triangle(delaunay, t, a.triangles + 3 * (size_t)t);
+    for (uint32_t t = 0; t < a.triangle_count; t++)
+        mw_mesh_triangle(delaunay, t, a.triangles + 3 * (size_t)t);
     arrays_scramble(&a, 1, random);
     mw_mesh *mesh = arrays_mesh(&a, (mw_mesh_options){0});
     mw_mesh_destroy(delaunay);
@@ -30,7 +32,8 @@ static mw_mesh *jittered(uint32_t n, uint64_t *random)
     return mesh;
 }
 
-static mw_counters count(const mw_locator *locator, mw_query_options options, const double *q, size_t n)
+static mw_counters count(const mw_locator *locator, mw_query_options options, const double *q,
+                         size_t n)
 {
     mw_location *at = malloc(n * sizeof *at);
     mw_counters counters;
@@ -40,7 +43,8 @@ static mw_counters count(const mw_locator *locator, mw_query_options options, co
     return counters;
 }
 
-/* Tests for n tiles: 3n barycentric, n + 1 direct with stored areas, 2n + 1 without. Final locations count apart. */
+/* Tests for n tiles: 3n barycentric, n + 1 direct with stored areas, 2n + 1 without. Final
+ * locations count apart. */
 static void test_tests_per_triangle(void **state)
 {
     (void)state;
@@ -76,7 +80,8 @@ static uint32_t follow(const mw_kernels *kernels, mw_walk *walk, bool exact)
     return kernels->run[exact][false](walk) == MW_VERDICT_OUT_OF_FUEL ? walk->t : MW_NONE;
 }
 
-/* The direct walk goes the way of the barycentric one, with stored areas or without, and out of the hull too. */
+/* The direct walk goes the way of the barycentric one, with stored areas or without, and out of
+ * the hull too. */
 static void test_same_way(void **state)
 {
     (void)state;
@@ -89,7 +94,8 @@ static void test_same_way(void **state)
     for (int i = 0; i < 4000; i++) {
         mw_point q = {(N + 2) * random_unit(&random) - 1, (N + 2) * random_unit(&random) - 1};
         uint32_t t = mw__random_below(&random, tiling->tri_count);
-        mw_walk barycentric = mw__walk_begin(tiling, q, t, 0, 0, NULL), direct = barycentric, stored = barycentric;
+        mw_walk barycentric = mw__walk_begin(tiling, q, t, 0, 0, NULL), direct = barycentric,
+                stored = barycentric;
         for (uint32_t next = t; next != MW_NONE; steps++) {
             next = follow(&mw__barycentric, &barycentric, i % 2);
             assert_int_equal(follow(&mw__direct, &direct, i % 2), next);
@@ -121,9 +127,11 @@ static void test_fast_saves_tests(void **state)
     double per_slow = (double)slow_tests / (double)slow.triangles_visited,
            per_fast = (double)fast_tests / (double)fast.triangles_visited;
     assert_true(per_slow > 1.2 && per_fast < 1.1);
-    assert_true(fast_tests < five.orient + five.orient_final && five.orient + five.orient_final < slow_tests);
+    assert_true(fast_tests < five.orient + five.orient_final &&
+                five.orient + five.orient_final < slow_tests);
     assert_true((double)fast.triangles_visited < 1.05 * (double)slow.triangles_visited);
-    assert_in_range(five.orient, 5 * QUERIES * 99 / 100, 5 * QUERIES); /* one test a step, but where the hull ends it */
+    /* one test a step, but where the hull ends it */
+    assert_in_range(five.orient, 5 * QUERIES * 99 / 100, 5 * QUERIES);
     assert_int_equal(fast.cycles + fast.handovers, 0);
     options.steps = 0;
     options.finish = MW_WALK_REMEMBERING;
@@ -136,8 +144,8 @@ static void test_fast_saves_tests(void **state)
     mw_mesh_destroy(mesh);
 }
 
-/* The walk without memory goes about as far as the one that remembers, and tests more; on a mesh that traps walks
- * without coins both end by themselves. */
+/* The walk without memory goes about as far as the one that remembers, and tests more; on a mesh
+ * that traps walks without coins both end by themselves. */
 static void test_forgetful(void **state)
 {
     (void)state;
@@ -168,7 +176,8 @@ static void test_forgetful(void **state)
     arrays_free(&trap);
 }
 
-/* One step, so many that the walk goes round q for long, and the estimate: the same answers, outside too. */
+/* One step, so many that the walk goes round q for long, and the estimate: the same answers,
+ * outside too. */
 static void test_any_steps_same_answers(void **state)
 {
     (void)state;
@@ -182,7 +191,8 @@ static void test_any_steps_same_answers(void **state)
     size_t n;
     double *q = arrays_queries(&a, 3, &n, &random);
     for (size_t i = 0; i < n; i++) {
-        location_answer want = location_oracle_locate(a.points, a.triangles, a.triangle_count, q + 2 * i);
+        location_answer want =
+            location_oracle_locate(a.points, a.triangles, a.triangle_count, q + 2 * i);
         for (size_t k = 0; k < sizeof steps / sizeof *steps; k++)
             for (int arithmetic = MW_EXACT; arithmetic <= MW_DOUBLE; arithmetic++) {
                 mw_query_options options = {.walk = MW_WALK_FAST_STOCHASTIC,
@@ -202,7 +212,8 @@ static void test_any_steps_same_answers(void **state)
     arrays_free(&a);
 }
 
-/* Steps come on top of the fuel, which does not overflow; the estimate is the walk's length where points are spread. */
+/* Steps come on top of the fuel, which does not overflow; the estimate is the walk's length where
+ * points are spread. */
 static void test_steps_and_fuel(void **state)
 {
     (void)state;
@@ -213,8 +224,10 @@ static void test_steps_and_fuel(void **state)
     mw_query_options options = {.walk = MW_WALK_FAST_STOCHASTIC, .start = MW_START_CENTRE};
     mw_cursor cursor;
     assert_int_equal(mw_cursor_init(locator, &options, &cursor, NULL), MW_OK);
-    mw_walk walk = mw__query_begin(locator, &cursor, cursor.last, (mw_point){N - 1, N - 1}, &random, NULL);
-    assert_true(walk.steps > 1.7 * N / 2 * sqrt(2) && walk.steps < 2.5 * N / 2 * sqrt(2)); /* 2.16 a unit of length */
+    mw_walk walk =
+        mw__query_begin(locator, &cursor, cursor.last, (mw_point){N - 1, N - 1}, &random, NULL);
+    /* 2.16 a unit of length */
+    assert_true(walk.steps > 1.7 * N / 2 * sqrt(2) && walk.steps < 2.5 * N / 2 * sqrt(2));
     assert_int_equal(walk.fuel, cursor.fuel + walk.steps);
     walk = mw__query_begin(locator, &cursor, cursor.last, (mw_point){1e308, -1e308}, &random, NULL);
     assert_int_equal(walk.steps, cursor.fuel);
@@ -225,8 +238,8 @@ static void test_steps_and_fuel(void **state)
     mw_mesh_destroy(mesh);
 }
 
-/* Round the hub of a fan of slivers every area is a difference of large numbers, and each tile passes its errors on.
- * Plain doubles go round in cycles there; exact arithmetic does not. */
+/* Round the hub of a fan of slivers every area is a difference of large numbers, and each tile
+ * passes its errors on. Plain doubles go round in cycles there; exact arithmetic does not. */
 static void test_no_cycles_by_rounding(void **state)
 {
     (void)state;
@@ -238,7 +251,8 @@ static void test_no_cycles_by_rounding(void **state)
     mw_mesh *mesh = arrays_mesh(&a, (mw_mesh_options){0});
     double q[2 * QUERIES];
     for (int i = 0; i < 2 * QUERIES; i++)
-        q[i] = a.points[i % 2] + ldexp(random_unit(&random) - 0.5, -25 - (int)mw__random_below(&random, 30));
+        q[i] = a.points[i % 2] +
+               ldexp(random_unit(&random) - 0.5, -25 - (int)mw__random_below(&random, 30));
     uint64_t cycles[2] = {0, 0};
     for (int i = 0; i < 8; i++) {
         mw_locator *locator = mesh_locator(mesh, (mw_locator_options){.areas = i & 1});
@@ -259,12 +273,14 @@ static bool parts(const mw_walk *walk, uint32_t t, uint32_t e)
 {
     const uint32_t *v = walk->tri[t].v;
     mw_point a = walk->point[v[e]], b = walk->point[v[e + 1]];
-    return location_oracle_orient((double[2]){a.x, a.y}, (double[2]){b.x, b.y}, (double[2]){walk->q.x, walk->q.y}) < 0;
+    return location_oracle_orient((double[2]){a.x, a.y}, (double[2]){b.x, b.y},
+                                  (double[2]){walk->q.x, walk->q.y}) < 0;
 }
 
-/* Walk to q from tile t in exact arithmetic: q must lie strictly beyond every edge crossed, one of the hull at last
- * included. Adds the number of edges to *crossed. */
-static void expect_sure(const mw_kernels *kernels, const mw_tiling *tiling, uint32_t t, const double q[2], int *crossed)
+/* Walk to q from tile t in exact arithmetic: q must lie strictly beyond every edge crossed, one of
+ * the hull at last included. Adds the number of edges to *crossed. */
+static void expect_sure(const mw_kernels *kernels, const mw_tiling *tiling, uint32_t t,
+                        const double q[2], int *crossed)
 {
     enum { STEPS = 300 };
     mw_walk walk = mw__walk_begin(tiling, (mw_point){q[0], q[1]}, t, 0, 0, NULL);
@@ -280,7 +296,9 @@ static void expect_sure(const mw_kernels *kernels, const mw_tiling *tiling, uint
             bool crossed_here = verdict == MW_VERDICT_OUT_OF_FUEL && link == 4 * walk.t + walk.e;
             sure |= (left || crossed_here) && parts(&walk, t, e);
         }
-        if (!sure) fail_msg("from tile %u: (%a, %a) is not beyond the edge that was crossed", t, q[0], q[1]);
+        if (!sure)
+            fail_msg("from tile %u: (%a, %a) is not beyond the edge that was crossed", t, q[0],
+                     q[1]);
         *crossed += verdict != MW_VERDICT_UNSURE;
     }
 }
@@ -309,8 +327,8 @@ static mw_mesh *needles(uint32_t n, double offset, double height, uint64_t *rand
     return mesh;
 }
 
-/* In needles an area is the small difference of large products, whatever the walks derive from it is off by their errors,
- * and the bounds on these decide. */
+/* In needles an area is the small difference of large products, whatever the walks derive from it
+ * is off by their errors, and the bounds on these decide. */
 static void test_sure_in_needles(void **state)
 {
     (void)state;
@@ -325,8 +343,8 @@ static void test_sure_in_needles(void **state)
         size_t n;
         double *q = arrays_queries(&a, 4, &n, &random);
         for (size_t k = 0; k < n; k++)
-            expect_all_sure(&locator->tiling, mw__random_below(&random, locator->tiling.tri_count), q + 2 * k,
-                            &crossed);
+            expect_all_sure(&locator->tiling, mw__random_below(&random, locator->tiling.tri_count),
+                            q + 2 * k, &crossed);
         free(q);
         mw_locator_destroy(locator);
         mw_mesh_destroy(mesh);
@@ -335,8 +353,9 @@ static void test_sure_in_needles(void **state)
     assert_true(crossed > 10000);
 }
 
-/* A stored area may be off by more than the tests in its tile. Two needles share the edge ab from a short side to the far
- * vertex b; at v, or next to it, in the second, the tests are between points close together, but the area is not. */
+/* A stored area may be off by more than the tests in its tile. Two needles share the edge ab from
+ * a short side to the far vertex b; at v, or next to it, in the second, the tests are between
+ * points close together, but the area is not. */
 static void test_sure_by_stored_areas(void **state)
 {
     (void)state;
@@ -361,7 +380,8 @@ static void test_sure_by_stored_areas(void **state)
         mw_mesh *mesh = arrays_mesh(&m, (mw_mesh_options){0});
         mw_locator *locator = mesh_locator(mesh, (mw_locator_options){.areas = 1});
         for (int k = 0; k < 4; k++) {
-            double q[2] = {nextafter(v[0], k % 2 ? b[0] : v[0]), nextafter(v[1], k / 2 ? b[1] : v[1])};
+            double q[2] = {nextafter(v[0], k % 2 ? b[0] : v[0]),
+                           nextafter(v[1], k / 2 ? b[1] : v[1])};
             expect_sure(&mw__direct_stored, &locator->tiling, 1, q, &crossed);
         }
         mw_locator_destroy(locator);
@@ -371,8 +391,9 @@ static void test_sure_by_stored_areas(void **state)
     assert_true(crossed > 10000);
 }
 
-/* Found by search: all roundings conspire, in the areas, which are off by more than what makes their signs sure, and in the
- * sums. Without a bound on the latter the walk would leave over the edge that q is (all but) on. */
+/* Found by search: all roundings conspire, in the areas, which are off by more than what makes
+ * their signs sure, and in the sums. Without a bound on the latter the walk would leave over the
+ * edge that q is (all but) on. */
 static void test_sure_in_sums(void **state)
 {
     (void)state;
@@ -401,21 +422,25 @@ static void test_sure_in_sums(void **state)
         }
 }
 
-/* Stored areas of slivers are as good as those of other triangles; beyond the doubles they are infinite. */
+/* Stored areas of slivers are as good as those of other triangles; beyond the doubles they are
+ * infinite. */
 static void test_stored_areas(void **state)
 {
     (void)state;
     uint64_t random = 7;
     for (int i = 0; i < 500; i++) {
-        double x = random_unit(&random), height = ldexp(1 + random_unit(&random), -(int)mw__random_below(&random, 50));
+        double x = random_unit(&random),
+               height = ldexp(1 + random_unit(&random), -(int)mw__random_below(&random, 50));
         double scale = ldexp(1, i % 5 ? 0 : 600), points[6] = {0, 0, 1 + x, 1 + x, x, x + height};
         for (int k = 0; k < 6; k++) points[k] = scale * points[k];
         const uint32_t corners[3] = {0, 1, 2};
-        mw_arrays view = {.points = points, .point_count = 3, .triangles = corners, .triangle_count = 1};
+        mw_arrays view = {
+            .points = points, .point_count = 3, .triangles = corners, .triangle_count = 1};
         mw_mesh *mesh;
         assert_int_equal(mw_mesh_create(&view, NULL, &mesh, NULL), MW_OK);
         mw_locator *locator = mesh_locator(mesh, (mw_locator_options){.areas = 1});
-        double want = (points[2] - points[0]) * (points[5] - points[4]); /* all but exact: x + height lies near x */
+        /* all but exact: x + height lies near x */
+        double want = (points[2] - points[0]) * (points[5] - points[4]);
         double area = locator->tiling.area[0];
         assert_true(isinf(want) ? isinf(area) : fabs(area - want) <= 0x1p-42 * want);
         mw_locator_destroy(locator);
@@ -428,21 +453,26 @@ static void test_any_mesh(void **state)
 {
     (void)state;
     enum { V = 7, T = 8 };
-    static const mw_walk_kind walks[] = {MW_WALK_FAST_STOCHASTIC, MW_WALK_BARYCENTRIC, MW_WALK_DIRECT};
+    static const mw_walk_kind walks[] = {MW_WALK_FAST_STOCHASTIC, MW_WALK_BARYCENTRIC,
+                                         MW_WALK_DIRECT};
     uint64_t random = 8;
     for (int round = 0; round < 2000; round++) {
         arrays a = arrays_make(V, T);
-        for (int i = 0; i < V; i++) arrays_point(&a, mw__random_below(&random, 3), mw__random_below(&random, 3));
+        for (int i = 0; i < V; i++)
+            arrays_point(&a, mw__random_below(&random, 3), mw__random_below(&random, 3));
         for (int i = 0; i < T; i++) {
-            uint32_t u = mw__random_below(&random, V), v = (u + 1 + mw__random_below(&random, V - 1)) % V, w = u;
+            uint32_t u = mw__random_below(&random, V),
+                     v = (u + 1 + mw__random_below(&random, V - 1)) % V, w = u;
             while (w == u || w == v) w = mw__random_below(&random, V);
             arrays_triangle(&a, u, v, w);
         }
         mw_arrays view = arrays_view(&a);
         mw_mesh *mesh;
         mw_locator *locator = NULL;
-        assert_int_equal(mw_mesh_create(&view, &(mw_mesh_options){.tolerant = 1}, &mesh, NULL), MW_OK);
-        mw_status status = mw_locator_create(mesh, &(mw_locator_options){.any = 1, .areas = round % 2}, &locator, NULL);
+        assert_int_equal(mw_mesh_create(&view, &(mw_mesh_options){.tolerant = 1}, &mesh, NULL),
+                         MW_OK);
+        mw_status status = mw_locator_create(
+            mesh, &(mw_locator_options){.any = 1, .areas = round % 2}, &locator, NULL);
         for (int i = 0; status == MW_OK && i < 12; i++) {
             mw_query_options options = {.walk = walks[i % 3],
                                         .start = MW_START_RANDOM,
@@ -455,7 +485,8 @@ static void test_any_mesh(void **state)
             mw_location at = mw_locate(locator, &cursor, q[0], q[1]);
             location_answer answer;
             if (at.triangle != MW_NONE)
-                assert_true(location_oracle_contains(a.points, a.triangles + 3 * (size_t)at.triangle, q, &answer));
+                assert_true(location_oracle_contains(
+                    a.points, a.triangles + 3 * (size_t)at.triangle, q, &answer));
         }
         mw_locator_destroy(locator);
         mw_mesh_destroy(mesh);

@@ -15,7 +15,8 @@
 /* A mesh from literals: n points, m triangles. */
 static mw_arrays literal(const double *points, size_t n, const uint32_t *triangles, size_t m)
 {
-    return (mw_arrays){.points = points, .point_count = n, .triangles = triangles, .triangle_count = m};
+    return (mw_arrays){
+        .points = points, .point_count = n, .triangles = triangles, .triangle_count = m};
 }
 
 static mw_check check_of(mw_arrays a)
@@ -40,8 +41,8 @@ static size_t count_kind(const mw_check *check, mw_defect_kind kind)
 
 #define NO_EDGE 255
 
-static mw_defect expect(mw_defect_kind kind, uint32_t triangle, uint32_t other, uint32_t vertex, uint8_t edge,
-                        uint8_t other_edge)
+static mw_defect expect(mw_defect_kind kind, uint32_t triangle, uint32_t other, uint32_t vertex,
+                        uint8_t edge, uint8_t other_edge)
 {
     return (mw_defect){kind, triangle, other, vertex, edge, other_edge};
 }
@@ -77,7 +78,8 @@ static void test_sound(void **state)
 {
     (void)state;
     const double p[] = {0, 0, 4, 0, 0, 4, 4, 4, NAN, NAN};
-    const uint32_t t[] = {0, 1, 2, 1, 2, 3}; /* mixed orientation is no defect, nor is an unused vertex that is NaN */
+    /* mixed orientation is no defect, nor is an unused vertex that is NaN */
+    const uint32_t t[] = {0, 1, 2, 1, 2, 3};
     mw_check check = check_of(literal(p, 5, t, 2));
     assert_int_equal(check.defect_count, 0);
     assert_null(check.defects);
@@ -93,9 +95,14 @@ static void test_index(void **state)
     (void)state;
     const double p[] = {0, 0, 4, 0, 0, 4, 4, 4};
     const uint32_t t[] = {0, 1, 2, 1, 3, 4};
-    assert_only(literal(p, 4, t, 2), expect(MW_DEFECT_MISSING_VERTEX, 1, MW_NONE, 4, NO_EDGE, NO_EDGE));
+    assert_only(literal(p, 4, t, 2),
+                expect(MW_DEFECT_MISSING_VERTEX, 1, MW_NONE, 4, NO_EDGE, NO_EDGE));
     const int32_t negative[] = {0, 1, 2, -1, 3, 2};
-    mw_arrays a = {.points = p, .point_count = 4, .triangles = negative, .triangle_count = 2, .integer_type = MW_INT32};
+    mw_arrays a = {.points = p,
+                   .point_count = 4,
+                   .triangles = negative,
+                   .triangle_count = 2,
+                   .integer_type = MW_INT32};
     assert_only(a, expect(MW_DEFECT_MISSING_VERTEX, 1, MW_NONE, MW_NONE, NO_EDGE, NO_EDGE));
     const int64_t large[] = {0, 1, INT64_C(1) << 32, 1, 3, 2};
     a.triangles = large;
@@ -103,7 +110,8 @@ static void test_index(void **state)
     assert_only(a, expect(MW_DEFECT_MISSING_VERTEX, 0, MW_NONE, MW_NONE, NO_EDGE, NO_EDGE));
     mw_check check = check_of(literal(NULL, 0, (const uint32_t[]){0, 8, 9}, 1));
     assert_int_equal(check.defect_count, 3);
-    assert_defect(&check.defects[2], expect(MW_DEFECT_MISSING_VERTEX, 0, MW_NONE, 9, NO_EDGE, NO_EDGE));
+    assert_defect(&check.defects[2],
+                  expect(MW_DEFECT_MISSING_VERTEX, 0, MW_NONE, 9, NO_EDGE, NO_EDGE));
     mw_check_release(&check);
 }
 
@@ -112,19 +120,24 @@ static void test_unusable(void **state)
     (void)state;
     const double p[] = {0, 0, 4, 0, 0, 4, 4, 4, NAN, 1, 1, INFINITY};
     const uint32_t nan[] = {0, 1, 2, 1, 3, 4};
-    assert_only(literal(p, 6, nan, 2), expect(MW_DEFECT_NOT_FINITE, 1, MW_NONE, 4, NO_EDGE, NO_EDGE));
+    assert_only(literal(p, 6, nan, 2),
+                expect(MW_DEFECT_NOT_FINITE, 1, MW_NONE, 4, NO_EDGE, NO_EDGE));
     const uint32_t infinite[] = {5, 1, 2, 1, 3, 2};
-    assert_only(literal(p, 6, infinite, 2), expect(MW_DEFECT_NOT_FINITE, 0, MW_NONE, 5, NO_EDGE, NO_EDGE));
+    assert_only(literal(p, 6, infinite, 2),
+                expect(MW_DEFECT_NOT_FINITE, 0, MW_NONE, 5, NO_EDGE, NO_EDGE));
     const uint32_t repeated[] = {0, 1, 2, 3, 2, 3};
-    assert_only(literal(p, 6, repeated, 2), expect(MW_DEFECT_REPEATED_VERTEX, 1, MW_NONE, 3, NO_EDGE, NO_EDGE));
+    assert_only(literal(p, 6, repeated, 2),
+                expect(MW_DEFECT_REPEATED_VERTEX, 1, MW_NONE, 3, NO_EDGE, NO_EDGE));
     const uint32_t thrice[] = {0, 1, 2, 3, 3, 3};
-    assert_only(literal(p, 6, thrice, 2), expect(MW_DEFECT_REPEATED_VERTEX, 1, MW_NONE, 3, NO_EDGE, NO_EDGE));
+    assert_only(literal(p, 6, thrice, 2),
+                expect(MW_DEFECT_REPEATED_VERTEX, 1, MW_NONE, 3, NO_EDGE, NO_EDGE));
     const uint32_t both[] = {4, 5, 4};
     mw_check check = check_of(literal(p, 6, both, 1));
     assert_int_equal(check.defect_count, 3);
     assert_defect(&check.defects[0], expect(MW_DEFECT_NOT_FINITE, 0, MW_NONE, 4, NO_EDGE, NO_EDGE));
     assert_defect(&check.defects[1], expect(MW_DEFECT_NOT_FINITE, 0, MW_NONE, 5, NO_EDGE, NO_EDGE));
-    assert_defect(&check.defects[2], expect(MW_DEFECT_REPEATED_VERTEX, 0, MW_NONE, 4, NO_EDGE, NO_EDGE));
+    assert_defect(&check.defects[2],
+                  expect(MW_DEFECT_REPEATED_VERTEX, 0, MW_NONE, 4, NO_EDGE, NO_EDGE));
     mw_check_release(&check);
 }
 
@@ -134,7 +147,8 @@ static void test_flat(void **state)
     const double p[] = {0, 0, 1, 1, 2, 2, 0, 4};
     const uint32_t t[] = {0, 1, 2, 0, 2, 3};
     assert_only(literal(p, 4, t, 2), expect(MW_DEFECT_FLAT, 0, MW_NONE, MW_NONE, NO_EDGE, NO_EDGE));
-    /* 0.1 + 0.2 is not 0.3 in doubles: a sliver with an area, though a rounded determinant calls it flat */
+    /* 0.1 + 0.2 is not 0.3 in doubles: a sliver with an area, though a rounded determinant calls
+     * it flat */
     const double sliver[] = {0, 0, 0.1, 0.1, 0.3, 0.1 + 0.2};
     const uint32_t one[] = {0, 1, 2};
     mw_check check = check_of(literal(sliver, 3, one, 1));
@@ -150,7 +164,8 @@ static void test_shared_edge(void **state)
     const double p[] = {0, 0, 4, 0, 0, 4, 0, -4, 1, 1};
     const uint32_t t[] = {0, 1, 2, 1, 0, 3, 4, 0, 1};
     mw_check check = check_of(literal(p, 5, t, 3));
-    assert_defect(&check.defects[0], expect(MW_DEFECT_NON_MANIFOLD_EDGE, 2, 0, MW_NONE, 1, NO_EDGE));
+    assert_defect(&check.defects[0],
+                  expect(MW_DEFECT_NON_MANIFOLD_EDGE, 2, 0, MW_NONE, 1, NO_EDGE));
     assert_int_equal(count_kind(&check, MW_DEFECT_NON_MANIFOLD_EDGE), 1);
     assert_int_equal(count_kind(&check, MW_DEFECT_OVERLAP), 1); /* it lies on triangle 0 */
     mw_check_release(&check);
@@ -174,7 +189,8 @@ static void test_folded(void **state)
 static void test_turn(void **state)
 {
     (void)state;
-    /* a fan that closes after two turns; every second vertex farther out, so that the rim crosses itself */
+    /* a fan that closes after two turns; every second vertex farther out, so that the rim crosses
+     * itself */
     enum { SPOKES = 10 };
     double p[2 * (SPOKES + 1)] = {0};
     uint32_t t[3 * SPOKES];
@@ -215,8 +231,8 @@ static void test_vertex_in_edge(void **state)
 static void test_crossing(void **state)
 {
     (void)state;
-    /* A triangle stuck into another's edge 2-0: two of its edges, 0 and 1, cross that one. Either both tell so, or the
-     * one that is looked at after the edge. */
+    /* A triangle stuck into another's edge 2-0: two of its edges, 0 and 1, cross that one. Either
+     * both tell so, or the one that is looked at after the edge. */
     const double p[] = {0, 0, 4, 0, 0, 4, -2, 1, 1, 1, -2, 2};
     const uint32_t t[] = {0, 1, 2, 3, 4, 5};
     mw_check check = check_of(literal(p, 6, t, 2));
@@ -243,7 +259,8 @@ static void test_piece_inside(void **state)
 static void test_crossing_hides_nothing(void **state)
 {
     (void)state;
-    const double p[] = {0, 0, 4, 0, 0, 4, -2, 1, 1, 1, -2, 2, 20, 0, 29, 0, 20, 9, 21, 1, 22, 1, 21, 2};
+    const double p[] = {0,  0, 4,  0, 0,  4, -2, 1, 1,  1, -2, 2,
+                        20, 0, 29, 0, 20, 9, 21, 1, 22, 1, 21, 2};
     const uint32_t t[] = {3, 4, 5, 0, 1, 2, 6, 7, 8, 9, 10, 11};
     mw_check check = check_of(literal(p, 12, t, 4));
     assert_int_equal(check.defect_count, 2);
@@ -273,7 +290,8 @@ static void test_same_piece_twice(void **state)
     mw_check_release(&check);
 }
 
-/* A grid of n x n, and one of its inner vertices pulled far across its neighbours: told where it is. */
+/* A grid of n x n, and one of its inner vertices pulled far across its neighbours: told where it
+ * is. */
 static void test_pulled_vertex(void **state)
 {
     (void)state;
@@ -297,11 +315,13 @@ static void test_pulled_vertex(void **state)
 static void test_all_at_once(void **state)
 {
     (void)state;
-    const double p[] = {0, 0, 4, 0, 0, 4, 10, 0, 14, 0, 10, 4, 11, 1, 12, 1, 11, 2, NAN, 0, 20, 0, 21, 0, 22, 0, 1, 1};
-    const uint32_t t[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 0, 9, 1, 2, 2, 3, 10, 11, 12, 0, 1, 99, 1, 0, 13};
+    const double p[] = {0,  0, 4,  0, 0,   4, 10, 0, 14, 0, 10, 4, 11, 1,
+                        12, 1, 11, 2, NAN, 0, 20, 0, 21, 0, 22, 0, 1,  1};
+    const uint32_t t[] = {0, 1, 2, 3,  4,  5,  6, 7, 8,  0, 9, 1,
+                          2, 2, 3, 10, 11, 12, 0, 1, 99, 1, 0, 13};
     mw_check check = check_of(literal(p, 14, t, 8));
-    /* triangle 3 with its NaN is the second at edge 0-1 of triangle 0; so triangle 7 is no fold there, but one too
-     * many */
+    /* triangle 3 with its NaN is the second at edge 0-1 of triangle 0; so triangle 7 is no fold
+     * there, but one too many */
     const mw_defect_kind kinds[] = {MW_DEFECT_MISSING_VERTEX,
                                     MW_DEFECT_NOT_FINITE,
                                     MW_DEFECT_REPEATED_VERTEX,
@@ -330,8 +350,10 @@ static void test_texts(void **state)
         mw_defect_describe(&defect, text, sizeof text);
         assert_memory_equal(text, "triangle 1234567: ", 18);
         assert_true(strlen(text) < sizeof text - 1);
-        bool alone = kind == MW_DEFECT_FLAT || kind == MW_DEFECT_OPEN_EDGE || kind == MW_DEFECT_THROUGH_CENTRE;
-        assert_true(alone || kind == MW_DEFECT_COUNT || strstr(text, "7654321") || strstr(text, "55555"));
+        bool alone = kind == MW_DEFECT_FLAT || kind == MW_DEFECT_OPEN_EDGE ||
+                     kind == MW_DEFECT_THROUGH_CENTRE;
+        assert_true(alone || kind == MW_DEFECT_COUNT || strstr(text, "7654321") ||
+                    strstr(text, "55555"));
         mw_defect_describe(&defect, little, sizeof little);
         assert_string_equal(little, "triangle");
     }
@@ -391,12 +413,14 @@ static void test_describe_square(void **state)
     assert_int_equal(info.border_loops, 1);
     assert_int_equal(info.components, 1);
     assert_true(!info.oriented && info.embedding && info.convex && !info.delaunay);
-    assert_true(info.low[0] == 0 && info.low[1] == 0 && info.high[0] == 5 && info.high[1] == 5 && info.area == 20);
+    assert_true(info.low[0] == 0 && info.low[1] == 0 && info.high[0] == 5 && info.high[1] == 5 &&
+                info.area == 20);
     info = describe(literal(p, 5, other, 2));
     assert_true(info.oriented && info.convex && info.delaunay && info.clashing_edges == 0);
 }
 
-/* A 3 x 3 grid without its middle cell, in one piece or in two that touch along coincident edges. */
+/* A 3 x 3 grid without its middle cell, in one piece or in two that touch along coincident edges.
+ * */
 static void test_describe_ring(void **state)
 {
     (void)state;
@@ -445,9 +469,11 @@ static void test_area_compensated(void **state)
     /* one large triangle and many small ones that a plain sum would lose */
     enum { N = 1000 };
     arrays a = arrays_make(3 * N + 3, N + 1);
-    arrays_triangle(&a, arrays_point(&a, -0x1p54, 0), arrays_point(&a, -0x1p53, 0), arrays_point(&a, -0x1p53, 2));
+    arrays_triangle(&a, arrays_point(&a, -0x1p54, 0), arrays_point(&a, -0x1p53, 0),
+                    arrays_point(&a, -0x1p53, 2));
     for (uint32_t i = 0; i < N; i++)
-        arrays_triangle(&a, arrays_point(&a, 2 * i, 0), arrays_point(&a, 2 * i + 1, 0), arrays_point(&a, 2 * i, 1));
+        arrays_triangle(&a, arrays_point(&a, 2 * i, 0), arrays_point(&a, 2 * i + 1, 0),
+                        arrays_point(&a, 2 * i, 1));
     mw_mesh_info info = describe(arrays_view(&a));
     assert_true(info.embedding);
     assert_true(info.area == 0x1p53 + N / 2);
@@ -460,7 +486,8 @@ static void test_area_compensated(void **state)
 typedef struct real {
     const char *name;
     bool embedding, convex, delaunay;
-    uint32_t border_edges, border_loops, components; /* as the data's own notes count them, or another program */
+    /* as the data's own notes count them, or another program */
+    uint32_t border_edges, border_loops, components;
 } real;
 
 static void check_real(const real *expected)
@@ -475,7 +502,8 @@ static void check_real(const real *expected)
     mw_arrays view = mw_mesh_file_arrays(&file);
     mw_check check = check_of(view);
     mw_mesh_info info = describe(view);
-    print_message("%s: %zu triangles, %zu defects\n", expected->name, file.triangle_count, check.defect_count);
+    print_message("%s: %zu triangles, %zu defects\n", expected->name, file.triangle_count,
+                  check.defect_count);
     assert_int_equal(check.valid, expected->embedding);
     assert_int_equal(info.embedding, expected->embedding);
     assert_int_equal(info.convex, expected->convex);
@@ -495,7 +523,8 @@ static void test_real(void **state)
         {"domain/greenland.node.gz", true, false, true, 2559, 1, 1},
         {"ocean/malpasset.node.gz", true, false, false, 1080, 1, 1},
         {"terrain/terrain.stl.gz", true, true, false, 126, 1, 1},
-        /* surfaces in space, seen from above: folded, in pieces, with holes in them, without orientation */
+        /* surfaces in space, seen from above: folded, in pieces, with holes in them, without
+         * orientation */
         {"surface/bunny_zipper.ply.gz", false, false, false, 223, 5, 1},
         {"surface/shark_holes.off.gz", false, false, false, 304, 4, 1},
         {"surface/lion_head.off.gz", false, false, false, 36, 1, 1},

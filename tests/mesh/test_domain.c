@@ -36,7 +36,8 @@ static void make_soup(mesh_maker *m)
     for (uint32_t i = 0; i < points; i++) arrays_point(&m->a, below(m, grid), below(m, grid));
     for (uint32_t i = 0; i < triangles; i++) {
         uint32_t u = below(m, points), v = below(m, points), w = below(m, points);
-        if (u == v || v == w || w == u) continue; /* repeated vertices are the subject of another test */
+        /* repeated vertices are the subject of another test */
+        if (u == v || v == w || w == u) continue;
         arrays_triangle(&m->a, u, v, w);
     }
 }
@@ -68,20 +69,24 @@ static void split_vertices(mesh_maker *m)
     }
 }
 
-/* Put `count` vertices inside an edge, in a random triangle only, as a fan from its apex. With `flat`, fill the gap
- * with flat triangles; else the triangle beyond has vertices inside its edge. */
+/* Put `count` vertices inside an edge, in a random triangle only, as a fan from its apex. With
+ * `flat`, fill the gap with flat triangles; else the triangle beyond has vertices inside its edge.
+ * */
 static void break_edge(mesh_maker *m, bool flat)
 {
     arrays *a = &m->a;
     if (a->triangle_count == 0) return;
     uint32_t t = below(m, a->triangle_count), k = below(m, 3), count = 1 + below(m, 3);
-    uint32_t *v = a->triangles + 3 * (size_t)t, from = v[k], to = v[(k + 1) % 3], apex = v[(k + 2) % 3], last = from;
+    uint32_t *v = a->triangles + 3 * (size_t)t, from = v[k], to = v[(k + 1) % 3],
+             apex = v[(k + 2) % 3], last = from;
     for (uint32_t i = 1; i <= count + 1; i++) {
         uint32_t next = to;
         if (i <= count) {
             double s = i / (count + 1.0);
-            next = arrays_point(a, rint(a->points[2 * from] + s * (a->points[2 * to] - a->points[2 * from])),
-                                rint(a->points[2 * from + 1] + s * (a->points[2 * to + 1] - a->points[2 * from + 1])));
+            next = arrays_point(
+                a, rint(a->points[2 * from] + s * (a->points[2 * to] - a->points[2 * from])),
+                rint(a->points[2 * from + 1] +
+                     s * (a->points[2 * to + 1] - a->points[2 * from + 1])));
         }
         if (i == 1) {
             v[k] = from;
@@ -114,7 +119,8 @@ static void add_copy(mesh_maker *m)
     uint32_t points = m->a.point_count, triangles = m->a.triangle_count;
     int32_t dx = ((int32_t)below(m, 7) - 3) * 6, dy = ((int32_t)below(m, 7) - 3) * 6;
     if (points > 100 || triangles > 100) return;
-    for (uint32_t i = 0; i < points; i++) arrays_point(&m->a, m->a.points[2 * i] + dx, m->a.points[2 * i + 1] + dy);
+    for (uint32_t i = 0; i < points; i++)
+        arrays_point(&m->a, m->a.points[2 * i] + dx, m->a.points[2 * i + 1] + dy);
     for (uint32_t i = 0; i < triangles; i++) {
         const uint32_t *t = m->a.triangles + 3 * (size_t)i;
         arrays_triangle(&m->a, t[0] + points, t[1] + points, t[2] + points);
@@ -144,7 +150,8 @@ static void print_mesh(uint64_t seed, const arrays *a)
     for (uint32_t i = 0; i < a->point_count; i++)
         print_message("v %u: %g %g\n", i, a->points[2 * i], a->points[2 * i + 1]);
     for (uint32_t i = 0; i < a->triangle_count; i++)
-        print_message("t %u: %u %u %u\n", i, a->triangles[3 * i], a->triangles[3 * i + 1], a->triangles[3 * i + 2]);
+        print_message("t %u: %u %u %u\n", i, a->triangles[3 * i], a->triangles[3 * i + 1],
+                      a->triangles[3 * i + 2]);
 }
 
 /* --- verdicts and tilings --- */
@@ -153,14 +160,17 @@ typedef struct counts {
     uint32_t embeddings, cut, holes, full, refused;
 } counts;
 
-static const char *fault_of_description(const mw_mesh *mesh, const mw_tiling *tiling, bool embedding)
+static const char *fault_of_description(const mw_mesh *mesh, const mw_tiling *tiling,
+                                        bool embedding)
 {
     mw_mesh_info info;
     if (mw_mesh_describe(mesh, NULL, &info, NULL) != MW_OK) return "no description";
     if (info.embedding != embedding) return "described otherwise";
-    if (!embedding) return info.holes || info.convex || info.delaunay ? "what is no embedding has holes" : NULL;
+    if (!embedding)
+        return info.holes || info.convex || info.delaunay ? "what is no embedding has holes" : NULL;
     if (info.holes != tiling->hole_count) return "described with other holes";
-    if (info.convex != (tiling->tri_count > 0 && tiling->ghost_count == 0)) return "convexity described otherwise";
+    if (info.convex != (tiling->tri_count > 0 && tiling->ghost_count == 0))
+        return "convexity described otherwise";
     if (tiling->cut && info.delaunay) return "described as Delaunay";
     return NULL;
 }
@@ -170,11 +180,13 @@ static const char *fault_of_refusal(const mw_mesh *mesh, const arrays *a)
 {
     mw_error error = {0};
     mw_tiling tiling;
-    if (mw__tiling_create(mesh, (mw_tiling_options){0}, MW_ALONE, &tiling, &error) != MW_ERROR_INPUT)
+    if (mw__tiling_create(mesh, (mw_tiling_options){0}, MW_ALONE, &tiling, &error) !=
+        MW_ERROR_INPUT)
         return "taken though it is no embedding";
     if (error.message[0] == 0 || error.triangle < 0 || error.triangle >= a->triangle_count)
         return "no place of an error";
-    if (mw__tiling_create(mesh, (mw_tiling_options){.any = true}, MW_ALONE, &tiling, &error) != MW_OK)
+    if (mw__tiling_create(mesh, (mw_tiling_options){.any = true}, MW_ALONE, &tiling, &error) !=
+        MW_OK)
         return "refused with option any";
     const char *fault = NULL;
     domain_spot c[3];
@@ -189,7 +201,8 @@ static const char *fault_of_refusal(const mw_mesh *mesh, const arrays *a)
     return fault;
 }
 
-static const char *fault_of_mesh(const mw_mesh *mesh, const arrays *a, bool embedding, counts *tally)
+static const char *fault_of_mesh(const mw_mesh *mesh, const arrays *a, bool embedding,
+                                 counts *tally)
 {
     mw_tiling tiling = {0};
     if (!embedding) {
@@ -197,7 +210,8 @@ static const char *fault_of_mesh(const mw_mesh *mesh, const arrays *a, bool embe
         const char *fault = fault_of_refusal(mesh, a);
         return fault ? fault : fault_of_description(mesh, NULL, false);
     }
-    if (mw__tiling_create(mesh, (mw_tiling_options){0}, MW_ALONE, &tiling, NULL) != MW_OK) return "no tiling";
+    if (mw__tiling_create(mesh, (mw_tiling_options){0}, MW_ALONE, &tiling, NULL) != MW_OK)
+        return "no tiling";
     tally->embeddings++;
     tally->cut += tiling.cut;
     tally->holes += tiling.hole_count;
@@ -213,15 +227,18 @@ static const char *compare(const arrays *a, counts *tally)
 {
     mw_arrays view = arrays_view(a);
     double *scaled = malloc((2 * (size_t)a->point_count + 1) * sizeof *scaled);
-    for (uint32_t i = 0; i < 2 * a->point_count; i++) scaled[i] = ldexp(a->points[i], domain_oracle_exponent);
+    for (uint32_t i = 0; i < 2 * a->point_count; i++)
+        scaled[i] = ldexp(a->points[i], domain_oracle_exponent);
     view.points = scaled;
     mw_check check;
     mw_mesh *mesh;
     bool expected = domain_oracle_is_embedding(a);
     const char *fault = mw_check_arrays(&view, NULL, &check, NULL) == MW_OK ? NULL : "check failed";
-    if (!fault && check.valid != expected) fault = expected ? "an embedding is refused" : "taken for an embedding";
+    if (!fault && check.valid != expected)
+        fault = expected ? "an embedding is refused" : "taken for an embedding";
     if (!fault) mw_check_release(&check);
-    for (mw_mesh_layout layout = MW_LAYOUT_HILBERT; layout <= MW_LAYOUT_AS_GIVEN && !fault; layout++) {
+    for (mw_mesh_layout layout = MW_LAYOUT_HILBERT; layout <= MW_LAYOUT_AS_GIVEN && !fault;
+         layout++) {
         mw_mesh_options options = {.layout = layout, .threads = 1};
         if (mw_mesh_create(&view, &options, &mesh, NULL) == MW_OK) {
             fault = fault_of_mesh(mesh, a, expected, tally);
@@ -250,8 +267,8 @@ static counts compare_all(void (*make)(mesh_maker *), uint64_t first, uint64_t c
         }
         arrays_free(&m.a);
     }
-    print_message("%u embeddings, %u of them cut, %u full; %u holes; %u refused\n", tally.embeddings, tally.cut,
-                  tally.full, tally.holes, tally.refused);
+    print_message("%u embeddings, %u of them cut, %u full; %u holes; %u refused\n",
+                  tally.embeddings, tally.cut, tally.full, tally.holes, tally.refused);
     return tally;
 }
 
@@ -260,7 +277,8 @@ static void test_small(void **state)
     (void)state;
     counts tally = compare_all(make_mesh, 1, 110000);
     if (getenv("MW_TEST_SEED")) return;
-    assert_true(tally.embeddings > 20000 && tally.cut > 1000 && tally.refused > 20000 && tally.holes > 1000);
+    assert_true(tally.embeddings > 20000 && tally.cut > 1000 && tally.refused > 20000 &&
+                tally.holes > 1000);
 }
 
 /* Coordinates so small, or so large, that products of them under- and overflow. */
@@ -282,7 +300,8 @@ static void make_large(mesh_maker *m)
     arrays grid = arrays_grid(n, 0.6, &m->random);
     m->a = arrays_make(4096, 4096);
     for (uint32_t i = 0; i < grid.point_count; i++)
-        arrays_point(&m->a, 144 * rint(1000 * grid.points[2 * i]), 144 * rint(1000 * grid.points[2 * i + 1]));
+        arrays_point(&m->a, 144 * rint(1000 * grid.points[2 * i]),
+                     144 * rint(1000 * grid.points[2 * i + 1]));
     for (uint32_t i = 0; i < grid.triangle_count; i++) {
         const uint32_t *t = grid.triangles + 3 * (size_t)i;
         arrays_triangle(&m->a, t[0], t[1], t[2]);
@@ -298,10 +317,11 @@ static void test_large(void **state)
 {
     (void)state;
     counts tally = compare_all(make_large, 2000000, 25);
-    if (!getenv("MW_TEST_SEED")) assert_true(tally.embeddings > 12 && tally.cut > 8 && tally.holes > 200);
+    if (!getenv("MW_TEST_SEED"))
+        assert_true(tally.embeddings > 12 && tally.cut > 8 && tally.holes > 200);
 }
 
-/* --- long thin triangles: the outline crosses nearly all cells, unless it is forced in with care --- */
+/* --- long thin triangles: the outline crosses nearly all cells, unless forced in with care --- */
 
 enum { SLIVERS = 20000 };
 
@@ -319,7 +339,8 @@ static void add_parallel(arrays *a)
     for (int i = 0; i < SLIVERS; i++) sliver(a, i, 0, i + 0.5, 0, i + 0.25 + SLIVERS, SLIVERS);
 }
 
-/* Half of them from left to right, above each other; small triangles in two rows above and below all of them. */
+/* Half of them from left to right, above each other; small triangles in two rows above and below
+ * all of them. */
 static void add_rails(arrays *a)
 {
     for (int i = 0; i < SLIVERS; i++) {
@@ -346,7 +367,8 @@ static mw_embedding_check embedding_check_of(const arrays *a, mw_mesh **mesh)
     return check;
 }
 
-/* Half a minute where edges are forced in in the order of the mesh: time grew as the square of the number. */
+/* Half a minute where edges are forced in in the order of the mesh: time grew as the square of the
+ * number. */
 static void test_slivers(void **state)
 {
     (void)state;
@@ -379,7 +401,8 @@ static void test_bundle(void **state)
     size_t count = check.defects.count, crossings = 0;
     for (size_t i = 0; i < count; i++) {
         const mw_defect *d = &check.defects.list[i], *next = d + 1;
-        crossings += d->kind == MW_DEFECT_CROSSING && d->triangle >= 2 && d->other >= 2 && d->triangle != d->other;
+        crossings += d->kind == MW_DEFECT_CROSSING && d->triangle >= 2 && d->other >= 2 &&
+                     d->triangle != d->other;
         bool again = i + 1 < count && next->triangle == d->triangle && next->edge == d->edge;
         assert_false(again); /* each edge tells of one crossing at most */
     }
@@ -401,7 +424,8 @@ static mw_tiling tile(const arrays *a, mw_mesh **mesh)
     mw_arrays view = arrays_view(a);
     mw_tiling tiling;
     assert_int_equal(mw_mesh_create(&view, NULL, mesh, NULL), MW_OK);
-    assert_int_equal(mw__tiling_create(*mesh, (mw_tiling_options){0}, MW_ALONE, &tiling, NULL), MW_OK);
+    assert_int_equal(mw__tiling_create(*mesh, (mw_tiling_options){0}, MW_ALONE, &tiling, NULL),
+                     MW_OK);
     return tiling;
 }
 
@@ -442,7 +466,8 @@ static void test_hole_numbers(void **state)
     uint64_t random = 3;
     arrays a = arrays_grid(7, 0, &random);
     uint32_t kept = 0;
-    for (uint32_t i = 0; i < a.triangle_count; i++) { /* holes of cells (5, 1), and (2, 3) with (2, 4) */
+    for (uint32_t i = 0; i < a.triangle_count;
+         i++) { /* holes of cells (5, 1), and (2, 3) with (2, 4) */
         uint32_t x = i / 2 % 7, y = i / 14;
         if ((x == 5 && y == 1) || (x == 2 && (y == 3 || y == 4))) continue;
         memmove(a.triangles + 3 * kept++, a.triangles + 3 * i, 3 * sizeof *a.triangles);
@@ -454,7 +479,8 @@ static void test_hole_numbers(void **state)
     assert_int_equal(tiling.ghost_count, 6);
     for (uint32_t t = 0; t < tiling.tri_count; t++) {
         const mw_triangle *tri = &tiling.tri[t];
-        double x = tiling.point[tri->v[0]].x + tiling.point[tri->v[1]].x + tiling.point[tri->v[2]].x;
+        double x =
+            tiling.point[tri->v[0]].x + tiling.point[tri->v[1]].x + tiling.point[tri->v[2]].x;
         if (tri->user & MW_GHOST) assert_int_equal(tri->user & MW_USER_MASK, x > 12 ? 0 : 1);
     }
     mw__tiling_release(&tiling);
@@ -465,9 +491,10 @@ static void test_hole_numbers(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_borrowed), cmocka_unit_test(test_nothing_to_tile), cmocka_unit_test(test_hole_numbers),
-        cmocka_unit_test(test_small),    cmocka_unit_test(test_extreme),         cmocka_unit_test(test_large),
-        cmocka_unit_test(test_slivers),  cmocka_unit_test(test_bundle),
+        cmocka_unit_test(test_borrowed),     cmocka_unit_test(test_nothing_to_tile),
+        cmocka_unit_test(test_hole_numbers), cmocka_unit_test(test_small),
+        cmocka_unit_test(test_extreme),      cmocka_unit_test(test_large),
+        cmocka_unit_test(test_slivers),      cmocka_unit_test(test_bundle),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,5 @@
-/* test_layout.c - a mesh laid out along a curve, or not, is the mesh of the arrays, for any number of threads. */
+/* test_layout.c - a mesh laid out along a curve, or not, is the mesh of the arrays, for any number
+ * of threads. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -15,7 +16,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A grid of squares, each cut in two, some taken out or turned, in random order; the mesh comes in several parts. */
+/* A grid of squares, each cut in two, some taken out or turned, in random order; the mesh comes in
+ * several parts. */
 typedef struct layout_scene {
     double *points;
     uint32_t *triangles, point_count, triangle_count;
@@ -37,7 +39,8 @@ static layout_scene make_scene(uint32_t side, uint64_t seed)
     layout_scene s = {.point_count = side * side};
     s.points = malloc(2 * (size_t)s.point_count * sizeof *s.points);
     s.triangles = malloc(6 * (size_t)s.point_count * sizeof *s.triangles);
-    uint32_t *name = malloc(s.point_count * sizeof *name), *order = malloc(2 * (size_t)s.point_count * sizeof *order);
+    uint32_t *name = malloc(s.point_count * sizeof *name),
+             *order = malloc(2 * (size_t)s.point_count * sizeof *order);
     shuffle(name, s.point_count, &random);
     for (uint32_t i = 0; i < s.point_count; i++) {
         s.points[2 * (size_t)name[i]] = i % side;
@@ -46,12 +49,14 @@ static layout_scene make_scene(uint32_t side, uint64_t seed)
     uint32_t squares = (side - 1) * (side - 1);
     shuffle(order, 2 * squares, &random);
     for (uint32_t i = 0; i < 2 * squares; i++) {
-        uint32_t at = order[i] / 2, low = at / (side - 1) * side + at % (side - 1), odd = order[i] % 2;
+        uint32_t at = order[i] / 2, low = at / (side - 1) * side + at % (side - 1),
+                 odd = order[i] % 2;
         if (mw__random_below(&random, 10) == 0) continue;
         uint32_t v[3] = {low, odd ? low + side + 1 : low + 1, odd ? low + side : low + side + 1};
         uint32_t turn = mw__random_below(&random, 6);
         for (uint32_t k = 0; k < 3; k++)
-            s.triangles[3 * (size_t)s.triangle_count + k] = name[v[turn < 3 ? (k + turn) % 3 : (5 + turn - k) % 3]];
+            s.triangles[3 * (size_t)s.triangle_count + k] =
+                name[v[turn < 3 ? (k + turn) % 3 : (5 + turn - k) % 3]];
         s.triangle_count++;
     }
     free(name);
@@ -65,13 +70,15 @@ static void release(layout_scene *s)
     free(s->triangles);
 }
 
-static mw_status create(const layout_scene *s, mw_mesh_layout layout, uint32_t threads, mw_mesh **mesh, mw_error *error)
+static mw_status create(const layout_scene *s, mw_mesh_layout layout, uint32_t threads,
+                        mw_mesh **mesh, mw_error *error)
 {
     mw_arrays view = {.points = s->points,
                       .point_count = s->point_count,
                       .triangles = s->triangles,
                       .triangle_count = s->triangle_count};
-    return mw_mesh_create(&view, &(mw_mesh_options){.layout = layout, .threads = threads}, mesh, error);
+    return mw_mesh_create(&view, &(mw_mesh_options){.layout = layout, .threads = threads}, mesh,
+                          error);
 }
 
 static void expect_same(const mw_mesh *a, const mw_mesh *b)
@@ -173,7 +180,8 @@ static void test_folded_threads(void **state)
     for (uint32_t share = 1; share <= 1000; share *= 10) {
         layout_scene s = make_scene(120, share);
         for (uint32_t i = 0; i < s.point_count; i++)
-            if (mw__random_below(&random, share) == 0) s.points[2 * (size_t)i] = mw__random_below(&random, 120);
+            if (mw__random_below(&random, share) == 0)
+                s.points[2 * (size_t)i] = mw__random_below(&random, 120);
         expect_same_linked(&s);
         release(&s);
     }
@@ -223,16 +231,19 @@ static void test_views(void **state)
         if (wide) view.triangles = triangles;
         if (wide) view.integer_type = MW_INT64;
         assert_int_equal(
-            mw_mesh_create(&view, &(mw_mesh_options){.layout = MW_LAYOUT_HILBERT, .threads = 2}, &laid, NULL), MW_OK);
+            mw_mesh_create(&view, &(mw_mesh_options){.layout = MW_LAYOUT_HILBERT, .threads = 2},
+                           &laid, NULL),
+            MW_OK);
         expect_same(kept, laid);
         mw_mesh_destroy(laid);
     }
     mw_error error;
     triangles[3 * 777 + 1] = -1;
     triangles[3 * 888] = INT64_C(1) << 40;
-    assert_int_equal(
-        mw_mesh_create(&view, &(mw_mesh_options){.layout = MW_LAYOUT_HILBERT, .threads = 2}, &laid, &error),
-        MW_ERROR_INPUT);
+    assert_int_equal(mw_mesh_create(&view,
+                                    &(mw_mesh_options){.layout = MW_LAYOUT_HILBERT, .threads = 2},
+                                    &laid, &error),
+                     MW_ERROR_INPUT);
     assert_int_equal(error.triangle, 777);
     mw_mesh_destroy(kept);
     free(points);
@@ -262,11 +273,14 @@ static void test_refused(void **state)
     for (int i = 0; i < 20; i++) {
         layout_scene s = make_scene(100, (uint64_t)i);
         for (int n = 0; n < 3; n++) {
-            uint32_t t = mw__random_below(&random, s.triangle_count), *v = s.triangles + 3 * (size_t)t;
-            if (i % 4 == 0) v[mw__random_below(&random, 3)] = s.point_count + mw__random_below(&random, 5);
+            uint32_t t = mw__random_below(&random, s.triangle_count),
+                     *v = s.triangles + 3 * (size_t)t;
+            if (i % 4 == 0)
+                v[mw__random_below(&random, 3)] = s.point_count + mw__random_below(&random, 5);
             if (i % 4 == 1) v[1] = v[2];
             if (i % 4 == 2) s.points[2 * (size_t)v[0]] = NAN;
-            if (i % 4 == 3) memcpy(v, s.triangles + 3 * (size_t)((t + 1) % s.triangle_count), 3 * sizeof *v);
+            if (i % 4 == 3)
+                memcpy(v, s.triangles + 3 * (size_t)((t + 1) % s.triangle_count), 3 * sizeof *v);
         }
         if (i % 4 == 3) { /* three at each of its edges */
             memcpy(s.triangles, s.triangles + 3 * 500, 3 * sizeof *s.triangles);
@@ -303,7 +317,8 @@ static void test_hub(void **state)
     release(&s);
 }
 
-/* Crowds within crowds: each is in order along a curve of its own, so that points next in order are close. */
+/* Crowds within crowds: each is in order along a curve of its own, so that points next in order
+ * are close. */
 static void test_curve(void **state)
 {
     (void)state;
@@ -325,7 +340,8 @@ static void test_curve(void **state)
     for (uint32_t i = 0; i < N; i++) {
         assert_int_equal(seen[order[i]]++, 0);
         mw_point a = p[order[i]], b = p[order[i ? i - 1 : 0]];
-        bool both = mw__is_finite(a) && mw__is_finite(b) && fmax(fmax(a.x, a.y), fmax(b.x, b.y)) < 1e-8;
+        bool both =
+            mw__is_finite(a) && mw__is_finite(b) && fmax(fmax(a.x, a.y), fmax(b.x, b.y)) < 1e-8;
         if (both) way += hypot(a.x - b.x, a.y - b.y) / 1e-9;
     }
     assert_true(way < 2 * sqrt(N / 2)); /* a random order: half of N */

@@ -34,7 +34,8 @@ static void damage_begin(damage *d, uint32_t n)
     if (damage_below(d, 3) > 0) arrays_punch(&grid, random_unit(&d->random) * 0.6, &d->random);
     d->sound = grid;
     d->a = arrays_make(4096, 8192);
-    for (uint32_t i = 0; i < grid.point_count; i++) arrays_point(&d->a, grid.points[2 * i], grid.points[2 * i + 1]);
+    for (uint32_t i = 0; i < grid.point_count; i++)
+        arrays_point(&d->a, grid.points[2 * i], grid.points[2 * i + 1]);
     for (uint32_t i = 0; i < grid.triangle_count; i++) {
         const uint32_t *v = grid.triangles + 3 * (size_t)i;
         arrays_triangle(&d->a, v[0], v[1], v[2]);
@@ -57,9 +58,11 @@ static void damage_break_edge(damage *d, uint32_t t, bool flat)
     uint32_t from = v[k], to = v[(k + 1) % 3], apex = v[(k + 2) % 3], last = from;
     for (uint32_t i = 1; i <= count + 1; i++) {
         double s = i / (count + 1.0);
-        uint32_t next = i > count ? to
-                                  : arrays_point(a, rint((1 - s) * a->points[2 * from] + s * a->points[2 * to]),
-                                                 rint((1 - s) * a->points[2 * from + 1] + s * a->points[2 * to + 1]));
+        uint32_t next =
+            i > count
+                ? to
+                : arrays_point(a, rint((1 - s) * a->points[2 * from] + s * a->points[2 * to]),
+                               rint((1 - s) * a->points[2 * from + 1] + s * a->points[2 * to + 1]));
         if (i == 1) {
             const uint32_t first[3] = {from, next, apex};
             memcpy(a->triangles + 3 * (size_t)t, first, sizeof first);
@@ -140,7 +143,8 @@ static bool holds_point(const arrays *a, uint32_t t, const double q[2])
     const uint32_t *v = a->triangles + 3 * (size_t)t;
     double s[3], area = turn(a, a->triangles, t);
     if (area == 0) return false;
-    for (int k = 0; k < 3; k++) s[k] = mw_orient2d(a->points + 2 * v[k], a->points + 2 * v[(k + 1) % 3], q);
+    for (int k = 0; k < 3; k++)
+        s[k] = mw_orient2d(a->points + 2 * v[k], a->points + 2 * v[(k + 1) % 3], q);
     return area > 0 ? s[0] >= 0 && s[1] >= 0 && s[2] >= 0 : s[0] <= 0 && s[1] <= 0 && s[2] <= 0;
 }
 
@@ -161,13 +165,16 @@ static double area_of(const arrays *a)
 /* The maps fit each other, and each part lies in its triangle. */
 static void expect_maps(const arrays *a, const arrays *out, const mw_mended *m)
 {
-    for (size_t i = 0; i < m->vertex_count; i++) assert_int_equal(m->vertex_to[m->vertex_from[i]], i);
-    for (size_t i = 1; i < m->vertex_count; i++) assert_true(m->vertex_from[i - 1] < m->vertex_from[i]);
+    for (size_t i = 0; i < m->vertex_count; i++)
+        assert_int_equal(m->vertex_to[m->vertex_from[i]], i);
+    for (size_t i = 1; i < m->vertex_count; i++)
+        assert_true(m->vertex_from[i - 1] < m->vertex_from[i]);
     for (uint32_t v = 0; v < a->point_count; v++) assert_true(m->vertex_to[v] < m->vertex_count);
     for (size_t t = 0; t < m->triangle_count; t++) {
         assert_true(t == 0 || m->triangle_from[t - 1] <= m->triangle_from[t]);
         for (int k = 0; k < 3; k++)
-            assert_true(holds_point(a, m->triangle_from[t], out->points + 2 * m->triangles[3 * t + (size_t)k]));
+            assert_true(holds_point(a, m->triangle_from[t],
+                                    out->points + 2 * m->triangles[3 * t + (size_t)k]));
     }
 }
 
@@ -176,7 +183,8 @@ static void expect_unchanged(const arrays *out, mw_mend_options options)
     mw_mended again = mend(out, options);
     assert_int_equal(again.change_count, 0);
     assert_int_equal(again.triangle_count, out->triangle_count);
-    assert_memory_equal(again.triangles, out->triangles, 3 * out->triangle_count * sizeof *out->triangles);
+    assert_memory_equal(again.triangles, out->triangles,
+                        3 * out->triangle_count * sizeof *out->triangles);
     mw_mended_release(&again);
 }
 
@@ -197,9 +205,11 @@ static void test_damaged_embeddings(void **state)
         expect_maps(&d.a, &out, &m);
         if (!domain_oracle_is_embedding(&out)) fail_msg("seed %u: no embedding", (unsigned)seed);
         assert_true(area_of(&out) == area_of(&d.sound));
-        for (uint32_t t = 0; t < out.triangle_count; t++) assert_true(turn(&out, out.triangles, t) > 0);
+        for (uint32_t t = 0; t < out.triangle_count; t++)
+            assert_true(turn(&out, out.triangles, t) > 0);
         for (int i = 0; i < 30; i++) {
-            const double q[2] = {-14 + 65 * random_unit(&d.random), 22 + 65 * random_unit(&d.random)};
+            const double q[2] = {-14 + 65 * random_unit(&d.random),
+                                 22 + 65 * random_unit(&d.random)};
             assert_int_equal(count_holders(&out, q) > 0, count_holders(&d.sound, q) > 0);
         }
         expect_unchanged(&out, (mw_mend_options){0});
@@ -216,22 +226,28 @@ static void test_soups(void **state)
 {
     (void)state;
     for (uint64_t seed = 1; seed <= 1500; seed++) {
-        damage d = {.a = arrays_make(64, 64), .sound = arrays_make(1, 1), .random = mw__random_seed(seed, 7)};
-        uint32_t grid = 2 + damage_below(&d, 5), points = 3 + damage_below(&d, 9), n = 1 + damage_below(&d, 12);
-        for (uint32_t i = 0; i < points; i++) arrays_point(&d.a, damage_below(&d, grid), damage_below(&d, grid));
+        damage d = {.a = arrays_make(64, 64),
+                    .sound = arrays_make(1, 1),
+                    .random = mw__random_seed(seed, 7)};
+        uint32_t grid = 2 + damage_below(&d, 5), points = 3 + damage_below(&d, 9),
+                 n = 1 + damage_below(&d, 12);
+        for (uint32_t i = 0; i < points; i++)
+            arrays_point(&d.a, damage_below(&d, grid), damage_below(&d, grid));
         for (uint32_t i = 0; i < n; i++)
-            arrays_triangle(&d.a, damage_below(&d, points), damage_below(&d, points), damage_below(&d, points));
+            arrays_triangle(&d.a, damage_below(&d, points), damage_below(&d, points),
+                            damage_below(&d, points));
         mw_mend_options options = {.repairs = damage_below(&d, 16)};
         mw_mended m = mend(&d.a, options);
         arrays out = mended_arrays(&d.a, &m);
         uint32_t asked = options.repairs ? options.repairs : (uint32_t)MW_REPAIR_ALL;
-        static const uint32_t needs[MW_MEND_CHANGE_COUNT] = {MW_REPAIR_WELD,  MW_REPAIR_DROP,  MW_REPAIR_DROP,
-                                                             MW_REPAIR_DROP,  MW_REPAIR_DROP,  MW_REPAIR_DROP,
-                                                             MW_REPAIR_SPLIT, MW_REPAIR_ORIENT};
+        static const uint32_t needs[MW_MEND_CHANGE_COUNT] = {
+            MW_REPAIR_WELD, MW_REPAIR_DROP, MW_REPAIR_DROP,  MW_REPAIR_DROP,
+            MW_REPAIR_DROP, MW_REPAIR_DROP, MW_REPAIR_SPLIT, MW_REPAIR_ORIENT};
         for (size_t i = 0; i < m.change_count; i++) assert_true(asked & needs[m.changes[i].kind]);
         for (int i = 0; i < 30; i++) {
             const double q[2] = {grid * random_unit(&d.random), grid * random_unit(&d.random)};
-            if ((count_holders(&out, q) > 0) != (count_holders(&d.a, q) > 0)) fail_msg("seed %u", (unsigned)seed);
+            if ((count_holders(&out, q) > 0) != (count_holders(&d.a, q) > 0))
+                fail_msg("seed %u", (unsigned)seed);
         }
         expect_unchanged(&out, options);
         arrays_free(&out);
@@ -279,16 +295,19 @@ static void test_all_sides_are_split(void **state)
     for (uint32_t sides = 1; sides < 8; sides++)
         for (uint32_t n = 1; n < 7; n++) {
             arrays a = arrays_make(64, 64);
-            const double corner[3][2] = {{0, 0}, {60, 0}, {0, 60}}, apex[3][2] = {{30, -90}, {90, 90}, {-90, 30}};
+            const double corner[3][2] = {{0, 0}, {60, 0}, {0, 60}},
+                         apex[3][2] = {{30, -90}, {90, 90}, {-90, 30}};
             uint32_t first = 0;
             for (int k = 0; k < 3; k++) arrays_point(&a, corner[k][0], corner[k][1]);
             arrays_triangle(&a, 0, 1, 2);
             for (uint32_t k = 0; k < 3; k++) {
                 const double *p = corner[k], *q = corner[(k + 1) % 3];
-                uint32_t tip = arrays_point(&a, apex[k][0], apex[k][1]), count = sides >> k & 1 ? n : 0, last = k;
+                uint32_t tip = arrays_point(&a, apex[k][0], apex[k][1]),
+                         count = sides >> k & 1 ? n : 0, last = k;
                 for (uint32_t i = 1; i <= count; i++, last = first) {
                     double s = i / (count + 1.0);
-                    first = arrays_point(&a, rint(p[0] + s * (q[0] - p[0])), rint(p[1] + s * (q[1] - p[1])));
+                    first = arrays_point(&a, rint(p[0] + s * (q[0] - p[0])),
+                                         rint(p[1] + s * (q[1] - p[1])));
                     arrays_triangle(&a, last, tip, first);
                 }
                 arrays_triangle(&a, last, tip, (k + 1) % 3);
@@ -317,7 +336,8 @@ static void test_tolerance(void **state)
         damage_begin(&d, 4);
         for (uint32_t t = 0; t < d.sound.triangle_count; t += 3) damage_break_edge(&d, t, false);
         damage_tear(&d, 0.5);
-        for (uint32_t i = 0; i < 2 * d.a.point_count; i++) d.a.points[i] += 1e-7 * random_unit(&d.random);
+        for (uint32_t i = 0; i < 2 * d.a.point_count; i++)
+            d.a.points[i] += 1e-7 * random_unit(&d.random);
         mw_mended m = mend(&d.a, (mw_mend_options){.tolerance = 1e-6});
         arrays out = mended_arrays(&d.a, &m);
         mw_arrays view = arrays_view(&out);
@@ -348,7 +368,8 @@ static void test_chains_do_not_collapse(void **state)
 
 /* --- in space --- */
 
-static void expect_surface(const mw_arrays *view, const mw_mended *m, uint32_t triangles, bool closed)
+static void expect_surface(const mw_arrays *view, const mw_mended *m, uint32_t triangles,
+                           bool closed)
 {
     double *points = malloc((3 * m->vertex_count + 1) * sizeof *points);
     for (size_t i = 0; i < m->vertex_count; i++)
@@ -378,14 +399,16 @@ static void test_space(void **state)
         star_shape ball = star_shape_octahedron(3);
         uint32_t triangles = ball.triangles, flats = 0;
         for (int i = 0; i < 20; i++)
-            flats += star_shape_add_flat(&ball, mw__random_below(&random, triangles), mw__random_below(&random, 3));
+            flats += star_shape_add_flat(&ball, mw__random_below(&random, triangles),
+                                         mw__random_below(&random, 3));
         /* the middle of an edge stays a vertex: each of the two triangles there becomes two */
         star_shape_shuffle(&ball, &random);
         star_shape_tear(&ball);
         mw_arrays view = star_shape_arrays(&ball);
         mw_mended m;
         mw_error error;
-        expect_ok(mw_mend_arrays(&view, &(mw_mend_options){.space = 1}, &m, &error), "mending", &error);
+        expect_ok(mw_mend_arrays(&view, &(mw_mend_options){.space = 1}, &m, &error), "mending",
+                  &error);
         expect_surface(&view, &m, triangles + 2 * flats, true);
         mw_mended_release(&m);
         star_shape_free(&ball);
@@ -407,8 +430,11 @@ static void test_moebius(void **state)
         uint32_t a = 2 * i, b = a + 1, c = i < 7 ? a + 2 : 1, d = i < 7 ? a + 3 : 0;
         memcpy(triangles + 6 * i, (uint32_t[]){a, b, c, b, d, c}, 6 * sizeof *triangles);
     }
-    mw_arrays view = {
-        .points = points, .point_count = 16, .point_stride = 3, .triangles = triangles, .triangle_count = 16};
+    mw_arrays view = {.points = points,
+                      .point_count = 16,
+                      .point_stride = 3,
+                      .triangles = triangles,
+                      .triangle_count = 16};
     mw_mended m;
     mw_check check;
     assert_int_equal(mw_mend_arrays(&view, &(mw_mend_options){.space = 1}, &m, NULL), MW_OK);
@@ -427,12 +453,14 @@ static void test_refusals(void **state)
     (void)state;
     const double points[] = {0, 0, 1, 0, 0, 1};
     const uint32_t triangles[] = {0, 1, 2, 0, 1, 3};
-    mw_arrays view = {.points = points, .point_count = 3, .triangles = triangles, .triangle_count = 2};
+    mw_arrays view = {
+        .points = points, .point_count = 3, .triangles = triangles, .triangle_count = 2};
     mw_error error;
     mw_mended m;
     assert_int_equal(mw_mend_arrays(&view, NULL, NULL, &error), MW_ERROR_ARGUMENT);
     assert_int_equal(mw_mend_arrays(NULL, NULL, &m, &error), MW_ERROR_ARGUMENT);
-    const mw_mend_options wrong[] = {{.repairs = 16},         {.space = 2},     {.tolerance = -1}, {.tolerance = NAN},
+    const mw_mend_options wrong[] = {{.repairs = 16},         {.space = 2},
+                                     {.tolerance = -1},       {.tolerance = NAN},
                                      {.tolerance = INFINITY}, {.reserved = {1}}};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         assert_int_equal(mw_mend_arrays(&view, &wrong[i], &m, &error), MW_ERROR_ARGUMENT);

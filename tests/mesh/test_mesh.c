@@ -1,4 +1,5 @@
-/* test_mesh.c - meshes from arrays: every type of index, defects by name, neighbours, fields, orders. */
+/* test_mesh.c - meshes from arrays: every type of index, defects by name, neighbours, fields,
+ * orders. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -14,11 +15,14 @@
 
 static const double square[] = {0, 0, 1, 0, 1, 1, 0, 1};
 
-static mw_status create(const double *points, size_t n, const void *triangles, size_t count, mw_integer_type type,
-                        int tolerant, mw_mesh **mesh, mw_error *error)
+static mw_status create(const double *points, size_t n, const void *triangles, size_t count,
+                        mw_integer_type type, int tolerant, mw_mesh **mesh, mw_error *error)
 {
-    mw_arrays view = {
-        .points = points, .point_count = n, .triangles = triangles, .triangle_count = count, .integer_type = type};
+    mw_arrays view = {.points = points,
+                      .point_count = n,
+                      .triangles = triangles,
+                      .triangle_count = count,
+                      .integer_type = type};
     mw_mesh_options options = {.tolerant = tolerant};
     return mw_mesh_create(&view, &options, mesh, error);
 }
@@ -53,7 +57,8 @@ static void test_index_types(void **state)
     const void *all[] = {u32, i32, i64};
     for (int type = MW_UINT32; type <= MW_INT64; type++) {
         mw_mesh *mesh;
-        assert_int_equal(create(square, 4, all[type], 2, (mw_integer_type)type, 0, &mesh, NULL), MW_OK);
+        assert_int_equal(create(square, 4, all[type], 2, (mw_integer_type)type, 0, &mesh, NULL),
+                         MW_OK);
         expect_square(mesh);
         mw_mesh_destroy(mesh);
     }
@@ -64,7 +69,8 @@ static void test_stride(void **state)
     (void)state;
     const double xyz[] = {0, 0, 7, 1, 0, 7, 1, 1, 7, 0, 1, 7};
     const uint32_t t[] = {0, 1, 2, 0, 3, 2};
-    mw_arrays view = {.points = xyz, .point_count = 4, .point_stride = 3, .triangles = t, .triangle_count = 2};
+    mw_arrays view = {
+        .points = xyz, .point_count = 4, .point_stride = 3, .triangles = t, .triangle_count = 2};
     mw_mesh *mesh;
     assert_int_equal(mw_mesh_create(&view, NULL, &mesh, NULL), MW_OK);
     expect_square(mesh);
@@ -74,8 +80,8 @@ static void test_stride(void **state)
     assert_null(mesh);
 }
 
-static void expect_refused(const double *points, size_t n, const int64_t *t, size_t count, int64_t triangle,
-                           int64_t vertex)
+static void expect_refused(const double *points, size_t n, const int64_t *t, size_t count,
+                           int64_t triangle, int64_t vertex)
 {
     mw_mesh *mesh;
     mw_error error;
@@ -102,7 +108,8 @@ static void test_defects_are_named(void **state)
     expect_refused(odd, 6, (const int64_t[]){0, 1, 3, 1, 0, 4, 1, 0, 3}, 3, 2, 0);
     /* a vertex that is not finite, but in no triangle, does not matter */
     mw_mesh *mesh;
-    assert_int_equal(create(odd, 6, (const int64_t[]){0, 1, 3}, 1, MW_INT64, 0, &mesh, NULL), MW_OK);
+    assert_int_equal(create(odd, 6, (const int64_t[]){0, 1, 3}, 1, MW_INT64, 0, &mesh, NULL),
+                     MW_OK);
     mw_mesh_destroy(mesh);
 }
 
@@ -113,11 +120,14 @@ static void test_tolerant(void **state)
     const int64_t t[] = {0, 1, 3, 1, 0, 4, 1, 0, 3, 0, 1, 2, 3, 3, 1};
     mw_mesh *mesh;
     assert_int_equal(create(odd, 5, t, 5, MW_INT64, 1, &mesh, NULL), MW_OK);
-    assert_int_equal(mw_mesh_neighbour(mesh, 0, 0, NULL), 1);       /* the first two share edge 0 1 */
-    assert_int_equal(mw_mesh_neighbour(mesh, 2, 0, NULL), MW_NONE); /* the third is not linked there */
+    /* the first two share edge 0 1 */
+    assert_int_equal(mw_mesh_neighbour(mesh, 0, 0, NULL), 1);
+    /* the third is not linked there */
+    assert_int_equal(mw_mesh_neighbour(mesh, 2, 0, NULL), MW_NONE);
     for (unsigned k = 0; k < 3; k++) assert_int_equal(mw_mesh_neighbour(mesh, 4, k, NULL), MW_NONE);
     mw_mesh_destroy(mesh);
-    assert_int_equal(create(odd, 5, (const int64_t[]){0, 1, 9}, 1, MW_INT64, 1, &mesh, NULL), MW_ERROR_INPUT);
+    assert_int_equal(create(odd, 5, (const int64_t[]){0, 1, 9}, 1, MW_INT64, 1, &mesh, NULL),
+                     MW_ERROR_INPUT);
 }
 
 static void test_arguments(void **state)
@@ -130,8 +140,10 @@ static void test_arguments(void **state)
     assert_int_equal(mw_mesh_create(&view, NULL, NULL, NULL), MW_ERROR_ARGUMENT);
     view = (mw_arrays){.points = square, .point_count = (size_t)1 << 33};
     assert_int_equal(mw_mesh_create(&view, NULL, &mesh, NULL), MW_ERROR_LIMIT);
-    view =
-        (mw_arrays){.points = square, .point_count = 4, .triangles = square, .triangle_count = ((size_t)1 << 30) + 1};
+    view = (mw_arrays){.points = square,
+                       .point_count = 4,
+                       .triangles = square,
+                       .triangle_count = ((size_t)1 << 30) + 1};
     assert_int_equal(mw_mesh_create(&view, NULL, &mesh, NULL), MW_ERROR_LIMIT);
     view = (mw_arrays){0};
     assert_int_equal(mw_mesh_create(&view, NULL, &mesh, NULL), MW_OK); /* an empty mesh is a mesh */
@@ -140,7 +152,8 @@ static void test_arguments(void **state)
     mw_mesh_destroy(NULL);
 }
 
-/* The neighbour's neighbour over the same edge is the triangle itself, and they share that edge's ends. */
+/* The neighbour's neighbour over the same edge is the triangle itself, and they share that edge's
+ * ends. */
 static void test_links(void **state)
 {
     (void)state;
@@ -159,7 +172,8 @@ static void test_links(void **state)
                 if (other == MW_NONE) continue;
                 assert_int_equal(mw_mesh_neighbour(mesh, other, edge, &back), t);
                 assert_int_equal(back, k);
-                const uint32_t *u = a.triangles + 3 * (size_t)t, *v = a.triangles + 3 * (size_t)other;
+                const uint32_t *u = a.triangles + 3 * (size_t)t,
+                               *v = a.triangles + 3 * (size_t)other;
                 uint32_t u0 = u[k], u1 = u[(k + 1) % 3], v0 = v[edge], v1 = v[(edge + 1) % 3];
                 assert_true((u0 == v0 && u1 == v1) || (u0 == v1 && u1 == v0));
             }
@@ -172,7 +186,9 @@ static void test_fields(void **state)
 {
     (void)state;
     mw_mesh *mesh;
-    assert_int_equal(create(square, 4, (const uint32_t[]){0, 1, 2, 0, 3, 2}, 2, MW_UINT32, 0, &mesh, NULL), MW_OK);
+    assert_int_equal(
+        create(square, 4, (const uint32_t[]){0, 1, 2, 0, 3, 2}, 2, MW_UINT32, 0, &mesh, NULL),
+        MW_OK);
     const double pairs[] = {1, 10, 2, 20, 3, 30, 4, 40};
     assert_null(mw_mesh_field(mesh, "z"));
     assert_int_equal(mw_mesh_set_field(mesh, "z", pairs, 2, NULL), MW_OK);
@@ -210,7 +226,8 @@ static void test_hilbert_order(void **state)
         jump += hypot(p[0] - o[0], p[1] - o[1]);
     }
     assert_true(jump / a.triangle_count < 2); /* in random order: about 21 */
-    for (uint32_t i = 0; i < a.point_count; i++) assert_int_equal(seen[a.triangle_count + vertices[i]]++, 0);
+    for (uint32_t i = 0; i < a.point_count; i++)
+        assert_int_equal(seen[a.triangle_count + vertices[i]]++, 0);
     assert_int_equal(vertices[a.point_count - 1], a.point_count - 1);
     free(seen);
     free(triangles);

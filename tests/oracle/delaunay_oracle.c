@@ -29,7 +29,9 @@ static void find_equal_points(const mw_point *points, uint32_t n, uint32_t *firs
     sorted_points = points;
     qsort(order, n, sizeof *order, by_place);
     for (uint32_t i = 0, from = 0; i < n; i++) {
-        if (points[order[i]].x != points[order[from]].x || points[order[i]].y != points[order[from]].y) from = i;
+        if (points[order[i]].x != points[order[from]].x ||
+            points[order[i]].y != points[order[from]].y)
+            from = i;
         first[order[i]] = order[from];
     }
     free(order);
@@ -99,7 +101,8 @@ static int points_up(mw_point a, mw_point b)
 static void check_hull(const mw_mesh *mesh, uint32_t border)
 {
     const mw_point *p = mesh->point;
-    uint32_t *after = malloc(mesh->point_count * sizeof *after), first = MW_NONE, length = 0, half_turns = 0;
+    uint32_t *after = malloc(mesh->point_count * sizeof *after), first = MW_NONE, length = 0,
+             half_turns = 0;
     memset(after, 255, mesh->point_count * sizeof *after);
     for (uint32_t t = 0; t < mesh->tri_count; t++)
         for (int k = 0; k < 3; k++) {
@@ -116,7 +119,8 @@ static void check_hull(const mw_mesh *mesh, uint32_t border)
         assert_true(mw__orient2d(p[a], p[b], p[after[b]]) >= 0);
         half_turns += points_up(p[a], p[b]) != points_up(p[b], p[after[b]]);
         if ((uint64_t)border * mesh->point_count < 2000000)
-            for (uint32_t i = 0; i < mesh->point_count; i++) assert_true(mw__orient2d(p[a], p[b], p[i]) >= 0);
+            for (uint32_t i = 0; i < mesh->point_count; i++)
+                assert_true(mw__orient2d(p[a], p[b], p[i]) >= 0);
         a = b;
         length++;
     } while (a != first);

@@ -73,7 +73,9 @@ static bool has_vertex_in_edge(const arrays *a, const domain_spot b[3], const do
 {
     for (int k = 0; k < 3; k++)
         for (int l = 0; l < 3; l++)
-            if (strictly_inside(b[k], b[(k + 1) % 3], c[l]) && !is_flat_edge(a, b[k], b[(k + 1) % 3])) return true;
+            if (strictly_inside(b[k], b[(k + 1) % 3], c[l]) &&
+                !is_flat_edge(a, b[k], b[(k + 1) % 3]))
+                return true;
     return false;
 }
 
@@ -175,10 +177,12 @@ static const char *fault_of_tile(const mw_tiling *tiling, uint32_t t)
                         return "a tile without neighbour is not at the hull";
             continue;
         }
-        if (mw__link_triangle(link) >= tiling->tri_count || mw__link_edge(link) > 2) return "a link leads nowhere";
+        if (mw__link_triangle(link) >= tiling->tri_count || mw__link_edge(link) > 2)
+            return "a link leads nowhere";
         const mw_triangle *other = &tiling->tri[mw__link_triangle(link)];
         if (other->link[mw__link_edge(link)] != mw__link(t, k)) return "a link does not lead back";
-        if (other->v[mw__link_edge(link)] != tri->v[k + 1] || other->v[mw__link_edge(link) + 1] != tri->v[k])
+        if (other->v[mw__link_edge(link)] != tri->v[k + 1] ||
+            other->v[mw__link_edge(link) + 1] != tri->v[k])
             return "linked tiles do not share their edge";
     }
     return NULL;
@@ -201,14 +205,17 @@ static const char *fault_of_users(const arrays *a, const mw_tiling *tiling)
             for (int k = 0; k < 3; k++)
                 if (!contains(c, d[k])) return "a tile leaves its triangle";
             const uint32_t *v = a->triangles + 3 * (size_t)t;
-            int64_t turn = area2(spot_of(a->points, v[0]), spot_of(a->points, v[1]), spot_of(a->points, v[2]));
-            if ((turn < 0) != ((tri->user & MW_REVERSED) != 0)) return "a tile's orientation is wrong";
+            int64_t turn =
+                area2(spot_of(a->points, v[0]), spot_of(a->points, v[1]), spot_of(a->points, v[2]));
+            if ((turn < 0) != ((tri->user & MW_REVERSED) != 0))
+                return "a tile's orientation is wrong";
         }
         if (area != 0) return "the tiles of a triangle do not have its area";
     }
     for (uint32_t s = 0; s < tiling->tri_count; s++)
         for (int k = 0; k < 3; k++)
-            if (tiling->owner[tiling->tri[s].v[k]] != owner_of(a, tile_spot(tiling, tiling->tri[s].v[k])))
+            if (tiling->owner[tiling->tri[s].v[k]] !=
+                owner_of(a, tile_spot(tiling, tiling->tri[s].v[k])))
                 return "an owner is wrong";
     return NULL;
 }
@@ -225,8 +232,8 @@ static uint32_t euler_holes(const mw_tiling *tiling)
         triangles++;
         for (int k = 0; k < 3; k++) {
             uint32_t link = tri->link[k], v = tri->v[k], w = tri->v[0];
-            bool first =
-                link == MW_NONE || tiling->tri[mw__link_triangle(link)].user & MW_GHOST || mw__link_triangle(link) > t;
+            bool first = link == MW_NONE || tiling->tri[mw__link_triangle(link)].user & MW_GHOST ||
+                         mw__link_triangle(link) > t;
             edges += first;
             if (parent[v] == MW_NONE) {
                 parent[v] = v;
@@ -257,13 +264,15 @@ static const char *fault_of_holes(const mw_tiling *tiling)
                 if (tri->link[k] == MW_NONE) return "a hole reaches the hull";
                 uint32_t user = tiling->tri[mw__link_triangle(tri->link[k])].user;
                 if (user & MW_GHOST && user != tri->user) return "holes touch";
-                if (!(user & MW_GHOST) && (user & MW_USER_MASK) < lowest) lowest = user & MW_USER_MASK;
+                if (!(user & MW_GHOST) && (user & MW_USER_MASK) < lowest)
+                    lowest = user & MW_USER_MASK;
             }
         if (lowest == MW_NONE) return "a hole without border";
         if (lowest < before) return "holes are not in order";
         before = lowest;
     }
-    for (uint32_t t = 0; t < tiling->tri_count; t++) ghosts += (tiling->tri[t].user & MW_GHOST) != 0;
+    for (uint32_t t = 0; t < tiling->tri_count; t++)
+        ghosts += (tiling->tri[t].user & MW_GHOST) != 0;
     return ghosts == tiling->ghost_count ? NULL : "the number of ghosts is wrong";
 }
 
@@ -275,7 +284,8 @@ const char *domain_oracle_fault(const arrays *a, const mw_tiling *tiling)
     const char *fault = NULL;
     for (uint32_t t = 0; t < tiling->tri_count && !fault; t++) {
         fault = fault_of_tile(tiling, t);
-        for (int k = 0; k < 3; k++) spots[3 * (size_t)t + (size_t)k] = tile_spot(tiling, tiling->tri[t].v[k]);
+        for (int k = 0; k < 3; k++)
+            spots[3 * (size_t)t + (size_t)k] = tile_spot(tiling, tiling->tri[t].v[k]);
         area += area2(spots[3 * t], spots[3 * t + 1], spots[3 * t + 2]);
     }
     if (!fault && tiling->tri_count > 0 && area != hull_area2(spots, 3 * (size_t)tiling->tri_count))

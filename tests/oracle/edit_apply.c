@@ -19,7 +19,8 @@ void twin_grow(twin *t, uint32_t vertex_range, uint32_t triangle_range)
         memset(t->state + t->vertex_range, TWIN_GONE, vertex_range - t->vertex_range);
     }
     if (triangle_range > t->triangle_range) {
-        t->triangle = require_more_room(t->triangle, 3 * (size_t)triangle_range, sizeof *t->triangle);
+        t->triangle =
+            require_more_room(t->triangle, 3 * (size_t)triangle_range, sizeof *t->triangle);
         memset(t->triangle + 3 * (size_t)t->triangle_range, 255,
                3 * sizeof *t->triangle * (triangle_range - t->triangle_range));
     }
@@ -30,7 +31,8 @@ static void absorb_triangle(twin *t, const mw_changed_triangle *c, bool made, bo
 {
     uint32_t *mine = t->triangle + 3 * (size_t)c->triangle, now[3] = {MW_NONE, MW_NONE, MW_NONE};
     if (made)
-        REQUIRE(mine[0] == MW_NONE && c->before[0] == MW_NONE && c->before[1] == MW_NONE && c->before[2] == MW_NONE);
+        REQUIRE(mine[0] == MW_NONE && c->before[0] == MW_NONE && c->before[1] == MW_NONE &&
+                c->before[2] == MW_NONE);
     else
         REQUIRE(mine[0] != MW_NONE && memcmp(mine, c->before, sizeof now) == 0);
     REQUIRE(mw_editor_triangle(t->editor, c->triangle, now) == !freed);
@@ -49,7 +51,8 @@ void twin_absorb(twin *t, const mw_change *change, bool undone)
     for (size_t i = 0; i < count; i++) {
         const mw_changed_triangle *c = &change->triangle[i];
         bool made = i < change->made, freed = i >= change->made + change->reused;
-        if (i > 0 && i != change->made && i != change->made + change->reused) REQUIRE(c->triangle > before);
+        if (i > 0 && i != change->made && i != change->made + change->reused)
+            REQUIRE(c->triangle > before);
         REQUIRE(c->triangle < (freed || !made ? triangle_range : info.triangle_range));
         if (made && !undone) REQUIRE(c->triangle >= triangle_range);
         absorb_triangle(t, c, made, freed);
@@ -67,8 +70,10 @@ void twin_absorb(twin *t, const mw_change *change, bool undone)
     }
     if (undone) {
         REQUIRE(info.vertex_range <= vertex_range && info.triangle_range <= triangle_range);
-        for (uint32_t k = info.triangle_range; k < triangle_range; k++) REQUIRE(!twin_has_triangle(t, k));
-        for (uint32_t v = info.vertex_range; v < vertex_range; v++) REQUIRE(t->state[v] == TWIN_GONE);
+        for (uint32_t k = info.triangle_range; k < triangle_range; k++)
+            REQUIRE(!twin_has_triangle(t, k));
+        for (uint32_t v = info.vertex_range; v < vertex_range; v++)
+            REQUIRE(t->state[v] == TWIN_GONE);
     } else {
         REQUIRE(info.vertex_range == vertex_range + (change->vertices_made != 0));
         REQUIRE(info.triangle_range >= triangle_range + change->made);
@@ -88,14 +93,15 @@ void twin_read_vertex(twin *t, uint32_t v)
 
 bool change_is_empty(const mw_change *change)
 {
-    return change->made + change->reused + change->freed == 0 && !change->vertices_made && !change->vertices_freed &&
-           change->flips == 0;
+    return change->made + change->reused + change->freed == 0 && !change->vertices_made &&
+           !change->vertices_freed && change->flips == 0;
 }
 
 /* --- each kind: what the twin was before says what must have come of it ----------------------- */
 
 /* Values at a new vertex lie between those of the triangle that it was put into. */
-static void check_interpolated(const twin *t, const twin *before, const mw_edit *e, uint32_t v, uint32_t triangle)
+static void check_interpolated(const twin *t, const twin *before, const mw_edit *e, uint32_t v,
+                               uint32_t triangle)
 {
     for (uint32_t f = 0; f < t->fields; f++) {
         double value = t->value[f][v], low = INFINITY, high = -INFINITY;
@@ -131,7 +137,9 @@ void twin_split_fixed(twin *t, uint32_t v)
 {
     for (size_t i = t->fixed_count; i-- > 0;) {
         uint32_t a = t->fixed[2 * i], b = t->fixed[2 * i + 1];
-        if (a == v || b == v || !plane_is_on_segment(twin_point(t, a), twin_point(t, b), twin_point(t, v))) continue;
+        if (a == v || b == v ||
+            !plane_is_on_segment(twin_point(t, a), twin_point(t, b), twin_point(t, v)))
+            continue;
         twin_unfix(t, a, b);
         twin_fix(t, a, v);
         twin_fix(t, v, b);
@@ -143,7 +151,8 @@ static void after_insert(twin *t, const twin *before, const mw_edit *e, const mw
     const double q[2] = {e->x, e->y};
     location_answer where = twin_locate(before, q);
     if (where.where == MW_ON_VERTEX) {
-        REQUIRE(change_is_empty(change) && change->vertex == twin_corners(before, where.triangle)[where.local]);
+        REQUIRE(change_is_empty(change) &&
+                change->vertex == twin_corners(before, where.triangle)[where.local]);
         return;
     }
     REQUIRE(change->vertices_made && change->freed == 0);
@@ -171,8 +180,8 @@ static uint32_t rank_in_star(const twin *t, const twin_star *s, uint32_t i)
         int sides = 1;
         if (s->fixed_count == 2) {
             const double *a = twin_point(t, s->fixed[0]), *b = twin_point(t, s->fixed[1]);
-            int one =
-                plane_orient(a, b, twin_point(t, s->side[i].from)) + plane_orient(a, b, twin_point(t, s->side[i].to));
+            int one = plane_orient(a, b, twin_point(t, s->side[i].from)) +
+                      plane_orient(a, b, twin_point(t, s->side[i].to));
             sides = one * (plane_orient(a, b, twin_point(t, s->side[j].from)) +
                            plane_orient(a, b, twin_point(t, s->side[j].to)));
         }
@@ -232,10 +241,12 @@ static void after_move(twin *t, const twin *before, const mw_edit *e, const mw_c
 static void after_flip(twin *t, const twin *before, const mw_edit *e, const mw_change *change)
 {
     twin_side s, r, other;
-    bool found = twin_find_edge(before, e->vertex, e->other, &s) && twin_find_edge(before, e->other, e->vertex, &r);
+    bool found = twin_find_edge(before, e->vertex, e->other, &s) &&
+                 twin_find_edge(before, e->other, e->vertex, &r);
     REQUIRE(found && change->made == 0 && change->freed == 0 && change->reused == 2);
     REQUIRE(twin_find_edge(t, s.apex, r.apex, &other) && twin_find_edge(t, r.apex, s.apex, &other));
-    if (plane_incircle(twin_point(t, s.from), twin_point(t, s.to), twin_point(t, s.apex), twin_point(t, r.apex)) != 0)
+    if (plane_incircle(twin_point(t, s.from), twin_point(t, s.to), twin_point(t, s.apex),
+                       twin_point(t, r.apex)) != 0)
         t->delaunay = false;
 }
 
@@ -268,7 +279,8 @@ void twin_take_over(twin *t, const mw_edit *e, const mw_change *change)
         break;
     default: after_constrain(t, e, change); break;
     }
-    for (size_t i = 0; i < change->made; i++) REQUIRE(twin_turn(t, change->triangle[i].triangle) > 0);
+    for (size_t i = 0; i < change->made; i++)
+        REQUIRE(twin_turn(t, change->triangle[i].triangle) > 0);
     if (!before.delaunay && e->kind == MW_EDIT_INSERT) REQUIRE(change->flips == 0);
     twin_close(&before);
 }
@@ -276,7 +288,8 @@ void twin_take_over(twin *t, const mw_edit *e, const mw_change *change)
 /* --- an edit ---------------------------------------------------------------------------------- */
 
 /* By the function of its kind, or by the one for all. */
-static mw_status call_edit(mw_editor *editor, const mw_edit *e, bool direct, mw_change *change, mw_error *error)
+static mw_status call_edit(mw_editor *editor, const mw_edit *e, bool direct, mw_change *change,
+                           mw_error *error)
 {
     if (!direct) return mw_edit_apply(editor, e, change, error);
     switch (e->kind) {
@@ -294,7 +307,8 @@ static mw_status call_edit(mw_editor *editor, const mw_edit *e, bool direct, mw_
 static void check_refusal(const twin *t, const mw_edit *e, const mw_error *error)
 {
     const double q[2] = {e->x, e->y};
-    bool away = e->kind == MW_EDIT_INSERT || (e->kind == MW_EDIT_MOVE && twin_locate(t, q).triangle == MW_NONE);
+    bool away = e->kind == MW_EDIT_INSERT ||
+                (e->kind == MW_EDIT_MOVE && twin_locate(t, q).triangle == MW_NONE);
     REQUIRE(error->status == MW_ERROR_INPUT && strlen(error->message) > 8);
     if (!away) REQUIRE(error->vertex >= 0 || error->triangle >= 0);
 }
@@ -365,9 +379,11 @@ void twin_compact(twin *t)
     t->triangle_range = t->triangles;
     for (uint32_t v = 0; v < t->vertices; v++) {
         mw_mesh_vertex(mesh, v, t->point + 2 * (size_t)v);
-        for (uint32_t f = 0; f < t->fields; f++) t->value[f][v] = mw_mesh_field(mesh, twin_field[f])[v];
+        for (uint32_t f = 0; f < t->fields; f++)
+            t->value[f][v] = mw_mesh_field(mesh, twin_field[f])[v];
     }
-    for (uint32_t k = 0; k < t->triangles; k++) mw_mesh_triangle(mesh, k, t->triangle + 3 * (size_t)k);
+    for (uint32_t k = 0; k < t->triangles; k++)
+        mw_mesh_triangle(mesh, k, t->triangle + 3 * (size_t)k);
     mw_mesh_destroy(mesh);
     free(triangles);
     free(vertices);

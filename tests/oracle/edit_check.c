@@ -25,7 +25,8 @@ static void same_vertex(const twin *t, uint32_t v)
         if (!expected)
             REQUIRE(isnan(value));
         else
-            REQUIRE(memcmp(&value, &t->value[f][v], sizeof value) == 0 || (isnan(value) && isnan(t->value[f][v])));
+            REQUIRE(memcmp(&value, &t->value[f][v], sizeof value) == 0 ||
+                    (isnan(value) && isnan(t->value[f][v])));
     }
 }
 
@@ -79,7 +80,8 @@ void twin_check_same(const twin *t)
 
 /* The edges round a vertex by its sides, counter-clockwise: each neighbour but the first of a
  * fan is joined to the one before by a triangle. */
-static void check_around(const twin *t, uint32_t v, const twin_side *sides, size_t count, const twin_border_vertex *b)
+static void check_around(const twin *t, uint32_t v, const twin_side *sides, size_t count,
+                         const twin_border_vertex *b)
 {
     const twin_side key = {.from = v};
     size_t i = 0, last = count;
@@ -100,7 +102,8 @@ static void check_around(const twin *t, uint32_t v, const twin_side *sides, size
     REQUIRE(degree == triangles + b[v].in);
     uint32_t *around = require_room(degree, sizeof *around);
     around[degree] = 4711;
-    REQUIRE(mw_editor_adjacent_vertices(t->editor, v, around, degree) == degree && around[degree] == 4711);
+    REQUIRE(mw_editor_adjacent_vertices(t->editor, v, around, degree) == degree &&
+            around[degree] == 4711);
     for (size_t j = 0; j < degree; j++) {
         const twin_side *s = twin_find_side(sides, count, v, around[j]);
         REQUIRE(s != NULL || twin_find_side(sides, count, around[j], v) != NULL);
@@ -109,14 +112,17 @@ static void check_around(const twin *t, uint32_t v, const twin_side *sides, size
     REQUIRE(joined == triangles);
     if (degree > 1) {
         uint32_t two[2] = {0, 4711};
-        REQUIRE(mw_editor_adjacent_vertices(t->editor, v, two, 1) == degree && two[0] == around[0] && two[1] == 4711);
+        REQUIRE(mw_editor_adjacent_vertices(t->editor, v, two, 1) == degree &&
+                two[0] == around[0] && two[1] == 4711);
     }
     free(around);
 }
 
-static mw_edge_kind edge_of(const twin *t, const twin_side *sides, size_t count, uint32_t a, uint32_t b)
+static mw_edge_kind edge_of(const twin *t, const twin_side *sides, size_t count, uint32_t a,
+                            uint32_t b)
 {
-    const twin_side *s = twin_find_side(sides, count, a, b), *r = twin_find_side(sides, count, b, a);
+    const twin_side *s = twin_find_side(sides, count, a, b),
+                    *r = twin_find_side(sides, count, b, a);
     if (!s && !r) return MW_EDGE_NONE;
     if (twin_is_fixed(t, a, b)) return MW_EDGE_CONSTRAINED;
     return s && r ? MW_EDGE_UNCONSTRAINED : MW_EDGE_BORDER;
@@ -138,7 +144,8 @@ static void check_neighbours(const twin *t, const twin_side *sides, size_t count
         REQUIRE(mw_editor_edge(t->editor, v, 0) == 0 && mw_editor_edge(t->editor, 0, v) == 0);
     }
     const size_t step = 1 + count / 5000; /* it takes as long as there are edges at the vertex */
-    for (size_t i = 0; i < count; i += step) check_edge(t, sides, count, sides[i].from, sides[i].to);
+    for (size_t i = 0; i < count; i += step)
+        check_edge(t, sides, count, sides[i].from, sides[i].to);
     if (t->vertex_range <= 40)
         for (uint32_t v = 0; v < t->vertex_range; v++)
             for (uint32_t w = 0; w <= v; w++) check_edge(t, sides, count, v, w);
@@ -162,8 +169,8 @@ static void check_delaunay(const twin *t, const twin_side *sides, size_t count)
 static void check_rebuilt(const twin *t, const twin_side *sides, size_t count)
 {
     double *points = require_room(2 * (size_t)t->vertices, sizeof *points);
-    uint32_t *number = require_room(t->vertices, sizeof *number), *back = require_room(t->vertex_range, sizeof *back),
-             n = 0;
+    uint32_t *number = require_room(t->vertices, sizeof *number),
+             *back = require_room(t->vertex_range, sizeof *back), n = 0;
     uint32_t *segments = require_room(2 * (t->fixed_count + count), sizeof *segments);
     uint32_t *polygon = require_room(t->fixed_count + count, sizeof *polygon);
     size_t m = 0;
@@ -193,7 +200,8 @@ static void check_rebuilt(const twin *t, const twin_side *sides, size_t count)
     if (m == 0)
         expect_ok(mw_delaunay(points, n, 2, NULL, NULL, NULL, &mesh, &error), "rebuild", &error);
     else
-        expect_ok(mw_constrained_delaunay(&given, NULL, NULL, NULL, NULL, &mesh, &error), "rebuild", &error);
+        expect_ok(mw_constrained_delaunay(&given, NULL, NULL, NULL, NULL, &mesh, &error), "rebuild",
+                  &error);
     REQUIRE(mw_mesh_triangle_count(mesh) == t->triangles);
     for (uint32_t k = 0; k < t->triangles; k++) {
         uint32_t v[3];
@@ -230,9 +238,11 @@ static void check_numbers(const uint32_t *fresh, const twin *t, bool vertices, u
     REQUIRE(next == count && fresh[range] == 4711);
 }
 
-void twin_check_mesh(const twin *t, const mw_mesh *mesh, const uint32_t *triangles, const uint32_t *vertices)
+void twin_check_mesh(const twin *t, const mw_mesh *mesh, const uint32_t *triangles,
+                     const uint32_t *vertices)
 {
-    REQUIRE(mw_mesh_triangle_count(mesh) == t->triangles && mw_mesh_vertex_count(mesh) == t->vertices);
+    REQUIRE(mw_mesh_triangle_count(mesh) == t->triangles &&
+            mw_mesh_vertex_count(mesh) == t->vertices);
     check_numbers(triangles, t, false, t->triangles);
     check_numbers(vertices, t, true, t->vertices);
     for (uint32_t k = 0; k < t->triangle_range; k++) {
@@ -248,7 +258,8 @@ void twin_check_mesh(const twin *t, const mw_mesh *mesh, const uint32_t *triangl
         REQUIRE(memcmp(p, twin_point(t, v), sizeof p) == 0);
         for (uint32_t f = 0; f < t->fields; f++) {
             const double *values = mw_mesh_field(mesh, twin_field[f]);
-            REQUIRE(values != NULL && memcmp(&values[vertices[v]], &t->value[f][v], sizeof(double)) == 0);
+            REQUIRE(values != NULL &&
+                    memcmp(&values[vertices[v]], &t->value[f][v], sizeof(double)) == 0);
         }
     }
 }
@@ -265,7 +276,8 @@ static void check_export(const twin *t)
     mw_mesh_info info;
     expect_ok(mw_mesh_describe(mesh, NULL, &info, &error), "describe", &error);
     REQUIRE(info.embedding && !info.flat_triangles);
-    REQUIRE(info.convex == t->convex || t->border_moved); /* a border that is fixed may have become convex */
+    /* a border that is fixed may have become convex */
+    REQUIRE(info.convex == t->convex || t->border_moved);
     if (t->delaunay && !t->fixed_count) REQUIRE(info.delaunay);
     mw_mesh_destroy(mesh);
     free(triangles);
@@ -304,7 +316,8 @@ void twin_check_replay(const twin *t, const mw_editor_options *options)
     mw_error error = {0};
     twin again = twin_copy(t);
     expect_ok(mw_editor_create(t->first, options, &again.editor, &error), "editor", &error);
-    for (size_t i = 0; i < count; i++) expect_ok(mw_edit_apply(again.editor, &log[i], NULL, &error), "replay", &error);
+    for (size_t i = 0; i < count; i++)
+        expect_ok(mw_edit_apply(again.editor, &log[i], NULL, &error), "replay", &error);
     twin_check_same(&again);
     mw_editor_destroy(again.editor);
     twin_close(&again);

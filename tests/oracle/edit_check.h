@@ -14,7 +14,8 @@ void twin_check_all(const twin *t);
 
 /* Requires that the mesh is what is there, numbered anew without gaps; the arrays hold the new
  * number of each triangle and vertex (MW_NONE: gone), and behind them the untouched 4711. */
-void twin_check_mesh(const twin *t, const mw_mesh *mesh, const uint32_t *triangles, const uint32_t *vertices);
+void twin_check_mesh(const twin *t, const mw_mesh *mesh, const uint32_t *triangles,
+                     const uint32_t *vertices);
 
 /* Requires that the editor's log, applied to an editor of the first mesh with the same options,
  * gives the same. */

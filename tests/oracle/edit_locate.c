@@ -47,7 +47,8 @@ location_answer twin_locate(const twin *t, const double *q)
 }
 
 /* Is that the answer, where the lowest triangle that holds q is known? */
-static void check_location(const twin *t, const mw_location *l, const double *q, location_answer expected)
+static void check_location(const twin *t, const mw_location *l, const double *q,
+                           location_answer expected)
 {
     REQUIRE(l->triangle == expected.triangle);
     if (expected.triangle == MW_NONE) {
@@ -59,7 +60,9 @@ static void check_location(const twin *t, const mw_location *l, const double *q,
         mw_location first = mw_locate(t->first_locator, &cursor, q[0], q[1]);
         if (t->convex) first.where = MW_OUTSIDE;
         REQUIRE(l->where == first.where);
-        if (!t->convex) REQUIRE(t->compacted ? (l->hole == MW_NONE) == (first.hole == MW_NONE) : l->hole == first.hole);
+        if (!t->convex)
+            REQUIRE(t->compacted ? (l->hole == MW_NONE) == (first.hole == MW_NONE)
+                                 : l->hole == first.hole);
         return;
     }
     REQUIRE(l->where == expected.where && l->local == expected.local && l->hole == MW_NONE);
@@ -74,7 +77,8 @@ static void check_location(const twin *t, const mw_location *l, const double *q,
     double got, value = 0;
     for (uint32_t f = 0; f < t->fields; f++, value = 0) {
         for (int k = 0; k < 3; k++)
-            if (l->weight[k] != 0) value += l->weight[k] * t->value[f][twin_corners(t, l->triangle)[k]];
+            if (l->weight[k] != 0)
+                value += l->weight[k] * t->value[f][twin_corners(t, l->triangle)[k]];
         mw_editor_interpolate(t->editor, f, l, 1, &got);
         REQUIRE(fabs(got - value) <= 1e-9 * fabs(value) || (isnan(got) && isnan(value)));
     }
@@ -89,7 +93,9 @@ static void open_cursor(twin_cursors *cursors, const twin *t, int walk)
     options.arithmetic = (mw_arithmetic)mw__random_below(&cursors->random, 2);
     options.counters = (int)mw__random_below(&cursors->random, 2);
     mw_error error = {0};
-    expect_ok(mw_cursor_init(mw_editor_locator(t->editor), &options, &cursors->cursor[walk], &error), "cursor", &error);
+    expect_ok(
+        mw_cursor_init(mw_editor_locator(t->editor), &options, &cursors->cursor[walk], &error),
+        "cursor", &error);
 }
 
 void twin_cursors_open(twin_cursors *cursors, const twin *t, bool indexed, uint64_t seed)
@@ -98,16 +104,19 @@ void twin_cursors_open(twin_cursors *cursors, const twin *t, bool indexed, uint6
     *cursors = (twin_cursors){.random = seed};
     for (int start = 0; start < MW_START_COUNT && indexed; start++)
         if (mw_start_has_index((mw_start_kind)start))
-            expect_ok(mw_editor_index(t->editor, (mw_start_kind)start, NULL, &cursors->index[start], &error), "index",
-                      &error);
+            expect_ok(mw_editor_index(t->editor, (mw_start_kind)start, NULL, &cursors->index[start],
+                                      &error),
+                      "index", &error);
     for (int walk = 0; walk < MW_WALK_COUNT; walk++) open_cursor(cursors, t, walk);
 }
 
-void twin_cursors_check(twin_cursors *cursors, const twin *t, const double *q, location_answer expected)
+void twin_cursors_check(twin_cursors *cursors, const twin *t, const double *q,
+                        location_answer expected)
 {
     int walk = (int)mw__random_below(&cursors->random, MW_WALK_COUNT);
     if (mw__random_below(&cursors->random, 16) == 0) open_cursor(cursors, t, walk);
-    mw_location location = mw_locate(mw_editor_locator(t->editor), &cursors->cursor[walk], q[0], q[1]);
+    mw_location location =
+        mw_locate(mw_editor_locator(t->editor), &cursors->cursor[walk], q[0], q[1]);
     check_location(t, &location, q, expected);
 }
 
@@ -116,15 +125,17 @@ static void check_batch(twin_cursors *cursors, const twin *t, const double *q, s
                         const location_answer *expected)
 {
     mw_location *locations = require_room(n, sizeof *locations);
-    mw_query_options options = {.walk = (mw_walk_kind)mw__random_below(&cursors->random, MW_WALK_COUNT)};
+    mw_query_options options = {
+        .walk = (mw_walk_kind)mw__random_below(&cursors->random, MW_WALK_COUNT)};
     mw_error error = {0};
-    expect_ok(mw_locate_batch(mw_editor_locator(t->editor), q, n, 2, &options, locations, NULL, &error), "batch",
-              &error);
+    expect_ok(
+        mw_locate_batch(mw_editor_locator(t->editor), q, n, 2, &options, locations, NULL, &error),
+        "batch", &error);
     for (size_t i = 0; i < n; i++) check_location(t, &locations[i], q + 2 * i, expected[i]);
     uint32_t way[64];
     mw_location last;
-    size_t length =
-        mw_walk_path(mw_editor_locator(t->editor), &cursors->cursor[options.walk], q[0], q[1], way, 64, &last);
+    size_t length = mw_walk_path(mw_editor_locator(t->editor), &cursors->cursor[options.walk], q[0],
+                                 q[1], way, 64, &last);
     check_location(t, &last, q, expected[0]);
     for (size_t i = 0; i < length && i < 64; i++) REQUIRE(twin_has_triangle(t, way[i]));
     free(locations);

@@ -25,7 +25,8 @@ void twin_cursors_open(twin_cursors *cursors, const twin *t, bool indexed, uint6
 
 /* One query, by a walk and a start that chance chooses, which has to give the answer: location,
  * weights, values. */
-void twin_cursors_check(twin_cursors *cursors, const twin *t, const double *q, location_answer expected);
+void twin_cursors_check(twin_cursors *cursors, const twin *t, const double *q,
+                        location_answer expected);
 
 /* Queries at all vertices, the middles of all edges and of all triangles, and points round
  * about, one by one, in a batch, and as a path. */

@@ -47,7 +47,8 @@ static void fix_first(twin *t, const mw_editor_options *options)
     twin_side *sides = twin_sides(t, &count);
     for (size_t i = 0; options && i < options->constrained_edge_count; i++) {
         uint32_t a = options->constrained_edges[2 * i], b = options->constrained_edges[2 * i + 1];
-        if (t->convex || (twin_find_side(sides, count, a, b) && twin_find_side(sides, count, b, a))) twin_fix(t, a, b);
+        if (t->convex || (twin_find_side(sides, count, a, b) && twin_find_side(sides, count, b, a)))
+            twin_fix(t, a, b);
     }
     free(sides);
 }

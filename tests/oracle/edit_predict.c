@@ -14,7 +14,8 @@ twin_star twin_star_of(const twin *t, uint32_t v)
 {
     twin_star s = {0};
     for (uint32_t k = 0; k < t->triangle_range; k++)
-        for (int c = 0; c < 3; c++) s.count += twin_has_triangle(t, k) && twin_corners(t, k)[c] == v;
+        for (int c = 0; c < 3; c++)
+            s.count += twin_has_triangle(t, k) && twin_corners(t, k)[c] == v;
     s.side = require_room(s.count, sizeof *s.side);
     s.border = require_room(2 * (size_t)s.count, sizeof *s.border);
     s.fixed = require_room(2 * (size_t)s.count + t->fixed_count, sizeof *s.fixed);
@@ -36,8 +37,10 @@ twin_star twin_star_of(const twin *t, uint32_t v)
     free(ends);
     for (size_t i = 0; i < t->fixed_count; i++)
         for (int k = 0; k < 2; k++)
-            if (t->fixed[2 * i + (size_t)k] == v) s.fixed[s.fixed_count++] = t->fixed[2 * i + 1 - (size_t)k];
-    for (uint32_t i = 0; i < s.border_count && !t->convex; i++) s.fixed[s.fixed_count++] = s.border[i];
+            if (t->fixed[2 * i + (size_t)k] == v)
+                s.fixed[s.fixed_count++] = t->fixed[2 * i + 1 - (size_t)k];
+    for (uint32_t i = 0; i < s.border_count && !t->convex; i++)
+        s.fixed[s.fixed_count++] = s.border[i];
     return s;
 }
 
@@ -51,7 +54,8 @@ void twin_star_free(twin_star *s)
 bool twin_star_fits(const twin *t, const twin_star *s, const double *q)
 {
     for (uint32_t i = 0; i < s->count; i++)
-        if (plane_orient(twin_point(t, s->side[i].from), twin_point(t, s->side[i].to), q) <= 0) return false;
+        if (plane_orient(twin_point(t, s->side[i].from), twin_point(t, s->side[i].to), q) <= 0)
+            return false;
     return true;
 }
 
@@ -77,9 +81,10 @@ static twin_outcome predict_remove(const twin *t, uint32_t v)
 {
     if (!twin_uses_vertex(t, v)) return TWIN_REFUSED;
     twin_star s = twin_star_of(t, v);
-    bool can = s.fixed_count == 0 ||
-               (s.fixed_count == 2 &&
-                plane_is_on_segment(twin_point(t, s.fixed[0]), twin_point(t, s.fixed[1]), twin_point(t, v)));
+    bool can =
+        s.fixed_count == 0 ||
+        (s.fixed_count == 2 && plane_is_on_segment(twin_point(t, s.fixed[0]),
+                                                   twin_point(t, s.fixed[1]), twin_point(t, v)));
     if (s.border_count > 0 && !is_something_left(t, v)) can = false;
     twin_star_free(&s);
     return can ? TWIN_DONE : TWIN_REFUSED;
@@ -88,7 +93,8 @@ static twin_outcome predict_remove(const twin *t, uint32_t v)
 static twin_outcome predict_insert(const twin *t, const double *q)
 {
     location_answer where = twin_locate(t, q);
-    return where.where == MW_BAD || (where.triangle == MW_NONE && !t->convex) ? TWIN_REFUSED : TWIN_DONE;
+    return where.where == MW_BAD || (where.triangle == MW_NONE && !t->convex) ? TWIN_REFUSED
+                                                                              : TWIN_DONE;
 }
 
 /* Are the triangles an embedding with v at q, by a check from scratch? */
@@ -98,11 +104,15 @@ static bool is_embedding_at(const twin *t, uint32_t v, const double *q)
     uint32_t *triangles = require_room(3 * (size_t)t->triangles, sizeof *triangles);
     size_t n = 0;
     for (uint32_t w = 0; w < t->vertex_range; w++)
-        if (t->state[w] != TWIN_GONE) memcpy(points + 2 * (size_t)w, w == v ? q : twin_point(t, w), 2 * sizeof *points);
+        if (t->state[w] != TWIN_GONE)
+            memcpy(points + 2 * (size_t)w, w == v ? q : twin_point(t, w), 2 * sizeof *points);
     for (uint32_t k = 0; k < t->triangle_range; k++)
-        if (twin_has_triangle(t, k)) memcpy(triangles + 3 * n++, twin_corners(t, k), 3 * sizeof *triangles);
-    mw_arrays given = {
-        .points = points, .point_count = t->vertex_range, .triangles = triangles, .triangle_count = t->triangles};
+        if (twin_has_triangle(t, k))
+            memcpy(triangles + 3 * n++, twin_corners(t, k), 3 * sizeof *triangles);
+    mw_arrays given = {.points = points,
+                       .point_count = t->vertex_range,
+                       .triangles = triangles,
+                       .triangle_count = t->triangles};
     mw_check check;
     mw_error error = {0};
     expect_ok(mw_check_arrays(&given, NULL, &check, &error), "check", &error);
@@ -133,8 +143,10 @@ static twin_outcome predict_flip(const twin *t, uint32_t a, uint32_t b)
 {
     twin_side s, r;
     if (a == b || !twin_uses_vertex(t, a) || !twin_uses_vertex(t, b)) return TWIN_REFUSED;
-    if (!twin_find_edge(t, a, b, &s) || !twin_find_edge(t, b, a, &r) || twin_is_fixed(t, a, b)) return TWIN_REFUSED;
-    return plane_is_crossing(twin_point(t, a), twin_point(t, b), twin_point(t, s.apex), twin_point(t, r.apex))
+    if (!twin_find_edge(t, a, b, &s) || !twin_find_edge(t, b, a, &r) || twin_is_fixed(t, a, b))
+        return TWIN_REFUSED;
+    return plane_is_crossing(twin_point(t, a), twin_point(t, b), twin_point(t, s.apex),
+                             twin_point(t, r.apex))
                ? TWIN_DONE
                : TWIN_REFUSED;
 }
@@ -149,8 +161,9 @@ uint32_t *twin_vertices_between(const twin *t, uint32_t a, uint32_t b, size_t *c
             plane_is_on_segment(twin_point(t, a), twin_point(t, b), twin_point(t, v)))
             way[(*count)++] = v;
     for (size_t i = 2; i < *count; i++)
-        for (size_t j = i;
-             j > 1 && plane_is_between(twin_point(t, a), twin_point(t, way[j]), twin_point(t, way[j - 1])); j--) {
+        for (size_t j = i; j > 1 && plane_is_between(twin_point(t, a), twin_point(t, way[j]),
+                                                     twin_point(t, way[j - 1]));
+             j--) {
             uint32_t swap = way[j];
             way[j] = way[j - 1];
             way[j - 1] = swap;
@@ -173,7 +186,8 @@ static bool is_way_free(const twin *t, uint32_t a, uint32_t b)
         for (int c = 0; c < 3; c++) {
             if (!twin_has_triangle(t, k)) continue;
             uint32_t v = twin_corners(t, k)[c], w = twin_corners(t, k)[(c + 1) % 3];
-            if (plane_is_crossing(twin_point(t, a), twin_point(t, b), twin_point(t, v), twin_point(t, w)) &&
+            if (plane_is_crossing(twin_point(t, a), twin_point(t, b), twin_point(t, v),
+                                  twin_point(t, w)) &&
                 twin_count_sides(t, v, w) == 1)
                 return false;
         }
@@ -190,7 +204,8 @@ static twin_outcome predict_constrain(const twin *t, uint32_t a, uint32_t b, boo
     uint32_t *way = twin_vertices_between(t, a, b, &count);
     bool can = true;
     for (size_t i = 1; i < count; i++)
-        can = can && (release ? twin_is_fixed(t, way[i - 1], way[i]) : is_way_free(t, way[i - 1], way[i]));
+        can = can &&
+              (release ? twin_is_fixed(t, way[i - 1], way[i]) : is_way_free(t, way[i - 1], way[i]));
     free(way);
     return can ? TWIN_DONE : TWIN_REFUSED;
 }
@@ -206,7 +221,8 @@ twin_outcome twin_predict(const twin *t, const mw_edit *e)
     case MW_EDIT_CONSTRAIN: return predict_constrain(t, e->vertex, e->other, false);
     case MW_EDIT_RELEASE: return predict_constrain(t, e->vertex, e->other, true);
     case MW_EDIT_VALUE:
-        return e->vertex < t->vertex_range && t->state[e->vertex] != TWIN_GONE ? TWIN_DONE : TWIN_REFUSED;
+        return e->vertex < t->vertex_range && t->state[e->vertex] != TWIN_GONE ? TWIN_DONE
+                                                                               : TWIN_REFUSED;
     default: return TWIN_REFUSED;
     }
 }

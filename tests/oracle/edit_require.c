@@ -9,12 +9,16 @@ edit_case_now edit_case = {.name = ""};
 
 void require_failed(const char *what, const char *file, int line)
 {
-    static const char *const kinds[] = {"insert", "remove", "move", "flip", "constrain", "release", "value"};
+    static const char *const kinds[] = {"insert",    "remove",  "move", "flip",
+                                        "constrain", "release", "value"};
     const mw_edit *e = &edit_case.edit;
-    fprintf(stderr, "%s:%d: not so: %s\n%s, seed %llu, step %llu: %s %u %u, field %u, to %.17g %.17g, value %g\n", file,
-            line, what, edit_case.name, (unsigned long long)edit_case.seed, (unsigned long long)edit_case.step,
-            (unsigned)e->kind < MW_EDIT_KIND_COUNT ? kinds[e->kind] : "?", e->vertex, e->other, e->field, e->x, e->y,
-            e->value);
+    fprintf(stderr,
+            "%s:%d: not so: %s\n%s, seed %llu, step %llu: %s %u %u, field %u, to %.17g %.17g, "
+            "value %g\n",
+            file, line, what, edit_case.name, (unsigned long long)edit_case.seed,
+            (unsigned long long)edit_case.step,
+            (unsigned)e->kind < MW_EDIT_KIND_COUNT ? kinds[e->kind] : "?", e->vertex, e->other,
+            e->field, e->x, e->y, e->value);
     abort();
 }
 

@@ -79,7 +79,8 @@ twin_border_vertex *twin_border_vertices(const twin *t, const twin_side *sides, 
 static bool is_straight(const twin *t, const twin_border_vertex *b, uint32_t v)
 {
     return b[v].in == 1 && b[v].out == 1 &&
-           plane_is_on_segment(twin_point(t, b[v].before), twin_point(t, b[v].after), twin_point(t, v));
+           plane_is_on_segment(twin_point(t, b[v].before), twin_point(t, b[v].after),
+                               twin_point(t, v));
 }
 
 static int by_numbers(const void *left, const void *right)
@@ -141,9 +142,11 @@ static void check_border_convex(const twin *t, const twin_side *sides, size_t co
     REQUIRE(first != MW_NONE);
     uint32_t v = first;
     do {
-        const double *p = twin_point(t, b[v].before), *q = twin_point(t, v), *r = twin_point(t, b[v].after);
+        const double *p = twin_point(t, b[v].before), *q = twin_point(t, v),
+                     *r = twin_point(t, b[v].after);
         REQUIRE(plane_orient(p, q, r) >= 0);
-        halves += (q[1] > p[1] || (q[1] == p[1] && q[0] > p[0])) != (r[1] > q[1] || (r[1] == q[1] && r[0] > q[0]));
+        halves += (q[1] > p[1] || (q[1] == p[1] && q[0] > p[0])) !=
+                  (r[1] > q[1] || (r[1] == q[1] && r[0] > q[0]));
         v = b[v].after;
         length++;
     } while (v != first && length <= edges);

@@ -12,7 +12,9 @@ bool twin_bare;
 static size_t fixed_index(const twin *t, uint32_t a, uint32_t b)
 {
     size_t i = 0;
-    while (i < t->fixed_count && !(t->fixed[2 * i] == (a < b ? a : b) && t->fixed[2 * i + 1] == (a < b ? b : a))) i++;
+    while (i < t->fixed_count &&
+           !(t->fixed[2 * i] == (a < b ? a : b) && t->fixed[2 * i + 1] == (a < b ? b : a)))
+        i++;
     return i;
 }
 
@@ -61,7 +63,8 @@ twin twin_copy(const twin *t)
     c.point = require_copy(t->point, 2 * (size_t)t->vertex_range, sizeof *c.point);
     c.state = require_copy(t->state, t->vertex_range, 1);
     c.triangle = require_copy(t->triangle, 3 * (size_t)t->triangle_range, sizeof *c.triangle);
-    for (int f = 0; f < TWIN_FIELDS; f++) c.value[f] = require_copy(t->value[f], t->vertex_range, sizeof(double));
+    for (int f = 0; f < TWIN_FIELDS; f++)
+        c.value[f] = require_copy(t->value[f], t->vertex_range, sizeof(double));
     c.fixed = require_copy(t->fixed, 2 * t->fixed_count, sizeof *c.fixed);
     c.border = require_copy(t->border, 4 * t->border_count, sizeof *c.border);
     return c;

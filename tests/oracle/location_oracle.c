@@ -25,9 +25,11 @@ int location_oracle_orient(const double a[2], const double b[2], const double c[
     return (sign > 0) - (sign < 0);
 }
 
-bool location_oracle_contains(const double *points, const uint32_t *t, const double q[2], location_answer *answer)
+bool location_oracle_contains(const double *points, const uint32_t *t, const double q[2],
+                              location_answer *answer)
 {
-    const double *p[3] = {points + 2 * (size_t)t[0], points + 2 * (size_t)t[1], points + 2 * (size_t)t[2]};
+    const double *p[3] = {points + 2 * (size_t)t[0], points + 2 * (size_t)t[1],
+                          points + 2 * (size_t)t[2]};
     int turn = location_oracle_orient(p[0], p[1], p[2]), zeros = 0, edge = 0, off = 0;
     if (turn == 0) return false;
     for (int k = 0; k < 3; k++) {
@@ -45,8 +47,8 @@ bool location_oracle_contains(const double *points, const uint32_t *t, const dou
     return true;
 }
 
-location_answer location_oracle_locate(const double *points, const uint32_t *triangles, uint32_t count,
-                                       const double q[2])
+location_answer location_oracle_locate(const double *points, const uint32_t *triangles,
+                                       uint32_t count, const double q[2])
 {
     location_answer answer = {MW_NONE, MW_OUTSIDE, 255};
     if (!isfinite(q[0]) || !isfinite(q[1])) return (location_answer){MW_NONE, MW_BAD, 255};
@@ -77,11 +79,12 @@ static bool points_same(const double *a, const double *b)
 
 static bool segment_has(const double *a, const double *b, const double *q)
 {
-    return between(a[0], b[0], q[0]) && between(a[1], b[1], q[1]) && location_oracle_orient(a, b, q) == 0;
+    return between(a[0], b[0], q[0]) && between(a[1], b[1], q[1]) &&
+           location_oracle_orient(a, b, q) == 0;
 }
 
-/* Does the ray from q to the right cross the segment? One that ends on the ray's line counts where its
- * other end is below. */
+/* Does the ray from q to the right cross the segment? One that ends on the ray's line counts where
+ * its other end is below. */
 static bool ray_crosses(const double *a, const double *b, const double *q)
 {
     if ((a[1] > q[1]) == (b[1] > q[1])) return false;
@@ -89,7 +92,8 @@ static bool ray_crosses(const double *a, const double *b, const double *q)
     return b[1] > a[1] ? side > 0 : side < 0;
 }
 
-polygon_side location_oracle_polygon(const mw_constraints *rings, uint32_t polygon, const double q[2])
+polygon_side location_oracle_polygon(const mw_constraints *rings, uint32_t polygon,
+                                     const double q[2])
 {
     bool inside = false;
     for (size_t i = 0; i < rings->segment_count; i++) {
@@ -121,8 +125,9 @@ bool location_oracle_crosses(const mw_constraints *rings, uint32_t polygon)
 {
     for (size_t i = 0; i < rings->segment_count; i++)
         for (size_t j = 0; rings->polygon[i] == polygon && j < i; j++)
-            if (rings->polygon[j] == polygon && segments_cross(segment_end(rings, i, 0), segment_end(rings, i, 1),
-                                                               segment_end(rings, j, 0), segment_end(rings, j, 1)))
+            if (rings->polygon[j] == polygon &&
+                segments_cross(segment_end(rings, i, 0), segment_end(rings, i, 1),
+                               segment_end(rings, j, 0), segment_end(rings, j, 1)))
                 return true;
     return false;
 }

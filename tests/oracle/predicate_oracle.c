@@ -84,7 +84,8 @@ long predicate_oracle_incircle(predicate_oracle *o, const double *p)
     for (int i = 0; i < 3; i++) {
         int j = (i + 1) % 3, k = (i + 2) % 3;
         mpz_t *minor = &o->d[9], *lift = &o->d[10];
-        predicate_oracle_cross(o, *minor, o->d[2 * j], o->d[2 * j + 1], o->d[2 * k], o->d[2 * k + 1]);
+        predicate_oracle_cross(o, *minor, o->d[2 * j], o->d[2 * j + 1], o->d[2 * k],
+                               o->d[2 * k + 1]);
         mpz_mul(*lift, o->d[2 * i], o->d[2 * i]);
         mpz_addmul(*lift, o->d[2 * i + 1], o->d[2 * i + 1]);
         mpz_submul(o->result, *lift, *minor);
@@ -98,9 +99,11 @@ bool predicate_oracle_agrees(predicate_oracle *o, long exponent, double value)
     if (value == 0) return true;
     long result_exponent;
     int value_exponent;
-    double expected = mpz_get_d_2exp(&result_exponent, o->result), given = frexp(value, &value_exponent);
+    double expected = mpz_get_d_2exp(&result_exponent, o->result),
+           given = frexp(value, &value_exponent);
     result_exponent += exponent;
-    if (result_exponent > DBL_MAX_EXP) return fabs(value) >= DBL_MAX * (1 - 0x1p-50) && fabs(value) <= DBL_MAX;
+    if (result_exponent > DBL_MAX_EXP)
+        return fabs(value) >= DBL_MAX * (1 - 0x1p-50) && fabs(value) <= DBL_MAX;
     if (result_exponent < DBL_MIN_EXP) return fabs(value) <= DBL_MIN * (1 + 0x1p-50);
     given = ldexp(given, value_exponent - (int)result_exponent);
     return fabs(given - expected) <= 0x1p-50 * fabs(expected);
@@ -182,8 +185,10 @@ static predicate_oracle *big_numbers(void)
 
 int plane_orient(const double *a, const double *b, const double *c)
 {
-    double left = (b[0] - a[0]) * (c[1] - a[1]), right = (b[1] - a[1]) * (c[0] - a[0]), sum = fabs(left) + fabs(right);
-    if (sum > 1e-280 && sum < 1e280 && fabs(left - right) > 1e-14 * sum) return sign_of(left - right);
+    double left = (b[0] - a[0]) * (c[1] - a[1]), right = (b[1] - a[1]) * (c[0] - a[0]),
+           sum = fabs(left) + fabs(right);
+    if (sum > 1e-280 && sum < 1e280 && fabs(left - right) > 1e-14 * sum)
+        return sign_of(left - right);
     const double p[6] = {a[0], a[1], b[0], b[1], c[0], c[1]};
     predicate_oracle_orient2d(big_numbers(), p);
     return predicate_oracle_sign(mpz_sgn(big_numbers()->result));
@@ -222,5 +227,6 @@ bool plane_is_on_segment(const double *a, const double *b, const double *q)
 
 bool plane_is_crossing(const double *a, const double *b, const double *c, const double *d)
 {
-    return plane_orient(a, b, c) * plane_orient(a, b, d) < 0 && plane_orient(c, d, a) * plane_orient(c, d, b) < 0;
+    return plane_orient(a, b, c) * plane_orient(a, b, d) < 0 &&
+           plane_orient(c, d, a) * plane_orient(c, d, b) < 0;
 }

@@ -48,7 +48,7 @@ int predicate_oracle_compare_distance(predicate_oracle *o, const double *p);
  * length. */
 int predicate_oracle_compare_distance_to(predicate_oracle *o, const double *p);
 
-/* --- signs in the plane ------------------------------------------------------------------------ */
+/* --- signs in the plane ----------------------------------------------------------------------- */
 
 /* Faster: in doubles where a bound that is far too large says that they are right, else exactly.
  * Not for several threads. */

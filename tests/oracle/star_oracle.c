@@ -30,7 +30,8 @@ static void star_oracle_clear_one(mpq_t q)
 /* r = det(v[a], v[b], v[c]) */
 static void star_oracle_det(star_oracle *o, mpq_t r, int a, int b, int c)
 {
-    static const int plus[3][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}}, minus[3][3] = {{2, 1, 0}, {1, 0, 2}, {0, 2, 1}};
+    static const int plus[3][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}},
+                     minus[3][3] = {{2, 1, 0}, {1, 0, 2}, {0, 2, 1}};
     mpq_set_ui(r, 0, 1);
     for (int i = 0; i < 3; i++) {
         mpq_mul(o->s, o->v[a][plus[i][0]], o->v[b][plus[i][1]]);
@@ -44,8 +45,8 @@ static void star_oracle_det(star_oracle *o, mpq_t r, int a, int b, int c)
 
 /* Does the ray from c through q meet the triangle t, which has an area seen from c? Fills in the
  * location, rounded weights included, then. */
-static int star_oracle_meets(star_oracle *o, const double *points, const uint32_t *t, const double c[3],
-                             const double q[3], mw_location *location)
+static int star_oracle_meets(star_oracle *o, const double *points, const uint32_t *t,
+                             const double c[3], const double q[3], mw_location *location)
 {
     for (int i = 0; i < 4; i++)
         for (int k = 0; k < 3; k++) {
@@ -79,14 +80,15 @@ static int star_oracle_meets(star_oracle *o, const double *points, const uint32_
     return 1;
 }
 
-mw_location star_oracle_locate(const double *points, const uint32_t *triangles, uint32_t count, const double c[3],
-                               const double q[3])
+mw_location star_oracle_locate(const double *points, const uint32_t *triangles, uint32_t count,
+                               const double c[3], const double q[3])
 {
     star_oracle o;
     mw_location location = {.triangle = MW_NONE, .where = MW_BAD, .local = 255};
     star_oracle_each(&o, star_oracle_init_one);
     for (uint32_t t = 0; t < count && location.triangle == MW_NONE; t++)
-        if (star_oracle_meets(&o, points, triangles + 3 * (size_t)t, c, q, &location)) location.triangle = t;
+        if (star_oracle_meets(&o, points, triangles + 3 * (size_t)t, c, q, &location))
+            location.triangle = t;
     star_oracle_each(&o, star_oracle_clear_one);
     return location;
 }

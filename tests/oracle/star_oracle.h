@@ -9,7 +9,7 @@
 /* The lowest-numbered of `count` triangles (three vertices each) that the ray from c through q
  * meets, with the place on it and rounded weights; triangle MW_NONE if there is none. Triangles
  * without an area seen from c are never met. points: x y z each. */
-mw_location star_oracle_locate(const double *points, const uint32_t *triangles, uint32_t count, const double c[3],
-                               const double q[3]);
+mw_location star_oracle_locate(const double *points, const uint32_t *triangles, uint32_t count,
+                               const double c[3], const double q[3]);
 
 #endif

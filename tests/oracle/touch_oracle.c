@@ -148,7 +148,8 @@ double touch_oracle_distance(const touch_oracle *o, uint32_t i)
 static int edge_holds(const touch_oracle *o, uint32_t i, uint32_t k, uint32_t met)
 {
     const uint32_t *v = o->s->triangles + 3 * (size_t)i;
-    const double *end[2] = {o->s->points + 3 * (size_t)v[k], o->s->points + 3 * (size_t)v[(k + 1) % 3]};
+    const double *end[2] = {o->s->points + 3 * (size_t)v[k],
+                            o->s->points + 3 * (size_t)v[(k + 1) % 3]};
     if (!touch_oracle_finite(end[0], 3) || !touch_oracle_finite(end[1], 3)) return 0;
     mpq_t to[2][3], cross[3], dot;
     mpq_init(dot);

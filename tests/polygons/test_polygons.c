@@ -1,4 +1,5 @@
-/* Point in polygon: every answer, and every polygon said to cross itself, is held against brute force in rationals. */
+/* Point in polygon: every answer, and every polygon said to cross itself, is held against brute
+ * force in rationals. */
 /* wrap: malloc calloc realloc aligned_alloc */
 #include <stdarg.h>
 #include <stddef.h>
@@ -58,7 +59,8 @@ static void scene_segment(uint32_t a, uint32_t b, uint32_t polygon)
 /* Close the ring of the points from `first` on. */
 static void scene_ring(uint32_t first, uint32_t polygon)
 {
-    for (uint32_t i = first; i < scene.points; i++) scene_segment(i, i + 1 < scene.points ? i + 1 : first, polygon);
+    for (uint32_t i = first; i < scene.points; i++)
+        scene_segment(i, i + 1 < scene.points ? i + 1 : first, polygon);
     if (polygon >= scene.polygons) scene.polygons = polygon + 1;
 }
 
@@ -90,11 +92,13 @@ static void scene_query_random(uint32_t count, double low, double high)
 /* All vertices, middles of segments, and doubles next to where segments cross. */
 static void scene_query_near(void)
 {
-    for (uint32_t i = 0; i < scene.points; i++) scene_query(scene.point[2 * i], scene.point[2 * i + 1]);
+    for (uint32_t i = 0; i < scene.points; i++)
+        scene_query(scene.point[2 * i], scene.point[2 * i + 1]);
     for (uint32_t i = 0; i < scene.segments; i++) {
         const double *a = scene.point + 2 * (size_t)scene.segment[2 * i];
         const double *b = scene.point + 2 * (size_t)scene.segment[2 * i + 1];
-        double share = scene_unit(), x = a[0] + share * (b[0] - a[0]), y = a[1] + share * (b[1] - a[1]);
+        double share = scene_unit(), x = a[0] + share * (b[0] - a[0]),
+               y = a[1] + share * (b[1] - a[1]);
         scene_query(0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]));
         scene_query(x, y);
         scene_query(nextafter(x, INFINITY), y);
@@ -129,8 +133,8 @@ static mw_constraints scene_rings(void)
 
 /* --- comparison --- */
 
-static void point_compare(const mw_polygons *polygons, const mw_constraints *rings, const double q[2],
-                          const mw_location *at)
+static void point_compare(const mw_polygons *polygons, const mw_constraints *rings,
+                          const double q[2], const mw_location *at)
 {
     mw_polygon_hit hits[MAX_HITS];
     size_t count = mw_polygons_at(polygons, q, at, hits, MAX_HITS), i = 0;
@@ -172,8 +176,10 @@ static size_t scene_check(void)
     mw_constraints rings = scene_rings();
     assert_int_equal(mw_polygons_create(&rings, NULL, &polygons, &error), MW_OK);
     assert_int_equal(mw_locator_create(mw_polygons_mesh(polygons), NULL, &locator, &error), MW_OK);
-    assert_int_equal(mw_locate_batch(locator, scene.query, scene.queries, 2, NULL, at, NULL, &error), MW_OK);
-    for (uint32_t i = 0; i < scene.queries; i++) point_compare(polygons, &rings, scene.query + 2 * (size_t)i, &at[i]);
+    assert_int_equal(
+        mw_locate_batch(locator, scene.query, scene.queries, 2, NULL, at, NULL, &error), MW_OK);
+    for (uint32_t i = 0; i < scene.queries; i++)
+        point_compare(polygons, &rings, scene.query + 2 * (size_t)i, &at[i]);
     crossing_compare(polygons, &rings);
     mw_polygons_describe(polygons, &info);
     free(at);
@@ -184,12 +190,14 @@ static size_t scene_check(void)
 
 /* --- tests --- */
 
-/* Random rings on a small lattice: they cross, touch, overlap, repeat, and run back on themselves. */
+/* Random rings on a small lattice: they cross, touch, overlap, repeat, and run back on themselves.
+ * */
 static void scene_make_lattice(uint64_t seed)
 {
     enum { SIDE = 6 };
     scene_begin(seed);
-    uint32_t rings = 1 + mw__random_below(&scene.random, 8), polygons = 1 + mw__random_below(&scene.random, 4);
+    uint32_t rings = 1 + mw__random_below(&scene.random, 8),
+             polygons = 1 + mw__random_below(&scene.random, 4);
     scene_point(0, 0), scene_point(SIDE, 0), scene_point(0, SIDE);
     for (uint32_t r = 0; r < rings; r++) {
         uint32_t first = scene.points, corners = 3 + mw__random_below(&scene.random, 6);
@@ -200,8 +208,8 @@ static void scene_make_lattice(uint64_t seed)
         scene_ring(first, mw__random_below(&scene.random, polygons));
     }
     for (uint32_t i = 0; i < 3; i++) /* lines, which bound nothing */
-        scene_segment(mw__random_below(&scene.random, scene.points), mw__random_below(&scene.random, scene.points),
-                      MW_NONE);
+        scene_segment(mw__random_below(&scene.random, scene.points),
+                      mw__random_below(&scene.random, scene.points), MW_NONE);
     for (int x = -1; x <= 2 * SIDE + 1; x++)
         for (int y = -1; y <= 2 * SIDE + 1; y++) scene_query(0.5 * x, 0.5 * y);
     scene_query_near();
@@ -243,7 +251,8 @@ static void crossing_stars_are_exact(void **state)
     }
 }
 
-/* Parcels share borders and corners: a point there belongs to all of them. Every third has a hole with an island. */
+/* Parcels share borders and corners: a point there belongs to all of them. Every third has a hole
+ * with an island. */
 static void parcels_share_borders(void **state)
 {
     (void)state;
@@ -347,7 +356,8 @@ static void what_is_no_polygon_is_refused(void **state)
     mw_polygons *polygons;
     scene_begin(1);
     scene_box(0, 0, 1, 1, 3);
-    mw_constraints rings = scene_rings(), open = rings, none = rings, unnumbered = rings, seeded = rings, flat = rings;
+    mw_constraints rings = scene_rings(), open = rings, none = rings, unnumbered = rings,
+                   seeded = rings, flat = rings;
     open.segment_count = 3;
     expect_refused(open, MW_ERROR_INPUT, "polygon 3 is not closed");
     none.segment_count = 0;

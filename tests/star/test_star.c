@@ -1,4 +1,5 @@
-/* test_star.c - rays from the centre of star-shaped polyhedra, against exact rationals; and what is no such polyhedron. */
+/* test_star.c - rays from the centre of star-shaped polyhedra, against exact rationals; and what
+ * is no such polyhedron. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -36,7 +37,8 @@ static void release_world(star_world *w)
     mw_surface_destroy(w->surface);
 }
 
-/* A ray of some kind: anywhere, through a lattice point, through a vertex, an edge, a facet, or to no point. */
+/* A ray of some kind: anywhere, through a lattice point, through a vertex, an edge, a facet, or to
+ * no point. */
 static void draw(const star_shape *p, const double c[3], double scale, uint64_t *seed, double q[3])
 {
     uint32_t kind = mw__random_below(seed, 6), t = mw__random_below(seed, p->triangles);
@@ -48,17 +50,21 @@ static void draw(const star_shape *p, const double c[3], double scale, uint64_t 
         if (kind == 1) q[k] = c[k] + scale * ((double)mw__random_below(seed, 9) - 4);
         if (kind == 2) q[k] = a;
         if (kind == 3) q[k] = a + b - c[k];
-        if (kind == 4) q[k] = p->point[3 * v[0] + k] / 2 + p->point[3 * v[1] + k] / 4 + p->point[3 * v[2] + k] / 4;
+        if (kind == 4)
+            q[k] = p->point[3 * v[0] + k] / 2 + p->point[3 * v[1] + k] / 4 +
+                   p->point[3 * v[2] + k] / 4;
         if (kind == 5) q[k] = c[k] - (a - c[k]);
     }
 }
 
-static void expect_location(const mw_location *found, const mw_location *expected, const double q[3])
+static void expect_location(const mw_location *found, const mw_location *expected,
+                            const double q[3])
 {
-    if (found->triangle != expected->triangle || found->where != expected->where || found->local != expected->local)
-        fail_msg("ray through %a %a %a: facet %u %s %u, not %u %s %u", q[0], q[1], q[2], found->triangle,
-                 mw_where_name(found->where), found->local, expected->triangle, mw_where_name(expected->where),
-                 expected->local);
+    if (found->triangle != expected->triangle || found->where != expected->where ||
+        found->local != expected->local)
+        fail_msg("ray through %a %a %a: facet %u %s %u, not %u %s %u", q[0], q[1], q[2],
+                 found->triangle, mw_where_name(found->where), found->local, expected->triangle,
+                 mw_where_name(expected->where), expected->local);
     for (int k = 0; k < 3 && found->triangle != MW_NONE; k++) {
         assert_true(fabs(found->weight[k] - expected->weight[k]) <= 0x1p-34);
         assert_true((found->weight[k] == 0) == (expected->weight[k] == 0));
@@ -67,8 +73,8 @@ static void expect_location(const mw_location *found, const mw_location *expecte
 }
 
 /* Every walk from every start against the oracle. */
-static void check_rays(const star_shape *p, mw_surface_options how, const double c[3], double scale, int rays,
-                       uint64_t *seed)
+static void check_rays(const star_shape *p, mw_surface_options how, const double c[3], double scale,
+                       int rays, uint64_t *seed)
 {
     star_world w = make_world(p, how, (mw_star_options){.centre = {c[0], c[1], c[2]}, .angles = 1});
     for (int i = 0; i < rays; i++) {
@@ -82,7 +88,8 @@ static void check_rays(const star_shape *p, mw_surface_options how, const double
             for (int start = 0; start <= MW_STAR_START_SORTED; start++) {
                 mw_star_query_options options = {.walk = (mw_star_walk_kind)walk,
                                                  .start = (mw_star_start_kind)start,
-                                                 .finish = i % 2 ? MW_STAR_WALK_FORGETFUL : MW_STAR_WALK_STOCHASTIC,
+                                                 .finish = i % 2 ? MW_STAR_WALK_FORGETFUL
+                                                                 : MW_STAR_WALK_STOCHASTIC,
                                                  .seed = (uint64_t)i};
                 mw_star_cursor cursor;
                 expect_ok(mw_star_cursor_init(w.star, &options, &cursor, NULL), "cursor", NULL);
@@ -102,7 +109,8 @@ static void test_lattice_stars(void **state)
         if (round % 4) star_shape_stretch(&p, 4, &seed);
         star_shape_shuffle(&p, &seed);
         print_message("seed %d\n", 1000 + (int)round);
-        check_rays(&p, (mw_surface_options){.weld = round % 2 == 0}, (double[3]){0, 0, 0}, 1, 40, &seed);
+        check_rays(&p, (mw_surface_options){.weld = round % 2 == 0}, (double[3]){0, 0, 0}, 1, 40,
+                   &seed);
         star_shape_free(&p);
     }
 }
@@ -110,7 +118,8 @@ static void test_lattice_stars(void **state)
 /* The centre need not be the origin, nor coordinates be of moderate size. */
 static void test_places_and_sizes(void **state)
 {
-    static const double size[] = {1, 0x1p-1060, 0x1p-700, 0x1p400, 0x1p1010}, place[] = {0, 3, 0x1p30};
+    static const double size[] = {1, 0x1p-1060, 0x1p-700, 0x1p400, 0x1p1010},
+                        place[] = {0, 3, 0x1p30};
     (void)state;
     for (int i = 0; i < 5; i++)
         for (int j = 0; j < 3; j++) {
@@ -123,7 +132,8 @@ static void test_places_and_sizes(void **state)
             }
             star_shape_stretch(&p, 3, &seed);
             for (uint32_t v = 0; v < p.points; v++)
-                for (uint32_t k = 0; k < 3; k++) p.point[3 * v + k] = p.point[3 * v + k] * size[i] + c[k];
+                for (uint32_t k = 0; k < 3; k++)
+                    p.point[3 * v + k] = p.point[3 * v + k] * size[i] + c[k];
             check_rays(&p, (mw_surface_options){0}, c, size[i], 60, &seed);
             star_shape_free(&p);
         }
@@ -137,7 +147,8 @@ static void test_facets_without_area(void **state)
         star_shape p = star_shape_octahedron(1 + (unsigned)(round % 2));
         for (uint32_t i = 0; i < 3 * p.points; i++) p.point[i] *= 16;
         for (uint32_t i = 0; i < 1 + round % 6; i++)
-            star_shape_add_flat(&p, mw__random_below(&seed, p.triangles), mw__random_below(&seed, 3));
+            star_shape_add_flat(&p, mw__random_below(&seed, p.triangles),
+                                mw__random_below(&seed, 3));
         if (round % 2) star_shape_shuffle(&p, &seed);
         print_message("seed %d\n", 500 + (int)round);
         check_rays(&p, (mw_surface_options){0}, (double[3]){0, 0, 0}, 1, 60, &seed);
@@ -145,7 +156,8 @@ static void test_facets_without_area(void **state)
     }
 }
 
-/* Each facet has vertices of its own; and a row of vertices at one place makes facets that vanish. */
+/* Each facet has vertices of its own; and a row of vertices at one place makes facets that vanish.
+ * */
 static void test_welded(void **state)
 {
     (void)state;
@@ -153,7 +165,8 @@ static void test_welded(void **state)
     star_shape p = star_shape_octahedron(2);
     star_shape_stretch(&p, 3, &seed);
     star_shape_tear(&p);
-    uint32_t a = p.corner[0], same = star_shape_point(&p, p.point[3 * a], p.point[3 * a + 1], p.point[3 * a + 2]);
+    uint32_t a = p.corner[0],
+             same = star_shape_point(&p, p.point[3 * a], p.point[3 * a + 1], p.point[3 * a + 2]);
     star_shape_triangle(&p, a, same, p.corner[1]);
     check_rays(&p, (mw_surface_options){.weld = 1}, (double[3]){0, 0, 0}, 1, 300, &seed);
     star_shape_free(&p);
@@ -182,8 +195,9 @@ static void test_indices_and_batches(void **state)
                 mw_star_index *index = NULL;
                 mw_error error;
                 if (mw_star_start_has_index((mw_star_start_kind)start))
-                    expect_ok(mw_star_index_create(w.star, (mw_star_start_kind)start, NULL, &index, &error), "index",
-                              &error);
+                    expect_ok(mw_star_index_create(w.star, (mw_star_start_kind)start, NULL, &index,
+                                                   &error),
+                              "index", &error);
                 mw_star_query_options options = {.walk = (mw_star_walk_kind)walk,
                                                  .start = (mw_star_start_kind)start,
                                                  .threads = threads,
@@ -191,7 +205,8 @@ static void test_indices_and_batches(void **state)
                                                  .index = index};
                 mw_counters counters;
                 memset(found, 0xff, sizeof *found * N);
-                expect_ok(mw_star_locate_batch(w.star, q, N, 0, &options, found, &counters, &error), "batch", &error);
+                expect_ok(mw_star_locate_batch(w.star, q, N, 0, &options, found, &counters, &error),
+                          "batch", &error);
                 assert_memory_equal(found, first, sizeof *found * N);
                 uint64_t answered = 0;
                 for (size_t i = 0; i < N; i++) answered += first[i].where != MW_BAD;
@@ -199,7 +214,8 @@ static void test_indices_and_batches(void **state)
                 assert_true(counters.triangles_visited >= answered);
                 options.counters = 0; /* then many walks are in flight */
                 memset(found, 0xff, sizeof *found * N);
-                expect_ok(mw_star_locate_batch(w.star, q, N, 0, &options, found, NULL, &error), "batch", &error);
+                expect_ok(mw_star_locate_batch(w.star, q, N, 0, &options, found, NULL, &error),
+                          "batch", &error);
                 assert_memory_equal(found, first, sizeof *found * N);
                 mw_star_index_destroy(index);
             }
@@ -226,7 +242,8 @@ static void test_short_walks(void **state)
         mw_star_query_options options = {.counters = 1};
         mw_counters counters;
         assert_true(n < p.triangles);
-        expect_ok(mw_star_locate_batch(w.star, q, n, 0, &options, location, &counters, NULL), "batch", NULL);
+        expect_ok(mw_star_locate_batch(w.star, q, n, 0, &options, location, &counters, NULL),
+                  "batch", NULL);
         assert_int_equal(counters.queries, n);
         assert_true(counters.triangles_visited < 4 * n);
     }
@@ -234,7 +251,8 @@ static void test_short_walks(void **state)
     star_shape_free(&p);
 }
 
-/* A path begins at the first facet, crosses edges, and ends where the ray is; it is as long as the counters say. */
+/* A path begins at the first facet, crosses edges, and ends where the ray is; it is as long as the
+ * counters say. */
 static void test_paths(void **state)
 {
     (void)state;
@@ -244,8 +262,10 @@ static void test_paths(void **state)
     star_world w = make_world(&p, (mw_surface_options){0}, (mw_star_options){.angles = 1});
     for (int walk = 0; walk < MW_STAR_WALK_COUNT; walk++)
         for (int i = 0; i < 300; i++) {
-            mw_star_query_options options = {
-                .walk = (mw_star_walk_kind)walk, .start = MW_STAR_START_FRONT, .seed = (uint64_t)i, .counters = 1};
+            mw_star_query_options options = {.walk = (mw_star_walk_kind)walk,
+                                             .start = MW_STAR_START_FRONT,
+                                             .seed = (uint64_t)i,
+                                             .counters = 1};
             mw_star_cursor cursor;
             mw_location location;
             uint32_t facet[4096];
@@ -259,7 +279,8 @@ static void test_paths(void **state)
             for (size_t j = 1; j < count; j++) {
                 bool linked = false;
                 for (unsigned k = 0; k < 3; k++)
-                    linked = linked || mw_surface_neighbour(w.surface, facet[j - 1], k, NULL) == facet[j];
+                    linked = linked ||
+                             mw_surface_neighbour(w.surface, facet[j - 1], k, NULL) == facet[j];
                 assert_true(linked);
             }
             size_t again = mw_star_path(w.star, &cursor, q, facet, 1, NULL);
@@ -269,29 +290,33 @@ static void test_paths(void **state)
     star_shape_free(&p);
 }
 
-static star_shape from_lists(const double *point, uint32_t points, const uint32_t *corner, uint32_t triangles)
+static star_shape from_lists(const double *point, uint32_t points, const uint32_t *corner,
+                             uint32_t triangles)
 {
     star_shape p = {0};
-    for (uint32_t v = 0; v < points; v++) star_shape_point(&p, point[3 * v], point[3 * v + 1], point[3 * v + 2]);
+    for (uint32_t v = 0; v < points; v++)
+        star_shape_point(&p, point[3 * v], point[3 * v + 1], point[3 * v + 2]);
     for (uint32_t t = 0; t < triangles; t++)
         star_shape_triangle(&p, corner[3 * t], corner[3 * t + 1], corner[3 * t + 2]);
     return p;
 }
 
-/* Facets without area that share more than one edge: a spike folded onto an edge, with two vertices at one place; and a
- * pillow of two that has nothing to do with the rest. */
+/* Facets without area that share more than one edge: a spike folded onto an edge, with two
+ * vertices at one place; and a pillow of two that has nothing to do with the rest. */
 static void test_folded_facets(void **state)
 {
     static const uint32_t spike[] = {1, 0, 7, 0, 1, 2, 0, 2, 3, 6, 3, 4, 6, 4, 1, 5, 2, 1,
                                      5, 3, 2, 5, 4, 3, 5, 1, 4, 6, 1, 7, 0, 6, 7, 6, 0, 3};
-    static const double place[] = {0, 0, 1, 1, 0, 0, 0, 1, 0, -1, 0, 0, 0, -1, 0, 0, 0, -1, 0, 0, 1, 2, 0, -1};
+    static const double place[] = {0, 0,  1, 1, 0, 0,  0, 1, 0, -1, 0, 0,
+                                   0, -1, 0, 0, 0, -1, 0, 0, 1, 2,  0, -1};
     (void)state;
     uint64_t seed = 9;
     star_shape p = from_lists(place, 8, spike, 12);
     check_rays(&p, (mw_surface_options){0}, (double[3]){0, 0, 0}, 1, 200, &seed);
     star_shape_free(&p);
     p = star_shape_octahedron(1);
-    uint32_t a = star_shape_point(&p, 5, 0, 0), b = star_shape_point(&p, 6, 1, 0), c = star_shape_point(&p, 7, 2, 0);
+    uint32_t a = star_shape_point(&p, 5, 0, 0), b = star_shape_point(&p, 6, 1, 0),
+             c = star_shape_point(&p, 7, 2, 0);
     star_shape_triangle(&p, a, b, c);
     star_shape_triangle(&p, c, b, a);
     check_rays(&p, (mw_surface_options){0}, (double[3]){0, 0, 0}, 1, 200, &seed);
@@ -321,12 +346,14 @@ static void test_flat_fan(void **state)
             double x[3];
             for (int k = 0; k < 3; k++)
                 x[k] = p.point[3 * o + (uint32_t)k] +
-                       (i + 1) * ((p.point[3 * end + (uint32_t)k] - p.point[3 * o + (uint32_t)k]) / (2 * N));
+                       (i + 1) * ((p.point[3 * end + (uint32_t)k] - p.point[3 * o + (uint32_t)k]) /
+                                  (2 * N));
             star_shape_point(&p, x[0], x[1], x[2]);
         }
         star_shape_triangle(&p, row, o, apex);
         for (uint32_t i = 0; i + 1 < N; i++) star_shape_triangle(&p, row + i + 1, row + i, apex);
-        for (uint32_t j = 0; j < N; j++) { /* o, point i, point i + 1: all on one line; the last with `end` */
+        for (uint32_t j = 0; j < N;
+             j++) { /* o, point i, point i + 1: all on one line; the last with `end` */
             uint32_t i = turned ? N - 1 - j : j;
             star_shape_triangle(&p, o, row + i, i + 1 < N ? row + i + 1 : end);
         }
@@ -335,9 +362,10 @@ static void test_flat_fan(void **state)
     }
 }
 
-/* --- what is no star-shaped polyhedron ---------------------------------------------------------------------------- */
+/* --- what is no star-shaped polyhedron -------------------------------------------------------- */
 
-static void expect_refused(const star_shape *p, mw_star_options options, mw_defect_kind kind, uint32_t triangle)
+static void expect_refused(const star_shape *p, mw_star_options options, mw_defect_kind kind,
+                           uint32_t triangle)
 {
     mw_surface *surface;
     mw_star *star;
@@ -352,8 +380,8 @@ static void expect_refused(const star_shape *p, mw_star_options options, mw_defe
     assert_false(check.valid);
     bool found = false;
     for (size_t i = 0; i < check.defect_count; i++)
-        found =
-            found || (check.defects[i].kind == kind && (triangle == MW_NONE || check.defects[i].triangle == triangle));
+        found = found || (check.defects[i].kind == kind &&
+                          (triangle == MW_NONE || check.defects[i].triangle == triangle));
     assert_true(found);
     mw_check_release(&check);
     mw_surface_destroy(surface);
@@ -371,12 +399,15 @@ static void test_refused(void **state)
         expect_refused(&open, (mw_star_options){0}, MW_DEFECT_OPEN_EDGE, MW_NONE);
         star_shape_free(&open);
     }
-    expect_refused(&p, (mw_star_options){.centre = {2, 0, 0}}, MW_DEFECT_THROUGH_CENTRE, MW_NONE);  /* on the surface */
-    expect_refused(&p, (mw_star_options){.centre = {1.5, 1.5, 0}}, MW_DEFECT_BACK_FACING, MW_NONE); /* outside */
+    /* on the surface */
+    expect_refused(&p, (mw_star_options){.centre = {2, 0, 0}}, MW_DEFECT_THROUGH_CENTRE, MW_NONE);
+    /* outside */
+    expect_refused(&p, (mw_star_options){.centre = {1.5, 1.5, 0}}, MW_DEFECT_BACK_FACING, MW_NONE);
     star_shape_free(&p);
 }
 
-/* One vertex is pulled through the centre: the facets round it turn away, and are named, whatever their orientation. */
+/* One vertex is pulled through the centre: the facets round it turn away, and are named, whatever
+ * their orientation. */
 static void test_turned_facet(void **state)
 {
     (void)state;
@@ -404,15 +435,16 @@ static void test_turned_facet(void **state)
     }
 }
 
-/* Closed, and all facets face outwards, but rays meet two: one octahedron in another; two sheets wound about a slit, whose
- * two ends they share. */
+/* Closed, and all facets face outwards, but rays meet two: one octahedron in another; two sheets
+ * wound about a slit, whose two ends they share. */
 static void test_covered_twice(void **state)
 {
     (void)state;
     star_shape p = star_shape_octahedron(1), inner = star_shape_octahedron(1);
     uint32_t points = p.points, triangles = p.triangles;
     for (uint32_t v = 0; v < points; v++)
-        star_shape_point(&p, inner.point[3 * v] / 2, inner.point[3 * v + 1] / 2, inner.point[3 * v + 2] / 2);
+        star_shape_point(&p, inner.point[3 * v] / 2, inner.point[3 * v + 1] / 2,
+                         inner.point[3 * v + 2] / 2);
     for (uint32_t t = 0; t < triangles; t++)
         star_shape_triangle(&p, inner.corner[3 * t] + points, inner.corner[3 * t + 1] + points,
                             inner.corner[3 * t + 2] + points);
@@ -420,7 +452,8 @@ static void test_covered_twice(void **state)
     star_shape_free(&inner);
     star_shape_free(&p);
 
-    /* The slit goes from x = 2 over the middle (1, 1, 0) to y = 2; above and below it lie z > 0 and z < 0. */
+    /* The slit goes from x = 2 over the middle (1, 1, 0) to y = 2; above and below it lie z > 0
+     * and z < 0. */
     star_shape two = {0}, one = star_shape_octahedron(1);
     for (int sheet = 0; sheet < 2; sheet++)
         for (uint32_t v = 0; v < one.points; v++)
@@ -429,7 +462,8 @@ static void test_covered_twice(void **state)
         for (uint32_t t = 0; t < one.triangles; t++) {
             uint32_t v[3];
             bool above = false;
-            for (uint32_t k = 0; k < 3; k++) above = above || one.point[3 * one.corner[3 * t + k] + 2] > 0;
+            for (uint32_t k = 0; k < 3; k++)
+                above = above || one.point[3 * one.corner[3 * t + k] + 2] > 0;
             for (uint32_t k = 0; k < 3; k++) {
                 const double *x = one.point + 3 * (size_t)one.corner[3 * t + k];
                 bool end = x[0] == 2 || x[1] == 2, middle = x[0] == 1 && x[1] == 1;
@@ -460,9 +494,11 @@ static void test_arguments(void **state)
     options = (mw_star_query_options){.start = MW_STAR_START_COUNT};
     assert_int_equal(mw_star_cursor_init(w.star, &options, &cursor, &error), MW_ERROR_ARGUMENT);
     for (int finish = 0; finish <= MW_STAR_WALK_COUNT + 256; finish++) {
-        bool known = finish == 0 || finish == MW_STAR_WALK_STOCHASTIC || finish == MW_STAR_WALK_FORGETFUL;
+        bool known =
+            finish == 0 || finish == MW_STAR_WALK_STOCHASTIC || finish == MW_STAR_WALK_FORGETFUL;
         options = (mw_star_query_options){.finish = (mw_star_walk_kind)finish};
-        assert_int_equal(mw_star_cursor_init(w.star, &options, &cursor, &error), known ? MW_OK : MW_ERROR_ARGUMENT);
+        assert_int_equal(mw_star_cursor_init(w.star, &options, &cursor, &error),
+                         known ? MW_OK : MW_ERROR_ARGUMENT);
     }
     options = (mw_star_query_options){.start = MW_STAR_START_GRID};
     assert_int_equal(mw_star_cursor_init(w.star, &options, &cursor, &error), MW_ERROR_ARGUMENT);
@@ -472,7 +508,7 @@ static void test_arguments(void **state)
     star_shape_free(&p);
 }
 
-/* --- change ------------------------------------------------------------------------------------------------------- */
+/* --- change ----------------------------------------------------------------------------------- */
 
 static void test_update(void **state)
 {
@@ -499,8 +535,10 @@ static void test_update(void **state)
         for (int i = 0; i < 50; i++) {
             draw(&p, (double[3]){0, 0, 0}, 1, &seed, q);
             mw_location found = mw_star_locate(w.star, &cursor, q);
-            mw_location expected = star_oracle_locate(p.point, p.corner, p.triangles, (double[3]){0, 0, 0}, q);
-            if (broken) expected = (mw_location){.triangle = MW_NONE, .where = MW_BAD, .local = 255};
+            mw_location expected =
+                star_oracle_locate(p.point, p.corner, p.triangles, (double[3]){0, 0, 0}, q);
+            if (broken)
+                expected = (mw_location){.triangle = MW_NONE, .where = MW_BAD, .local = 255};
             expect_location(&found, &expected, q);
         }
     }
@@ -508,7 +546,8 @@ static void test_update(void **state)
     star_shape_free(&p);
 }
 
-/* Vertices that were made one stay one: moved apart they leave a gap; moved onto others, facets vanish. */
+/* Vertices that were made one stay one: moved apart they leave a gap; moved onto others, facets
+ * vanish. */
 static void test_welded_update(void **state)
 {
     (void)state;

@@ -1,4 +1,5 @@
-/* test_star_lonlat.c - longitude and latitude to directions and back: exact where that is promised, accurate elsewhere. */
+/* test_star_lonlat.c - longitude and latitude to directions and back: exact where that is
+ * promised, accurate elsewhere. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -17,7 +18,8 @@ static void expect_direction(double longitude, double latitude, double x, double
     double want[3] = {x, y, z}, got[3];
     mw_lonlat_to_direction(longitude, latitude, got);
     if (memcmp(want, got, sizeof got) != 0)
-        fail_msg("longitude %.17g, latitude %.17g: %a %a %a", longitude, latitude, got[0], got[1], got[2]);
+        fail_msg("longitude %.17g, latitude %.17g: %a %a %a", longitude, latitude, got[0], got[1],
+                 got[2]);
 }
 
 static void test_multiples_of_a_right_angle(void **state)
@@ -47,7 +49,8 @@ static void test_whole_turns(void **state)
         double longitude = ldexp((double)mw__random_below(&random, 360u << 20), -20) - 180;
         double latitude = 180 * (random_unit(&random) - 0.5), d[3];
         mw_lonlat_to_direction(longitude, latitude, d);
-        for (int turns = -3; turns <= 3; turns++) expect_direction(longitude + 360 * turns, latitude, d[0], d[1], d[2]);
+        for (int turns = -3; turns <= 3; turns++)
+            expect_direction(longitude + 360 * turns, latitude, d[0], d[1], d[2]);
     }
 }
 
@@ -57,7 +60,8 @@ static void test_mirrored(void **state)
     uint64_t random = 2;
     (void)state;
     for (int i = 0; i < 100000; i++) {
-        double longitude = 360 * (random_unit(&random) - 0.5), latitude = 180 * (random_unit(&random) - 0.5), d[3];
+        double longitude = 360 * (random_unit(&random) - 0.5),
+               latitude = 180 * (random_unit(&random) - 0.5), d[3];
         mw_lonlat_to_direction(longitude, latitude, d);
         expect_direction(-longitude, latitude, d[0], -d[1] + 0.0, d[2]);
         expect_direction(longitude, -latitude, d[0], d[1], -d[2] + 0.0);
@@ -73,7 +77,8 @@ static long double sine(double degrees)
 
 static long double cosine(double degrees)
 {
-    return cosl(remainderl(degrees, 360) * 0x1.1df46a2529d39p-6L + remainderl(degrees, 360) * 0x1.5c1d8becdd291p-62L);
+    return cosl(remainderl(degrees, 360) * 0x1.1df46a2529d39p-6L +
+                remainderl(degrees, 360) * 0x1.5c1d8becdd291p-62L);
 }
 
 static double draw_degrees(uint64_t *random, double most)
@@ -96,12 +101,13 @@ static void test_accuracy(void **state)
         double longitude = draw_degrees(&random, 1000), latitude = draw_degrees(&random, 90), d[3];
         latitude = fmax(-90, fmin(90, latitude));
         mw_lonlat_to_direction(longitude, latitude, d);
-        long double want[3] = {cosine(latitude) * cosine(longitude), cosine(latitude) * sine(longitude),
-                               sine(latitude)};
+        long double want[3] = {cosine(latitude) * cosine(longitude),
+                               cosine(latitude) * sine(longitude), sine(latitude)};
         for (int k = 0; k < 3; k++) {
             most = fmaxl(most, fabsl(want[k] - d[k]));
             if (fabsl(want[k] - d[k]) >= 0x1p-52L)
-                fail_msg("longitude %a, latitude %a: coordinate %d is %a", longitude, latitude, k, d[k]);
+                fail_msg("longitude %a, latitude %a: coordinate %d is %a", longitude, latitude, k,
+                         d[k]);
         }
     }
     print_message("largest error: %.3Lf x 2^-52\n", most / 0x1p-52L);
@@ -152,20 +158,24 @@ static void test_back(void **state)
         expect_lonlat(-s, -s, 0, -135, 0);
     }
     for (int i = 0; i < 100000; i++) {
-        double longitude = 360 * (random_unit(&random) - 0.5), latitude = 180 * (random_unit(&random) - 0.5), got[2];
+        double longitude = 360 * (random_unit(&random) - 0.5),
+               latitude = 180 * (random_unit(&random) - 0.5), got[2];
         double d[3], scale = ldexp(1, (int)mw__random_below(&random, 1900) - 950);
         mw_lonlat_to_direction(longitude, latitude, d);
         for (int k = 0; k < 3; k++) d[k] *= scale;
         mw_direction_to_lonlat(d, &got[0], &got[1]);
-        if (fabs(got[0] - longitude) * cos(latitude / 57.3) > 1e-13 || fabs(got[1] - latitude) > 1e-13)
-            fail_msg("longitude %.17g, latitude %.17g: came back as %.17g, %.17g", longitude, latitude, got[0], got[1]);
+        if (fabs(got[0] - longitude) * cos(latitude / 57.3) > 1e-13 ||
+            fabs(got[1] - latitude) > 1e-13)
+            fail_msg("longitude %.17g, latitude %.17g: came back as %.17g, %.17g", longitude,
+                     latitude, got[0], got[1]);
     }
 }
 
 static void test_no_lonlat(void **state)
 {
-    static const double bad[][3] = {{0, 0, 0},        {-0.0, 0, -0.0},     {NAN, 1, 1},      {1, NAN, 0},
-                                    {1, 0, INFINITY}, {-INFINITY, 1, NAN}, {INFINITY, 0, 0}, {0, 0, NAN}};
+    static const double bad[][3] = {{0, 0, 0},        {-0.0, 0, -0.0},  {NAN, 1, 1},
+                                    {1, NAN, 0},      {1, 0, INFINITY}, {-INFINITY, 1, NAN},
+                                    {INFINITY, 0, 0}, {0, 0, NAN}};
     (void)state;
     for (int i = 0; i < 8; i++) {
         double longitude = 0, latitude = 0;

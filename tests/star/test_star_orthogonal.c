@@ -1,4 +1,5 @@
-/* test_star_orthogonal.c - the orthogonal walk on spheres: its seam, its way, what it counts, and that it ends near. */
+/* test_star_orthogonal.c - the orthogonal walk on spheres: its seam, its way, what it counts, and
+ * that it ends near. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -36,8 +37,10 @@ static orthogonal_sphere make_sphere(star_shape p, double turn, int weld)
     }
     mw_arrays view = star_shape_arrays(&p);
     mw_error error;
-    expect_ok(mw_surface_create(&view, &(mw_surface_options){.weld = weld}, &s.surface, &error), "surface", &error);
-    expect_ok(mw_star_create(s.surface, &(mw_star_options){.angles = 1}, &s.star, &error), "star", &error);
+    expect_ok(mw_surface_create(&view, &(mw_surface_options){.weld = weld}, &s.surface, &error),
+              "surface", &error);
+    expect_ok(mw_star_create(s.surface, &(mw_star_options){.angles = 1}, &s.star, &error), "star",
+              &error);
     return s;
 }
 
@@ -48,7 +51,8 @@ static void release_sphere(orthogonal_sphere *s)
     star_shape_free(&s->p);
 }
 
-/* Meridians and parallels every 180 / n degrees, each quadrangle cut in two. One vertex at each pole, none twice. */
+/* Meridians and parallels every 180 / n degrees, each quadrangle cut in two. One vertex at each
+ * pole, none twice. */
 static star_shape globe(uint32_t n)
 {
     star_shape p = {0};
@@ -72,13 +76,14 @@ static star_shape globe(uint32_t n)
     return p;
 }
 
-/* --- angles and seam ---------------------------------------------------------------------------------------------- */
+/* --- angles and seam -------------------------------------------------------------------------- */
 
 static void expect_angles(double x, double y, double z, double phi, double theta)
 {
     double got[2];
     mw__star_angles((double[3]){x, y, z}, &got[0], &got[1]);
-    if (got[0] != phi || got[1] != theta) fail_msg("angles of %g %g %g: %.17g %.17g", x, y, z, got[0], got[1]);
+    if (got[0] != phi || got[1] != theta)
+        fail_msg("angles of %g %g %g: %.17g %.17g", x, y, z, got[0], got[1]);
 }
 
 static void test_angles(void **state)
@@ -95,7 +100,8 @@ static void test_angles(void **state)
     expect_angles(1e308, 0, 1e308, 0, PI / 4);
 }
 
-/* Where facets are small, the seam is those that have longitudes more than a half turn apart; so have those with a pole. */
+/* Where facets are small, the seam is those that have longitudes more than a half turn apart; so
+ * have those with a pole. */
 static void expect_seam(const mw_star *star)
 {
     uint32_t marked = 0;
@@ -107,7 +113,8 @@ static void expect_seam(const mw_star *star)
             high = fmax(high, star->angle[2 * (size_t)facet->v[k]]);
         }
         bool want = high - low > PI;
-        if (((facet->user & MW_SEAM) != 0) != want) fail_msg("facet %u: seam %d, not %d", t, !want, want);
+        if (((facet->user & MW_SEAM) != 0) != want)
+            fail_msg("facet %u: seam %d, not %d", t, !want, want);
         marked += want;
     }
     assert_in_range(marked, 2, star->tri_count / 2);
@@ -123,7 +130,8 @@ static void test_seam(void **state)
     }
 }
 
-/* The middle vertex lies south of the arc between the others, but north of their chord in the plane of the angles. */
+/* The middle vertex lies south of the arc between the others, but north of their chord in the
+ * plane of the angles. */
 static void test_seam_of_chords(void **state)
 {
     static const double angles[3][2] = {{0, 0.5}, {1, 0.4}, {2, 0.5}};
@@ -137,7 +145,8 @@ static void test_seam_of_chords(void **state)
     mw_surface surface = {.point = point, .point_count = 3};
     for (uint32_t turned = 0; turned < 2; turned++) {
         mw_star_facet facet = {.v = {0, 1 + turned, 2 - turned}};
-        mw_star star = {.surface = &surface, .facet = &facet, .angle = angle, .tri_count = 1, .point_count = 3};
+        mw_star star = {
+            .surface = &surface, .facet = &facet, .angle = angle, .tri_count = 1, .point_count = 3};
         mw__star_fill_angles(&star);
         assert_int_equal(facet.user, turned ? 0 : MW_SEAM);
     }
@@ -166,36 +175,40 @@ static void test_seam_again(void **state)
     release_sphere(&s);
 }
 
-/* --- the walk ----------------------------------------------------------------------------------------------------- */
+/* --- the walk --------------------------------------------------------------------------------- */
 
-static mw_counters run(const mw_star *star, mw_star_query_options options, const double *q, size_t n, mw_location *at)
+static mw_counters run(const mw_star *star, mw_star_query_options options, const double *q,
+                       size_t n, mw_location *at)
 {
     mw_counters counters;
     mw_error error;
     options.counters = 1;
-    expect_ok(mw_star_locate_batch(star, q, n, 3, &options, at, &counters, &error), "batch", &error);
+    expect_ok(mw_star_locate_batch(star, q, n, 3, &options, at, &counters, &error), "batch",
+              &error);
     return counters;
 }
 
-/* Two comparisons a facet, a short end, and the straight walk's answers. A facet of a globe may end the walk far from q:
- * near a pole, where the facets are long. */
+/* Two comparisons a facet, a short end, and the straight walk's answers. A facet of a globe may
+ * end the walk far from q: near a pole, where the facets are long. */
 static void expect_walks(const mw_star *star, const double *q, size_t n, double final)
 {
     mw_location *want = malloc(n * sizeof *want), *at = malloc(n * sizeof *at);
     assert_true(want && at);
     run(star, (mw_star_query_options){.walk = MW_STAR_WALK_STRAIGHT}, q, n, want);
     for (int start = MW_STAR_START_RANDOM; start <= MW_STAR_START_SORTED; start++) {
-        mw_star_query_options options = {.walk = MW_STAR_WALK_ORTHOGONAL, .start = (mw_star_start_kind)start};
+        mw_star_query_options options = {.walk = MW_STAR_WALK_ORTHOGONAL,
+                                         .start = (mw_star_start_kind)start};
         mw_counters counters = run(star, options, q, n, at);
         for (size_t i = 0; i < n; i++)
             if (memcmp(&at[i], &want[i], sizeof *at) != 0)
-                fail_msg("%a %a %a: facet %u, not %u", q[3 * i], q[3 * i + 1], q[3 * i + 2], at[i].triangle,
-                         want[i].triangle);
+                fail_msg("%a %a %a: facet %u, not %u", q[3 * i], q[3 * i + 1], q[3 * i + 2],
+                         at[i].triangle, want[i].triangle);
         assert_int_equal(counters.comparisons, 2 * counters.triangles);
         assert_int_equal(counters.orient, 0);
         assert_int_equal(counters.handovers, 0);
         double mean = (double)counters.triangles_final / (double)n;
-        if (mean > final) fail_msg("start %s: %.2f facets at the end", mw_star_start_name(options.start), mean);
+        if (mean > final)
+            fail_msg("start %s: %.2f facets at the end", mw_star_start_name(options.start), mean);
     }
     free(want);
     free(at);
@@ -217,7 +230,8 @@ static void test_spheres(void **state)
     free(q);
 }
 
-/* Queries on meridians and parallels of vertices, at vertices, at the poles. No end but near a pole is far. */
+/* Queries on meridians and parallels of vertices, at vertices, at the poles. No end but near a
+ * pole is far. */
 static void test_globe(void **state)
 {
     enum { N = 24 };
@@ -226,7 +240,8 @@ static void test_globe(void **state)
     assert_non_null(q);
     size_t n = 0;
     for (int i = 0; i <= 2 * N; i++)
-        for (int j = -2 * N; j <= 2 * N; j++) mw_lonlat_to_direction(90.0 * j / N, 90.0 * (N - i) / N, q + 3 * n++);
+        for (int j = -2 * N; j <= 2 * N; j++)
+            mw_lonlat_to_direction(90.0 * j / N, 90.0 * (N - i) / N, q + 3 * n++);
     for (double turn = 0; turn < 3; turn += 1.25) {
         orthogonal_sphere s = make_sphere(globe(N), turn, 0);
         expect_walks(s.star, q, n, 5);
@@ -235,9 +250,10 @@ static void test_globe(void **state)
     free(q);
 }
 
-/* The final location alone depends on its walk: the forgetful one makes more tests in as many facets, or nearly. Other walks
- * have none, and know nothing of it. */
-static void expect_finishes(const mw_star *star, mw_star_query_options options, const double *q, size_t n)
+/* The final location alone depends on its walk: the forgetful one makes more tests in as many
+ * facets, or nearly. Other walks have none, and know nothing of it. */
+static void expect_finishes(const mw_star *star, mw_star_query_options options, const double *q,
+                            size_t n)
 {
     mw_location *want = malloc(n * sizeof *want), *at = malloc(n * sizeof *at);
     assert_true(want && at);
@@ -274,7 +290,8 @@ static void test_finishes(void **state)
         mw_star_index *index = NULL;
         mw_error error;
         if (mw_star_start_has_index(options.start))
-            expect_ok(mw_star_index_create(s.star, options.start, NULL, &index, &error), "index", &error);
+            expect_ok(mw_star_index_create(s.star, options.start, NULL, &index, &error), "index",
+                      &error);
         options.index = index;
         for (int walk = 0; walk < MW_STAR_WALK_COUNT; walk++) {
             options.walk = (mw_star_walk_kind)walk;
@@ -296,7 +313,8 @@ static void test_finish_of_path(void **state)
         for (int f = 0; f < 2; f++) {
             mw_star_query_options options = {.walk = MW_STAR_WALK_ORTHOGONAL,
                                              .start = MW_STAR_START_FRONT,
-                                             .finish = f ? MW_STAR_WALK_FORGETFUL : MW_STAR_WALK_STOCHASTIC,
+                                             .finish = f ? MW_STAR_WALK_FORGETFUL
+                                                         : MW_STAR_WALK_STOCHASTIC,
                                              .seed = (uint64_t)i,
                                              .counters = 1};
             mw_star_cursor cursor;
@@ -337,8 +355,9 @@ static const mw_star_facet *stored(const mw_star *star, uint32_t number)
     return &star->facet[t];
 }
 
-/* As triangles of the plane, facets of the first leg lie across the parallel of the first one's centroid, those of the second
- * across the meridian of q; and a leg ends in the first facet that reaches past its end. */
+/* As triangles of the plane, facets of the first leg lie across the parallel of the first one's
+ * centroid, those of the second across the meridian of q; and a leg ends in the first facet that
+ * reaches past its end. */
 static void test_legs(void **state)
 {
     enum { ROOM = 1000 };
@@ -348,8 +367,10 @@ static void test_legs(void **state)
     const double *angle = s.star->angle;
     size_t turns = 0;
     for (int i = 0; i < 2000; i++) {
-        mw_star_query_options options = {
-            .walk = MW_STAR_WALK_ORTHOGONAL, .start = MW_STAR_START_FRONT, .seed = (uint64_t)i, .counters = 1};
+        mw_star_query_options options = {.walk = MW_STAR_WALK_ORTHOGONAL,
+                                         .start = MW_STAR_START_FRONT,
+                                         .seed = (uint64_t)i,
+                                         .counters = 1};
         mw_star_cursor cursor;
         mw_error error;
         uint32_t facet[ROOM];
@@ -375,7 +396,8 @@ static void test_legs(void **state)
                     low[c] = fmin(low[c], a);
                     high[c] = fmax(high[c], a);
                 }
-            bool level = low[1] - 1e-9 <= height && height <= high[1] + 1e-9, plumb = low[0] <= phi && phi <= high[0];
+            bool level = low[1] - 1e-9 <= height && height <= high[1] + 1e-9,
+                 plumb = low[0] <= phi && phi <= high[0];
             bool seam = here->user & MW_SEAM, last = j + 1 == walked, right = upright || level;
             if (!upright && (phi < middle ? low[0] <= phi : high[0] >= phi)) {
                 upright = true;
@@ -393,10 +415,11 @@ static void test_legs(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_angles),         cmocka_unit_test(test_seam),    cmocka_unit_test(test_seam_of_chords),
-        cmocka_unit_test(test_seam_again),     cmocka_unit_test(test_spheres), cmocka_unit_test(test_globe),
-        cmocka_unit_test(test_welded),         cmocka_unit_test(test_legs),    cmocka_unit_test(test_finishes),
-        cmocka_unit_test(test_finish_of_path),
+        cmocka_unit_test(test_angles),         cmocka_unit_test(test_seam),
+        cmocka_unit_test(test_seam_of_chords), cmocka_unit_test(test_seam_again),
+        cmocka_unit_test(test_spheres),        cmocka_unit_test(test_globe),
+        cmocka_unit_test(test_welded),         cmocka_unit_test(test_legs),
+        cmocka_unit_test(test_finishes),       cmocka_unit_test(test_finish_of_path),
     };
     return cmocka_run_group_tests_name("star_orthogonal", tests, NULL, NULL);
 }

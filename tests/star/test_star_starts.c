@@ -1,5 +1,5 @@
-/* test_star_starts.c - first facets: grids by their equations, the octahedron, names; answers do not depend on any of them,
- * whatever star an index was made from. */
+/* test_star_starts.c - first facets: grids by their equations, the octahedron, names; answers do
+ * not depend on any of them, whatever star an index was made from. */
 /* wrap: malloc calloc realloc aligned_alloc */
 #include <stdarg.h>
 #include <stddef.h>
@@ -46,7 +46,7 @@ static void draw_direction(uint64_t *random, double d[3])
     d[2] = z;
 }
 
-/* --- a sphere, turned so that nothing lies on an axis or a plane of coordinates ------------------------------------- */
+/* --- a sphere, turned so that nothing lies on an axis or a plane of coordinates --------------- */
 
 typedef struct starts_sphere {
     star_shape p;
@@ -66,7 +66,8 @@ static starts_sphere make_sphere(unsigned levels)
     mw_arrays view = star_shape_arrays(&s.p);
     mw_error error;
     expect_ok(mw_surface_create(&view, NULL, &s.surface, &error), "surface", &error);
-    expect_ok(mw_star_create(s.surface, &(mw_star_options){.angles = 1}, &s.star, &error), "star", &error);
+    expect_ok(mw_star_create(s.surface, &(mw_star_options){.angles = 1}, &s.star, &error), "star",
+              &error);
     return s;
 }
 
@@ -77,7 +78,8 @@ static void release_sphere(starts_sphere *s)
     star_shape_free(&s->p);
 }
 
-static mw_star_index *make_index(const mw_star *star, mw_star_start_kind start, mw_star_index_options options)
+static mw_star_index *make_index(const mw_star *star, mw_star_start_kind start,
+                                 mw_star_index_options options)
 {
     mw_star_index *index;
     mw_error error;
@@ -94,10 +96,11 @@ static void expect_at_once(const mw_star *star, const mw_star_index *index, cons
     mw_location at;
     expect_ok(mw_star_cursor_init(star, &options, &cursor, &error), "cursor", &error);
     if (mw_star_path(star, &cursor, d, NULL, 0, &at) != 1)
-        fail_msg("%s: no facet of its own for %.17g %.17g %.17g", mw_star_start_name(index->start), d[0], d[1], d[2]);
+        fail_msg("%s: no facet of its own for %.17g %.17g %.17g", mw_star_start_name(index->start),
+                 d[0], d[1], d[2]);
 }
 
-/* --- grids -------------------------------------------------------------------------------------------------------- */
+/* --- grids ------------------------------------------------------------------------------------ */
 
 /* Rows and cells by eq. 4 to 6 as printed; each cell found again by eq. 7, from its middle. */
 static void expect_grid(const mw_star *star, uint32_t cells, bool uniform)
@@ -155,8 +158,8 @@ static void test_published_grids(void **state)
     (void)state;
     starts_sphere s = make_sphere(2);
     for (uint32_t rows = 4; rows <= 32; rows *= 2) {
-        mw_star_index *index =
-            make_index(s.star, MW_STAR_START_GRID, (mw_star_index_options){.cells = 2 * rows * rows});
+        mw_star_index *index = make_index(s.star, MW_STAR_START_GRID,
+                                          (mw_star_index_options){.cells = 2 * rows * rows});
         assert_int_equal(index->grid.rows, rows);
         assert_int_equal(index->grid.first[rows], 2 * rows * rows);
         mw_star_index_destroy(index);
@@ -164,7 +167,7 @@ static void test_published_grids(void **state)
     release_sphere(&s);
 }
 
-/* --- the octahedron ----------------------------------------------------------------------------------------------- */
+/* --- the octahedron --------------------------------------------------------------------------- */
 
 /* The corners of one of the finest triangles, from its number. */
 static void cell_corners(uint32_t levels, uint32_t cell, double v[3][3])
@@ -200,8 +203,8 @@ static void test_octahedron_covers_the_sphere(void **state)
     (void)state;
     starts_sphere s = make_sphere(4);
     for (uint32_t levels = 0; levels <= 4; levels++) {
-        mw_star_index *index =
-            make_index(s.star, MW_STAR_START_OCTAHEDRON, (mw_star_index_options){.levels = levels + 1});
+        mw_star_index *index = make_index(s.star, MW_STAR_START_OCTAHEDRON,
+                                          (mw_star_index_options){.levels = levels + 1});
         mw_star_index_info info;
         mw_star_index_describe(index, &info);
         assert_int_equal(info.levels, levels);
@@ -222,7 +225,8 @@ static void test_octahedron_covers_the_sphere(void **state)
     release_sphere(&s);
 }
 
-/* Each direction is in its cell, up to rounding; the mean number of triangles and tests is that of uniform directions. */
+/* Each direction is in its cell, up to rounding; the mean number of triangles and tests is that of
+ * uniform directions. */
 static void test_octahedron_finds(void **state)
 {
     enum { N = 100000 };
@@ -237,18 +241,21 @@ static void test_octahedron_finds(void **state)
             draw_direction(&random, d);
             bool on_edge = i % 8 == 0;
             if (on_edge) d[i / 8 % 3] = 0;
-            cell_corners(levels, mw__star_octahedron_cell(&octahedron, d, on_edge ? NULL : &work), v);
+            cell_corners(levels, mw__star_octahedron_cell(&octahedron, d, on_edge ? NULL : &work),
+                         v);
             double turn = determinant(v[0], v[1], v[2]);
             for (int k = 0; k < 3; k++)
                 if (copysign(1, turn) * determinant(v[k], v[(k + 1) % 3], d) < -1e-15)
-                    fail_msg("%u levels: %.17g %.17g %.17g is not in its triangle", levels, d[0], d[1], d[2]);
+                    fail_msg("%u levels: %.17g %.17g %.17g is not in its triangle", levels, d[0],
+                             d[1], d[2]);
         }
         double mean = (double)work.triangles[MW_STAR_STAGE_INIT] / (N - N / 8);
         assert_int_equal(work.orient[MW_STAR_STAGE_INIT], 3 * work.triangles[MW_STAR_STAGE_INIT]);
         assert_int_equal(work.visited, 0);
         print_message("%u levels: %.2f triangles\n", levels, mean);
         double want = levels == 0 ? 2.5 : levels == 3 ? 7.97 : before + 5.25;
-        if (fabs(mean - want) > 0.05) fail_msg("%u levels: %.3f triangles, not %.2f", levels, mean, want);
+        if (fabs(mean - want) > 0.05)
+            fail_msg("%u levels: %.3f triangles, not %.2f", levels, mean, want);
         before = mean;
     }
 }
@@ -313,7 +320,8 @@ static void test_octahedron_walks(void **state)
 /* Directions at the rim of the doubles, and beyond: some cell, and an end. */
 static void test_octahedron_ends(void **state)
 {
-    static const double value[] = {0, -0.0, 5e-324, -5e-324, 1, -1, 1.5e308, -1.5e308, INFINITY, -INFINITY, NAN};
+    static const double value[] = {0,       -0.0,     5e-324,   -5e-324,   1,  -1,
+                                   1.5e308, -1.5e308, INFINITY, -INFINITY, NAN};
     enum { N = sizeof value / sizeof *value };
     (void)state;
     for (uint32_t levels = 0; levels < 4; levels++) {
@@ -325,10 +333,11 @@ static void test_octahedron_ends(void **state)
     }
 }
 
-/* --- answers ------------------------------------------------------------------------------------------------------ */
+/* --- answers ---------------------------------------------------------------------------------- */
 
-static void expect_same_answers(const mw_star *star, const mw_star_query_options *options, const double *q, size_t n,
-                                const mw_location *want, uint64_t *visited)
+static void expect_same_answers(const mw_star *star, const mw_star_query_options *options,
+                                const double *q, size_t n, const mw_location *want,
+                                uint64_t *visited)
 {
     mw_location *at = malloc(n * sizeof *at);
     mw_counters counters;
@@ -338,8 +347,9 @@ static void expect_same_answers(const mw_star *star, const mw_star_query_options
     expect_ok(mw_star_locate_batch(star, q, n, 3, options, at, &counters, &error), "batch", &error);
     for (size_t i = 0; i < n; i++)
         if (memcmp(&at[i], &want[i], sizeof *at) != 0)
-            fail_msg("start %s: %.17g %.17g %.17g: facet %u, not %u", mw_star_start_name(options->start), q[3 * i],
-                     q[3 * i + 1], q[3 * i + 2], at[i].triangle, want[i].triangle);
+            fail_msg("start %s: %.17g %.17g %.17g: facet %u, not %u",
+                     mw_star_start_name(options->start), q[3 * i], q[3 * i + 1], q[3 * i + 2],
+                     at[i].triangle, want[i].triangle);
     assert_int_equal(counters.queries, n);
     bool octahedron = options->start == MW_STAR_START_OCTAHEDRON;
     assert_true(octahedron ? counters.triangles_init >= n : counters.triangles_init == 0);
@@ -365,10 +375,12 @@ static void test_answers(void **state)
     enum { N = 3000, KINDS = 3 };
     uint64_t random = 6, visited, front = 0;
     (void)state;
-    starts_sphere s = make_sphere(4), other[KINDS] = {make_sphere(4), make_sphere(1), make_sphere(5)};
+    starts_sphere s = make_sphere(4),
+                  other[KINDS] = {make_sphere(4), make_sphere(1), make_sphere(5)};
     double *q = malloc(3 * N * sizeof *q);
     mw_location *want = malloc(N * sizeof *want);
-    mw_star_query_options plain = {.walk = MW_STAR_WALK_STRAIGHT, .start = MW_STAR_START_FRONT, .counters = 1};
+    mw_star_query_options plain = {
+        .walk = MW_STAR_WALK_STRAIGHT, .start = MW_STAR_START_FRONT, .counters = 1};
     assert_true(q && want);
     draw_queries(&s.p, q, N, &random);
     mw_error error;
@@ -377,8 +389,9 @@ static void test_answers(void **state)
     for (int start = MW_STAR_START_AUTO; start < MW_STAR_START_COUNT; start++)
         for (int kind = 0; kind < KINDS; kind++)
             for (int walk = MW_STAR_WALK_AUTO; walk < MW_STAR_WALK_COUNT; walk++) {
-                mw_star_query_options options = {
-                    .walk = (mw_star_walk_kind)walk, .start = (mw_star_start_kind)start, .counters = 1};
+                mw_star_query_options options = {.walk = (mw_star_walk_kind)walk,
+                                                 .start = (mw_star_start_kind)start,
+                                                 .counters = 1};
                 mw_star_index *index = NULL;
                 if (mw_star_start_has_index(options.start))
                     index = make_index(other[kind].star, options.start, (mw_star_index_options){0});
@@ -401,7 +414,8 @@ static size_t path_length(const mw_star *star, mw_star_query_options options, co
     return mw_star_path(star, &cursor, q, NULL, 0, NULL);
 }
 
-/* The more facets are sampled, the shorter the walk; the front facet is in front; the last is where the last query was. */
+/* The more facets are sampled, the shorter the walk; the front facet is in front; the last is
+ * where the last query was. */
 static void test_where_it_begins(void **state)
 {
     enum { N = 400 };
@@ -414,11 +428,17 @@ static void test_where_it_begins(void **state)
     for (uint64_t i = 0; i < N; i++) {
         double d[3];
         draw_direction(&random, d);
-        one += path_length(s.star, (mw_star_query_options){.start = MW_STAR_START_SAMPLE, .seed = i, .samples = 1}, d);
-        few += path_length(s.star, (mw_star_query_options){.start = MW_STAR_START_SAMPLE, .seed = i, .samples = 17}, d);
-        rule += path_length(s.star, (mw_star_query_options){.start = MW_STAR_START_SAMPLE, .seed = i}, d);
-        many +=
-            path_length(s.star, (mw_star_query_options){.start = MW_STAR_START_SAMPLE, .seed = i, .samples = 5000}, d);
+        one += path_length(
+            s.star, (mw_star_query_options){.start = MW_STAR_START_SAMPLE, .seed = i, .samples = 1},
+            d);
+        few += path_length(
+            s.star,
+            (mw_star_query_options){.start = MW_STAR_START_SAMPLE, .seed = i, .samples = 17}, d);
+        rule += path_length(s.star,
+                            (mw_star_query_options){.start = MW_STAR_START_SAMPLE, .seed = i}, d);
+        many += path_length(
+            s.star,
+            (mw_star_query_options){.start = MW_STAR_START_SAMPLE, .seed = i, .samples = 5000}, d);
         mw_star_query_options last = {.start = MW_STAR_START_LAST, .walk = MW_STAR_WALK_STOCHASTIC};
         expect_ok(mw_star_cursor_init(s.star, &last, &cursor, &error), "cursor", &error);
         mw_star_locate(s.star, &cursor, d);
@@ -426,19 +446,23 @@ static void test_where_it_begins(void **state)
     }
     assert_int_equal(few, rule); /* 2 times the fourth root of 4098 vertices, rounded up */
     assert_true(one > 2 * few && few > 2 * many);
-    path_length(s.star, (mw_star_query_options){.start = MW_STAR_START_SAMPLE, .samples = UINT32_MAX}, (double[3]){1});
+    path_length(s.star,
+                (mw_star_query_options){.start = MW_STAR_START_SAMPLE, .samples = UINT32_MAX},
+                (double[3]){1});
     mw_star_query_options front = {.start = MW_STAR_START_FRONT, .walk = MW_STAR_WALK_STOCHASTIC};
     assert_int_equal(path_length(s.star, front, (double[3]){1, 0, 0}), 1);
     release_sphere(&s);
 }
 
-/* --- what is refused ---------------------------------------------------------------------------------------------- */
+/* --- what is refused -------------------------------------------------------------------------- */
 
-static void expect_refused(const mw_star *star, mw_star_start_kind start, mw_star_index_options options)
+static void expect_refused(const mw_star *star, mw_star_start_kind start,
+                           mw_star_index_options options)
 {
     mw_star_index *index = (mw_star_index *)&options;
     mw_error error;
-    assert_int_equal(mw_star_index_create(star, start, &options, &index, &error), MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_star_index_create(star, start, &options, &index, &error),
+                     MW_ERROR_ARGUMENT);
     assert_null(index);
 }
 
@@ -451,8 +475,10 @@ static void test_refused(void **state)
     expect_refused(s.star, MW_STAR_START_SAMPLE, (mw_star_index_options){0});
     expect_refused(s.star, MW_STAR_START_COUNT, (mw_star_index_options){0});
     expect_refused(s.star, MW_STAR_START_GRID, (mw_star_index_options){.cells = (1u << 30) + 1});
-    expect_refused(s.star, MW_STAR_START_OCTAHEDRON, (mw_star_index_options){.levels = MW_STAR_MAX_LEVELS + 2});
-    assert_int_equal(mw_star_index_create(s.star, MW_STAR_START_GRID, NULL, NULL, &error), MW_ERROR_ARGUMENT);
+    expect_refused(s.star, MW_STAR_START_OCTAHEDRON,
+                   (mw_star_index_options){.levels = MW_STAR_MAX_LEVELS + 2});
+    assert_int_equal(mw_star_index_create(s.star, MW_STAR_START_GRID, NULL, NULL, &error),
+                     MW_ERROR_ARGUMENT);
     mw_surface_begin_update(s.surface);
     mw_surface_end_update(s.surface);
     expect_refused(s.star, MW_STAR_START_GRID, (mw_star_index_options){0});
@@ -482,7 +508,7 @@ static void test_out_of_memory(void **state)
     release_sphere(&s);
 }
 
-/* --- names -------------------------------------------------------------------------------------------------------- */
+/* --- names ------------------------------------------------------------------------------------ */
 
 static void test_names(void **state)
 {
@@ -496,8 +522,8 @@ static void test_names(void **state)
         mw_star_start_kind start = (mw_star_start_kind)i;
         assert_int_equal(mw_star_start_by_name(mw_star_start_name(start)), start);
         assert_true(strlen(mw_star_start_help(start)) > 0);
-        bool index =
-            start == MW_STAR_START_GRID || start == MW_STAR_START_NONUNIFORM_GRID || start == MW_STAR_START_OCTAHEDRON;
+        bool index = start == MW_STAR_START_GRID || start == MW_STAR_START_NONUNIFORM_GRID ||
+                     start == MW_STAR_START_OCTAHEDRON;
         assert_int_equal(mw_star_start_has_index(start), index);
     }
     assert_string_equal(mw_star_walk_name(MW_STAR_WALK_ORTHOGONAL), "orthogonal");

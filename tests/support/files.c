@@ -21,7 +21,8 @@ int files_enter(void **state)
 {
     (void)state;
     const char *place = getenv("TMPDIR");
-    snprintf(files_directory, sizeof files_directory, "%s/meshwalk-test-XXXXXX", place ? place : P_tmpdir);
+    snprintf(files_directory, sizeof files_directory, "%s/meshwalk-test-XXXXXX",
+             place ? place : P_tmpdir);
     return mkdtemp(files_directory) && chdir(files_directory) == 0 ? 0 : -1;
 }
 
@@ -70,7 +71,8 @@ void files_write_gzip(const char *name, bytes contents)
 {
     gzFile file = gzopen(name, "wb");
     assert_non_null(file);
-    if (contents.size > 0) assert_int_equal(gzwrite(file, contents.data, (unsigned)contents.size), contents.size);
+    if (contents.size > 0)
+        assert_int_equal(gzwrite(file, contents.data, (unsigned)contents.size), contents.size);
     assert_int_equal(gzclose(file), Z_OK);
 }
 
@@ -108,6 +110,7 @@ const char *files_shared(const char *name)
 void files_expect_error(const mw_error *error, mw_status status, int64_t line, const char *says)
 {
     if (error->status != status || error->line != line || !strstr(error->message, says))
-        fail_msg("status %d (wanted %d), line %lld (wanted %lld), message '%s' (wanted '%s')", error->status, status,
-                 (long long)error->line, (long long)line, error->message, says);
+        fail_msg("status %d (wanted %d), line %lld (wanted %lld), message '%s' (wanted '%s')",
+                 error->status, status, (long long)error->line, (long long)line, error->message,
+                 says);
 }

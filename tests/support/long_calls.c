@@ -8,7 +8,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* --- sums --------------------------------------------------------------------------------------- */
+/* --- sums ------------------------------------------------------------------------------------- */
 
 static void sum_add(uint64_t *sum, uint64_t value)
 {
@@ -22,13 +22,15 @@ static void sum_add_mesh(uint64_t *sum, const mw_mesh *mesh)
     sum_add(sum, mw_mesh_vertex_count(mesh));
     for (uint32_t t = 0; t < mw_mesh_triangle_count(mesh); t++) {
         mw_mesh_triangle(mesh, t, v);
-        for (unsigned k = 0; k < 3; k++) sum_add(sum, (uint64_t)v[k] << 32 | mw_mesh_neighbour(mesh, t, k, NULL));
+        for (unsigned k = 0; k < 3; k++)
+            sum_add(sum, (uint64_t)v[k] << 32 | mw_mesh_neighbour(mesh, t, k, NULL));
     }
 }
 
 static void sum_add_locations(uint64_t *sum, const mw_location *at, size_t n)
 {
-    for (size_t i = 0; i < n; i++) sum_add(sum, (uint64_t)at[i].triangle << 8 | (uint64_t)at[i].where);
+    for (size_t i = 0; i < n; i++)
+        sum_add(sum, (uint64_t)at[i].triangle << 8 | (uint64_t)at[i].where);
 }
 
 static void expect(bool holds, const char *what)
@@ -38,7 +40,7 @@ static void expect(bool holds, const char *what)
     abort();
 }
 
-/* --- inputs ------------------------------------------------------------------------------------- */
+/* --- inputs ----------------------------------------------------------------------------------- */
 
 /* The sides of a polygon round the middle of the square, and one across the whole. */
 static void inputs_add_segments(call_inputs *in)
@@ -46,7 +48,8 @@ static void inputs_add_segments(call_inputs *in)
     enum { CORNERS = 5 };
     in->segments = malloc(2 * CORNERS * sizeof *in->segments);
     for (uint32_t i = 0; i < CORNERS; i++) {
-        static const double at[CORNERS][2] = {{0.3, 0.3}, {0.7, 0.3}, {0.7, 0.6}, {0.5, 0.8}, {0.3, 0.6}};
+        static const double at[CORNERS][2] = {
+            {0.3, 0.3}, {0.7, 0.3}, {0.7, 0.6}, {0.5, 0.8}, {0.3, 0.6}};
         memcpy(in->points + 2 * i, at[i], sizeof at[i]);
         in->segments[2 * i] = i;
         in->segments[2 * i + 1] = (i + 1) % CORNERS;
@@ -164,7 +167,7 @@ void call_inputs_release(call_inputs *in)
     free(in->points);
 }
 
-/* --- triangulations ------------------------------------------------------------------------------ */
+/* --- triangulations --------------------------------------------------------------------------- */
 
 /* A mesh that was made, or was not. */
 static mw_status mesh_made(mw_status status, mw_mesh *mesh, uint64_t *sum)
@@ -175,16 +178,18 @@ static mw_status mesh_made(mw_status status, mw_mesh *mesh, uint64_t *sum)
     return status;
 }
 
-static mw_status run_delaunay(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+static mw_status run_delaunay(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                              mw_error *error)
 {
     mw_mesh *mesh;
     mw_delaunay_options options = {.threads = how->threads, .progress = how->progress};
-    mw_status status = mw_delaunay(in->points, in->point_count, 2, &options, NULL, NULL, &mesh, error);
+    mw_status status =
+        mw_delaunay(in->points, in->point_count, 2, &options, NULL, NULL, &mesh, error);
     return mesh_made(status, mesh, sum);
 }
 
-static mw_status kind_run(mw_triangulation_kind kind, const call_inputs *in, const call_setting *how, uint64_t *sum,
-                          mw_error *error)
+static mw_status kind_run(mw_triangulation_kind kind, const call_inputs *in,
+                          const call_setting *how, uint64_t *sum, mw_error *error)
 {
     mw_mesh *mesh;
     mw_kind_options options = {.threads = how->threads, .progress = how->progress};
@@ -196,32 +201,38 @@ static mw_status kind_run(mw_triangulation_kind kind, const call_inputs *in, con
     return mesh_made(status, mesh, sum);
 }
 
-static mw_status run_kind_delaunay(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+static mw_status run_kind_delaunay(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                                   mw_error *error)
 {
     return kind_run(MW_KIND_DELAUNAY, in, how, sum, error);
 }
 
-static mw_status run_kind_greedy(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+static mw_status run_kind_greedy(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                                 mw_error *error)
 {
     return kind_run(MW_KIND_GREEDY, in, how, sum, error);
 }
 
-static mw_status run_kind_min_weight(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+static mw_status run_kind_min_weight(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                                     mw_error *error)
 {
     return kind_run(MW_KIND_MIN_WEIGHT, in, how, sum, error);
 }
 
-static mw_status run_kind_min_max_angle(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+static mw_status run_kind_min_max_angle(const call_inputs *in, const call_setting *how,
+                                        uint64_t *sum, mw_error *error)
 {
     return kind_run(MW_KIND_MIN_MAX_ANGLE, in, how, sum, error);
 }
 
-static mw_status run_kind_regular(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+static mw_status run_kind_regular(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                                  mw_error *error)
 {
     return kind_run(MW_KIND_REGULAR, in, how, sum, error);
 }
 
-static mw_status run_constrained(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+static mw_status run_constrained(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                                 mw_error *error)
 {
     mw_mesh *mesh;
     mw_constrained_edges edges;
@@ -231,14 +242,16 @@ static mw_status run_constrained(const call_inputs *in, const call_setting *how,
                                   .segment_count = in->segment_count};
     mw_constrain_options options = {
         .threads = how->threads, .progress = how->progress, .split = 1, .keep = MW_KEEP_HULL};
-    mw_status status = mw_constrained_delaunay(&constraints, &options, NULL, NULL, &edges, &mesh, error);
+    mw_status status =
+        mw_constrained_delaunay(&constraints, &options, NULL, NULL, &edges, &mesh, error);
     expect(!status || !edges.segment, "there are constrained edges");
     if (!status) mw_constrained_edges_release(&edges);
     return mesh_made(status, mesh, sum);
 }
 
 /* Two pentagons that cross. */
-static mw_status run_polygons(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+static mw_status run_polygons(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                              mw_error *error)
 {
     enum { CORNERS = 5 };
     mw_polygons *polygons;
@@ -265,24 +278,27 @@ static mw_status run_polygons(const call_inputs *in, const call_setting *how, ui
     return MW_OK;
 }
 
-/* --- meshes -------------------------------------------------------------------------------------- */
+/* --- meshes ----------------------------------------------------------------------------------- */
 
-static mw_status mesh_run(const call_inputs *in, mw_mesh_layout layout, const call_setting *how, uint64_t *sum,
-                          mw_error *error)
+static mw_status mesh_run(const call_inputs *in, mw_mesh_layout layout, const call_setting *how,
+                          uint64_t *sum, mw_error *error)
 {
     mw_mesh *mesh;
     mw_arrays view = arrays_view(&in->plain);
-    mw_mesh_options options = {.layout = layout, .threads = how->threads, .progress = how->progress};
+    mw_mesh_options options = {
+        .layout = layout, .threads = how->threads, .progress = how->progress};
     mw_status status = mw_mesh_create(&view, &options, &mesh, error);
     return mesh_made(status, mesh, sum);
 }
 
-static mw_status run_mesh_laid_out(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+static mw_status run_mesh_laid_out(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                                   mw_error *error)
 {
     return mesh_run(in, MW_LAYOUT_HILBERT, how, sum, error);
 }
 
-static mw_status run_mesh_as_given(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+static mw_status run_mesh_as_given(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                                   mw_error *error)
 {
     return mesh_run(in, MW_LAYOUT_AS_GIVEN, how, sum, error);
 }
@@ -296,7 +312,8 @@ static mw_status check_made(mw_status status, mw_check *check, uint64_t *sum)
     return status;
 }
 
-static mw_status run_check(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+static mw_status run_check(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                           mw_error *error)
 {
     mw_check check;
     mw_arrays view = arrays_view(&in->plain);
@@ -304,7 +321,8 @@ static mw_status run_check(const call_inputs *in, const call_setting *how, uint6
     return check_made(mw_check_arrays(&view, &options, &check, error), &check, sum);
 }
 
-static mw_status run_check_damaged(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+static mw_status run_check_damaged(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                                   mw_error *error)
 {
     mw_check check;
     mw_arrays view = arrays_view(&in->damaged);
@@ -312,7 +330,8 @@ static mw_status run_check_damaged(const call_inputs *in, const call_setting *ho
     return check_made(mw_check_arrays(&view, &options, &check, error), &check, sum);
 }
 
-static mw_status run_mend(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+static mw_status run_mend(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                          mw_error *error)
 {
     mw_mended mended;
     mw_arrays view = arrays_view(&in->damaged);
@@ -325,7 +344,8 @@ static mw_status run_mend(const call_inputs *in, const call_setting *how, uint64
     return status;
 }
 
-static mw_status run_describe(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+static mw_status run_describe(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                              mw_error *error)
 {
     mw_mesh_info info;
     mw_check_options options = {.threads = how->threads, .progress = how->progress};
@@ -334,10 +354,10 @@ static mw_status run_describe(const call_inputs *in, const call_setting *how, ui
     return status;
 }
 
-/* --- locators ------------------------------------------------------------------------------------ */
+/* --- locators --------------------------------------------------------------------------------- */
 
-static mw_status locator_run(const mw_mesh *mesh, mw_locator_options options, const call_setting *how, uint64_t *sum,
-                             mw_error *error)
+static mw_status locator_run(const mw_mesh *mesh, mw_locator_options options,
+                             const call_setting *how, uint64_t *sum, mw_error *error)
 {
     mw_locator *locator;
     mw_locator_info info;
@@ -352,28 +372,32 @@ static mw_status locator_run(const mw_mesh *mesh, mw_locator_options options, co
     return MW_OK;
 }
 
-static mw_status run_locator(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+static mw_status run_locator(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                             mw_error *error)
 {
     return locator_run(in->mesh, (mw_locator_options){.border = 1, .areas = 1}, how, sum, error);
 }
 
-static mw_status run_locator_crowded(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+static mw_status run_locator_crowded(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                                     mw_error *error)
 {
     return locator_run(in->crowded, (mw_locator_options){0}, how, sum, error);
 }
 
-static mw_status run_locator_filled(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+static mw_status run_locator_filled(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                                    mw_error *error)
 {
     return locator_run(in->holed, (mw_locator_options){.fill = MW_FILL_YES}, how, sum, error);
 }
 
-static mw_status run_locator_open(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+static mw_status run_locator_open(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                                  mw_error *error)
 {
     return locator_run(in->holed, (mw_locator_options){.fill = MW_FILL_NO}, how, sum, error);
 }
 
-static mw_status index_run(const call_inputs *in, mw_start_kind start, const call_setting *how, uint64_t *sum,
-                           mw_error *error)
+static mw_status index_run(const call_inputs *in, mw_start_kind start, const call_setting *how,
+                           uint64_t *sum, mw_error *error)
 {
     mw_index *index;
     mw_index_info info;
@@ -387,72 +411,85 @@ static mw_status index_run(const call_inputs *in, mw_start_kind start, const cal
     return MW_OK;
 }
 
-static mw_status run_index_grid(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+static mw_status run_index_grid(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                                mw_error *error)
 {
     return index_run(in, MW_START_GRID, how, sum, error);
 }
 
-static mw_status run_index_two_level(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+static mw_status run_index_two_level(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                                     mw_error *error)
 {
     return index_run(in, MW_START_TWO_LEVEL_GRID, how, sum, error);
 }
 
-static mw_status run_index_curve(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+static mw_status run_index_curve(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                                 mw_error *error)
 {
     return index_run(in, MW_START_CURVE, how, sum, error);
 }
 
-static mw_status run_index_layers(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+static mw_status run_index_layers(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                                  mw_error *error)
 {
     return index_run(in, MW_START_LAYERS, how, sum, error);
 }
 
-static mw_status run_index_buckets(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+static mw_status run_index_buckets(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                                   mw_error *error)
 {
     return index_run(in, MW_START_BUCKETS, how, sum, error);
 }
 
-static mw_status run_index_triangle_buckets(const call_inputs *in, const call_setting *how, uint64_t *sum,
-                                            mw_error *error)
+static mw_status run_index_triangle_buckets(const call_inputs *in, const call_setting *how,
+                                            uint64_t *sum, mw_error *error)
 {
     return index_run(in, MW_START_TRIANGLE_BUCKETS, how, sum, error);
 }
 
-static mw_status run_index_kd_tree(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+static mw_status run_index_kd_tree(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                                   mw_error *error)
 {
     return index_run(in, MW_START_KD_TREE, how, sum, error);
 }
 
-static mw_status run_batch(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+static mw_status run_batch(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                           mw_error *error)
 {
     mw_location *at = malloc(in->point_count * sizeof *at);
-    mw_query_options options = {.start = MW_START_SORTED, .threads = how->threads, .progress = how->progress};
-    mw_status status = mw_locate_batch(in->locator, in->points, in->point_count, 2, &options, at, NULL, error);
+    mw_query_options options = {
+        .start = MW_START_SORTED, .threads = how->threads, .progress = how->progress};
+    mw_status status =
+        mw_locate_batch(in->locator, in->points, in->point_count, 2, &options, at, NULL, error);
     if (!status) sum_add_locations(sum, at, in->point_count);
     free(at);
     return status;
 }
 
-static mw_status run_table(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+static mw_status run_table(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                           mw_error *error)
 {
     enum { VALUES = 3 };
     size_t n = in->point_count;
     mw_location *at = malloc(n * sizeof *at);
     double *result = calloc(VALUES * n, sizeof *result);
-    mw_value_table table = {.values = in->points, .count = VALUES, .step = 2}; /* x, then x of the next vertices */
+    /* x, then x of the next vertices */
+    mw_value_table table = {.values = in->points, .count = VALUES, .step = 2};
     mw_query_options query = {.threads = how->threads};
     mw_interpolate_options options = {.threads = how->threads, .progress = how->progress};
     mw_status status = mw_locate_batch(in->locator, in->points, n, 2, &query, at, NULL, error);
     if (!status) status = mw_interpolate_table(in->mesh, &table, at, n, &options, result, error);
-    for (size_t i = 0; i < VALUES * n && !status; i++) sum_add(sum, (uint64_t)llrint(result[i] * 1e6));
+    for (size_t i = 0; i < VALUES * n && !status; i++)
+        sum_add(sum, (uint64_t)llrint(result[i] * 1e6));
     free(result);
     free(at);
     return status;
 }
 
-/* --- borrowed arrays ----------------------------------------------------------------------------- */
+/* --- borrowed arrays -------------------------------------------------------------------------- */
 
-static mw_status borrow_run(const call_inputs *in, mw_borrow_options options, mw_borrowed **mesh, mw_error *error)
+static mw_status borrow_run(const call_inputs *in, mw_borrow_options options, mw_borrowed **mesh,
+                            mw_error *error)
 {
     mw_borrowed_arrays foreign = {.mesh = arrays_view(&in->whole), .neighbours = in->neighbours};
     mw_status status = mw_mesh_borrow(&foreign, &options, mesh, error);
@@ -460,7 +497,8 @@ static mw_status borrow_run(const call_inputs *in, mw_borrow_options options, mw
     return status;
 }
 
-static mw_status run_borrow(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+static mw_status run_borrow(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                            mw_error *error)
 {
     mw_borrowed *mesh;
     mw_borrowed_info info;
@@ -473,23 +511,27 @@ static mw_status run_borrow(const call_inputs *in, const call_setting *how, uint
     return MW_OK;
 }
 
-static mw_status run_borrowed_batch(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+static mw_status run_borrowed_batch(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                                    mw_error *error)
 {
     mw_borrowed *mesh;
-    mw_status status = borrow_run(in, (mw_borrow_options){.unchecked = 1, .convex = 1}, &mesh, error);
+    mw_status status =
+        borrow_run(in, (mw_borrow_options){.unchecked = 1, .convex = 1}, &mesh, error);
     if (status) return status;
     mw_location *at = malloc(in->point_count * sizeof *at);
     mw_borrowed_query_options options = {.threads = how->threads, .progress = how->progress};
-    status = mw_borrowed_locate_batch(mesh, in->points, in->point_count, 2, &options, at, NULL, error);
+    status =
+        mw_borrowed_locate_batch(mesh, in->points, in->point_count, 2, &options, at, NULL, error);
     if (!status) sum_add_locations(sum, at, in->point_count);
     free(at);
     mw_borrowed_release(mesh);
     return status;
 }
 
-/* --- editors ------------------------------------------------------------------------------------- */
+/* --- editors ---------------------------------------------------------------------------------- */
 
-static mw_status run_editor(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+static mw_status run_editor(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                            mw_error *error)
 {
     mw_editor *editor;
     mw_editor_info info;
@@ -515,7 +557,8 @@ static uint64_t editor_sum(const mw_editor *editor)
     return sum;
 }
 
-static mw_status editor_edit(mw_editor *editor, const call_inputs *in, uint64_t *sum, mw_error *error)
+static mw_status editor_edit(mw_editor *editor, const call_inputs *in, uint64_t *sum,
+                             mw_error *error)
 {
     enum { MOST = 200 };
     double more[2 * MOST];
@@ -537,7 +580,8 @@ static mw_status editor_edit(mw_editor *editor, const call_inputs *in, uint64_t 
     return status;
 }
 
-static mw_status run_edits(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+static mw_status run_edits(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                           mw_error *error)
 {
     mw_editor *editor;
     mw_editor_options options = {.threads = how->threads, .progress = how->progress, .undo = 2};
@@ -547,9 +591,10 @@ static mw_status run_edits(const call_inputs *in, const call_setting *how, uint6
     return status;
 }
 
-/* --- space --------------------------------------------------------------------------------------- */
+/* --- space ------------------------------------------------------------------------------------ */
 
-static mw_status run_surface(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+static mw_status run_surface(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                             mw_error *error)
 {
     mw_surface *surface;
     mw_arrays view = star_shape_arrays(&in->ball);
@@ -561,7 +606,8 @@ static mw_status run_surface(const call_inputs *in, const call_setting *how, uin
     return status;
 }
 
-static mw_status run_surface_check(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+static mw_status run_surface_check(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                                   mw_error *error)
 {
     mw_check check;
     mw_arrays view = star_shape_arrays(&in->ball);
@@ -569,7 +615,8 @@ static mw_status run_surface_check(const call_inputs *in, const call_setting *ho
     return check_made(mw_surface_check_arrays(&view, 0, &options, &check, error), &check, sum);
 }
 
-static mw_status run_star_check(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+static mw_status run_star_check(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                                mw_error *error)
 {
     mw_check check;
     mw_arrays view = star_shape_arrays(&in->ball);
@@ -577,7 +624,8 @@ static mw_status run_star_check(const call_inputs *in, const call_setting *how, 
     return check_made(mw_star_check_arrays(&view, 0, &options, &check, error), &check, sum);
 }
 
-static mw_status run_star(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+static mw_status run_star(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                          mw_error *error)
 {
     mw_star *star;
     mw_star_info info;
@@ -591,8 +639,8 @@ static mw_status run_star(const call_inputs *in, const call_setting *how, uint64
     return MW_OK;
 }
 
-static mw_status star_index_run(const call_inputs *in, mw_star_start_kind start, const call_setting *how, uint64_t *sum,
-                                mw_error *error)
+static mw_status star_index_run(const call_inputs *in, mw_star_start_kind start,
+                                const call_setting *how, uint64_t *sum, mw_error *error)
 {
     mw_star_index *index;
     mw_star_index_info info;
@@ -606,27 +654,32 @@ static mw_status star_index_run(const call_inputs *in, mw_star_start_kind start,
     return MW_OK;
 }
 
-static mw_status run_star_grid(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+static mw_status run_star_grid(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                               mw_error *error)
 {
     return star_index_run(in, MW_STAR_START_GRID, how, sum, error);
 }
 
-static mw_status run_star_octahedron(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+static mw_status run_star_octahedron(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                                     mw_error *error)
 {
     return star_index_run(in, MW_STAR_START_OCTAHEDRON, how, sum, error);
 }
 
-static mw_status run_star_batch(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+static mw_status run_star_batch(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                                mw_error *error)
 {
     mw_location *at = malloc(in->ball.points * sizeof *at);
     mw_star_query_options options = {.threads = how->threads, .progress = how->progress};
-    mw_status status = mw_star_locate_batch(in->star, in->ball.point, in->ball.points, 3, &options, at, NULL, error);
+    mw_status status = mw_star_locate_batch(in->star, in->ball.point, in->ball.points, 3, &options,
+                                            at, NULL, error);
     if (!status) sum_add_locations(sum, at, in->ball.points);
     free(at);
     return status;
 }
 
-static mw_status run_prober(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+static mw_status run_prober(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                            mw_error *error)
 {
     mw_prober *prober;
     mw_prober_info info;
@@ -640,20 +693,23 @@ static mw_status run_prober(const call_inputs *in, const call_setting *how, uint
     return MW_OK;
 }
 
-static mw_status run_probe_batch(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+static mw_status run_probe_batch(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                                 mw_error *error)
 {
     size_t n = in->ball.points / 4;
     mw_touch *touches = malloc(n * sizeof *touches);
     mw_probe_options options = {.certain = 1, .threads = how->threads, .progress = how->progress};
-    mw_status status = mw_probe_batch(in->prober, in->ball.point, n, 6, &options, touches, NULL, error);
+    mw_status status =
+        mw_probe_batch(in->prober, in->ball.point, n, 6, &options, touches, NULL, error);
     for (size_t i = 0; i < n && !status; i++) sum_add(sum, touches[i].triangle);
     free(touches);
     return status;
 }
 
-/* --- files --------------------------------------------------------------------------------------- */
+/* --- files ------------------------------------------------------------------------------------ */
 
-static mw_status run_read(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+static mw_status run_read(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                          mw_error *error)
 {
     mw_mesh_file file;
     mw_file_options options = {.progress = how->progress};
@@ -664,7 +720,8 @@ static mw_status run_read(const call_inputs *in, const call_setting *how, uint64
     return status;
 }
 
-static mw_status run_read_lines(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+static mw_status run_read_lines(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                                mw_error *error)
 {
     mw_constraint_file file;
     mw_file_options options = {.progress = how->progress};
@@ -675,7 +732,8 @@ static mw_status run_read_lines(const call_inputs *in, const call_setting *how, 
     return status;
 }
 
-static mw_status write_run(const call_inputs *in, const char *ending, const call_setting *how, mw_error *error)
+static mw_status write_run(const call_inputs *in, const char *ending, const call_setting *how,
+                           mw_error *error)
 {
     char path[80];
     mw_mesh_file file;
@@ -689,13 +747,15 @@ static mw_status write_run(const call_inputs *in, const char *ending, const call
     return status;
 }
 
-static mw_status run_write(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+static mw_status run_write(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                           mw_error *error)
 {
     (void)sum;
     return write_run(in, ".ply", how, error);
 }
 
-static mw_status run_write_pair(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error)
+static mw_status run_write_pair(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                                mw_error *error)
 {
     char path[80];
     (void)sum;

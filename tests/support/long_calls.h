@@ -37,7 +37,8 @@ typedef struct call_setting {
  * nothing was handed out and what existed before is as it was, and ends the program otherwise. */
 typedef struct long_call {
     const char *name;
-    mw_status (*run)(const call_inputs *in, const call_setting *how, uint64_t *sum, mw_error *error);
+    mw_status (*run)(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                     mw_error *error);
 } long_call;
 
 extern const long_call long_calls[];

@@ -17,7 +17,8 @@ void expect_ok(mw_status status, const char *what, const mw_error *error)
 
 arrays arrays_make(uint32_t point_room, uint32_t triangle_room)
 {
-    return (arrays){calloc(point_room + 1, 2 * sizeof(double)), calloc(triangle_room + 1, 3 * sizeof(uint32_t)), 0, 0};
+    return (arrays){calloc(point_room + 1, 2 * sizeof(double)),
+                    calloc(triangle_room + 1, 3 * sizeof(uint32_t)), 0, 0};
 }
 
 void arrays_free(arrays *a)
@@ -67,9 +68,11 @@ arrays arrays_of_mesh(const mw_mesh *mesh)
 
 uint32_t *mesh_neighbours(const mw_mesh *mesh)
 {
-    uint32_t n = mw_mesh_triangle_count(mesh), *neighbours = malloc((3 * (size_t)n + 1) * sizeof *neighbours);
+    uint32_t n = mw_mesh_triangle_count(mesh),
+             *neighbours = malloc((3 * (size_t)n + 1) * sizeof *neighbours);
     for (uint32_t t = 0; t < n; t++)
-        for (uint32_t k = 0; k < 3; k++) neighbours[3 * (size_t)t + (k + 2) % 3] = mw_mesh_neighbour(mesh, t, k, NULL);
+        for (uint32_t k = 0; k < 3; k++)
+            neighbours[3 * (size_t)t + (k + 2) % 3] = mw_mesh_neighbour(mesh, t, k, NULL);
     return neighbours;
 }
 
@@ -110,9 +113,11 @@ arrays arrays_fan(uint32_t n)
 
 arrays arrays_trap(void)
 {
-    static const double p[8][2] = {{.169678, .0175461}, {1, 0}, {.74616, .12756},  {.322629, .0519267},
-                                   {.391841, .269754},  {1, 1}, {.811393, .632747}};
-    static const uint32_t t[7][3] = {{0, 1, 2}, {3, 0, 2}, {3, 4, 0}, {5, 4, 3}, {6, 5, 3}, {6, 1, 5}, {2, 1, 6}};
+    static const double p[8][2] = {
+        {.169678, .0175461}, {1, 0}, {.74616, .12756},  {.322629, .0519267},
+        {.391841, .269754},  {1, 1}, {.811393, .632747}};
+    static const uint32_t t[7][3] = {{0, 1, 2}, {3, 0, 2}, {3, 4, 0}, {5, 4, 3},
+                                     {6, 5, 3}, {6, 1, 5}, {2, 1, 6}};
     arrays a = arrays_make(8, 8);
     for (int i = 0; i < 7; i++) arrays_point(&a, p[i][0], p[i][1]);
     for (int i = 0; i < 7; i++) arrays_triangle(&a, t[i][0], t[i][1], t[i][2]);
@@ -124,11 +129,13 @@ arrays arrays_trap(void)
 void arrays_scramble(arrays *a, int mixed, uint64_t *random)
 {
     for (uint32_t i = 0; i < a->triangle_count; i++) {
-        uint32_t j = i + mw__random_below(random, a->triangle_count - i), k = mw__random_below(random, 3), t[3];
+        uint32_t j = i + mw__random_below(random, a->triangle_count - i),
+                 k = mw__random_below(random, 3), t[3];
         memcpy(t, a->triangles + 3 * (size_t)j, sizeof t);
         memcpy(a->triangles + 3 * (size_t)j, a->triangles + 3 * (size_t)i, sizeof t);
         int turn = mixed && mw__random(random) >> 63;
-        for (uint32_t l = 0; l < 3; l++) a->triangles[3 * (size_t)i + l] = t[(k + (turn ? 3 - l : l)) % 3];
+        for (uint32_t l = 0; l < 3; l++)
+            a->triangles[3 * (size_t)i + l] = t[(k + (turn ? 3 - l : l)) % 3];
     }
 }
 
@@ -145,7 +152,8 @@ void arrays_punch(arrays *a, double share, uint64_t *random)
     uint32_t kept = 0;
     for (uint32_t i = 0; i < a->triangle_count; i++)
         if (random_unit(random) >= share || a->triangle_count - i + kept <= 1) {
-            memmove(a->triangles + 3 * (size_t)kept, a->triangles + 3 * (size_t)i, 3 * sizeof(uint32_t));
+            memmove(a->triangles + 3 * (size_t)kept, a->triangles + 3 * (size_t)i,
+                    3 * sizeof(uint32_t));
             kept++;
         }
     a->triangle_count = kept;
@@ -177,12 +185,14 @@ mw_mesh *mesh_with_hole(uint32_t right, uint64_t *random)
     for (uint32_t i = 0; i < a.triangle_count; i++) {
         uint32_t x = i / 2 % 16, y = i / 32;
         if (x >= 5 && x < right && y >= 4 && y < 9) continue;
-        memmove(a.triangles + 3 * (size_t)kept++, a.triangles + 3 * (size_t)i, 3 * sizeof *a.triangles);
+        memmove(a.triangles + 3 * (size_t)kept++, a.triangles + 3 * (size_t)i,
+                3 * sizeof *a.triangles);
     }
     a.triangle_count = kept;
     arrays_scramble(&a, 0, random);
-    mw_mesh *mesh = arrays_mesh(
-        &a, (mw_mesh_options){.layout = mw__random_below(random, 2) ? MW_LAYOUT_AS_GIVEN : MW_LAYOUT_HILBERT});
+    mw_mesh *mesh = arrays_mesh(&a, (mw_mesh_options){.layout = mw__random_below(random, 2)
+                                                                    ? MW_LAYOUT_AS_GIVEN
+                                                                    : MW_LAYOUT_HILBERT});
     arrays_free(&a);
     return mesh;
 }
@@ -200,7 +210,8 @@ mw_locator *mesh_locator(const mw_mesh *mesh, mw_locator_options options)
 double *arrays_queries(const arrays *a, size_t n, size_t *count, uint64_t *random)
 {
     enum { KINDS = 8 };
-    double *q = malloc(KINDS * n * 2 * sizeof(double)), low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
+    double *q = malloc(KINDS * n * 2 * sizeof(double)), low[2] = {INFINITY, INFINITY},
+           high[2] = {-INFINITY, -INFINITY};
     for (uint32_t i = 0; i < a->point_count; i++)
         for (int k = 0; k < 2; k++) {
             low[k] = fmin(low[k], a->points[2 * i + (uint32_t)k]);

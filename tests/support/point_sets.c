@@ -15,7 +15,8 @@ static mw_point uniform(uint64_t *random, uint32_t i, uint32_t n)
 static mw_point gaussian(uint64_t *random, uint32_t i, uint32_t n)
 {
     (void)i, (void)n;
-    double r = sqrt(-2 * log(1 - random_unit(random))), angle = 6.283185307179586 * random_unit(random);
+    double r = sqrt(-2 * log(1 - random_unit(random))),
+           angle = 6.283185307179586 * random_unit(random);
     return (mw_point){r * cos(angle), r * sin(angle)};
 }
 
@@ -146,7 +147,8 @@ static mw_point far_away(uint64_t *random, uint32_t i, uint32_t n)
 static mw_point surveyed(uint64_t *random, uint32_t i, uint32_t n)
 {
     (void)i, (void)n;
-    return (mw_point){5e5 + 0.01 * mw__random_below(random, 5000), 5e6 + 0.01 * mw__random_below(random, 5000)};
+    return (mw_point){5e5 + 0.01 * mw__random_below(random, 5000),
+                      5e6 + 0.01 * mw__random_below(random, 5000)};
 }
 
 static mw_point tiny(uint64_t *random, uint32_t i, uint32_t n)
@@ -166,7 +168,8 @@ static mw_point underflowing(uint64_t *random, uint32_t i, uint32_t n)
 static mw_point subnormal(uint64_t *random, uint32_t i, uint32_t n)
 {
     (void)i, (void)n;
-    return (mw_point){0x1p-1074 * mw__random_below(random, 99), -0x1p-1074 * mw__random_below(random, 99)};
+    return (mw_point){0x1p-1074 * mw__random_below(random, 99),
+                      -0x1p-1074 * mw__random_below(random, 99)};
 }
 
 static mw_point huge(uint64_t *random, uint32_t i, uint32_t n)
@@ -179,7 +182,8 @@ static mw_point huge(uint64_t *random, uint32_t i, uint32_t n)
 static mw_point widest(uint64_t *random, uint32_t i, uint32_t n)
 {
     (void)i, (void)n;
-    return (mw_point){1.7e308 * (2 * random_unit(random) - 1), 1.7e308 * (2 * random_unit(random) - 1)};
+    return (mw_point){1.7e308 * (2 * random_unit(random) - 1),
+                      1.7e308 * (2 * random_unit(random) - 1)};
 }
 
 /* Coordinates of all magnitudes. */

@@ -87,7 +87,8 @@ static void random_exponents(double *p, int n, int dimension)
 {
     (void)dimension;
     int spread = 1 << cases_below(10);
-    for (int i = 0; i < n; i++) p[i] = ldexp(cases_uniform(), (int)cases_below((uint32_t)spread) - spread / 2);
+    for (int i = 0; i < n; i++)
+        p[i] = ldexp(cases_uniform(), (int)cases_below((uint32_t)spread) - spread / 2);
 }
 
 static void random_bits(double *p, int n, int dimension)
@@ -107,7 +108,8 @@ static void grid(double *p, int n, int dimension)
 {
     uint32_t size = 2 + cases_below(9);
     double offset[3], step = cases_below(2) ? 1 : 30;
-    for (int k = 0; k < 3; k++) offset[k] = cases_below(2) ? 0 : 500000 + 100 * (double)cases_below(40000);
+    for (int k = 0; k < 3; k++)
+        offset[k] = cases_below(2) ? 0 : 500000 + 100 * (double)cases_below(40000);
     for (int i = 0; i < n; i++) p[i] = offset[i % dimension] + step * (double)cases_below(size);
 }
 
@@ -115,7 +117,10 @@ static void grid(double *p, int n, int dimension)
  * coplanar in space. */
 static void dependent(double *p, int n, int dimension)
 {
-    double offset = cases_below(3) ? 0 : cases_below(2) ? 5e6 : 1e15, size = cases_below(2) ? 1 : 1000;
+    double offset = cases_below(3)   ? 0
+                    : cases_below(2) ? 5e6
+                                     : 1e15,
+           size = cases_below(2) ? 1 : 1000;
     int count = n / dimension;
     for (int i = 0; i < n; i++) p[i] = offset + size * cases_uniform();
     for (int i = dimension; i < count; i++) { /* point i depends on points 0 to dimension - 1 */
@@ -124,7 +129,8 @@ static void dependent(double *p, int n, int dimension)
         weight[0] = rest;
         for (int k = 0; k < dimension; k++) {
             p[i * dimension + k] = 0;
-            for (int j = 0; j < dimension; j++) p[i * dimension + k] += weight[j] * p[j * dimension + k];
+            for (int j = 0; j < dimension; j++)
+                p[i * dimension + k] += weight[j] * p[j * dimension + k];
         }
     }
 }
@@ -139,7 +145,8 @@ static void exactly_dependent(double *p, int n, int dimension)
     }
     for (int i = 0; i < n; i += dimension) {
         double s = (double)cases_below(1000), t = dimension == 3 ? (double)cases_below(1000) : 0;
-        for (int k = 0; k < dimension; k++) p[i + k] = origin[k] + s * direction[0][k] + t * direction[1][k];
+        for (int k = 0; k < dimension; k++)
+            p[i + k] = origin[k] + s * direction[0][k] + t * direction[1][k];
     }
 }
 
@@ -159,7 +166,10 @@ static void cocircular(double *p, int n, int dimension)
 
 static void nearly_cocircular(double *p, int n, int dimension)
 {
-    double centre = cases_below(3) ? 0 : cases_below(2) ? 5e6 : 1e15, radius = cases_below(2) ? 1 : 1000;
+    double centre = cases_below(3)   ? 0
+                    : cases_below(2) ? 5e6
+                                     : 1e15,
+           radius = cases_below(2) ? 1 : 1000;
     for (int i = 0; i + 1 < n; i += dimension) {
         double angle = 3.2 * cases_uniform();
         p[i] = centre + radius * cos(angle);
@@ -172,7 +182,9 @@ static void nearly_cocircular(double *p, int n, int dimension)
 static void beside_line(double *p, int n, int dimension)
 {
     for (int i = 0; i < n; i++)
-        p[i] = i < dimension ? 0.5 + (double)cases_below(256) * 0x1p-53 : i < 2 * dimension ? 12 : 24;
+        p[i] = i < dimension       ? 0.5 + (double)cases_below(256) * 0x1p-53
+               : i < 2 * dimension ? 12
+                                   : 24;
     for (int i = 3 * dimension; i < n; i++) p[i] = cases_below(2) ? 12 : 6;
 }
 
@@ -224,7 +236,8 @@ void cases_perturb(double *p, int n)
 void cases_rescale(double *p, int n)
 {
     static const int exponents[] = {-485, 509, -306, 339, -216, 253};
-    int exponent = cases_below(2) ? exponents[cases_below(6)] + (int)cases_below(5) - 2 : (int)cases_below(2100) - 1050;
+    int exponent = cases_below(2) ? exponents[cases_below(6)] + (int)cases_below(5) - 2
+                                  : (int)cases_below(2100) - 1050;
     for (int i = 0; i < n; i++) p[i] = cases_clamped(ldexp(p[i], exponent));
 }
 

@@ -9,7 +9,8 @@
 
 shape shape_make(uint32_t point_room, uint32_t triangle_room)
 {
-    return (shape){calloc(point_room + 1, 3 * sizeof(double)), calloc(triangle_room + 1, 3 * sizeof(uint32_t)), 0, 0};
+    return (shape){calloc(point_room + 1, 3 * sizeof(double)),
+                   calloc(triangle_room + 1, 3 * sizeof(uint32_t)), 0, 0};
 }
 
 void shape_free(shape *s)
@@ -87,7 +88,8 @@ shape shape_ball(uint32_t n, double radius, double share, uint64_t *random)
     for (uint32_t i = 0; i < 3 * s.point_count; i++) s.points[i] += 0.0; /* no -0.0 */
     shape_weld(&s);
     for (uint32_t i = 0; i < s.point_count; i++) {
-        double *p = s.points + 3 * (size_t)i, length = sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
+        double *p = s.points + 3 * (size_t)i,
+               length = sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
         double to = radius * (1 + share * (random_unit(random) - 0.5)) / length;
         for (int k = 0; k < 3; k++) p[k] = round(p[k] * to);
     }
@@ -99,12 +101,15 @@ shape shape_torus(uint32_t n, uint32_t m, double scale)
     shape s = shape_make(n * m, 2 * n * m);
     for (uint32_t i = 0; i < n; i++)
         for (uint32_t j = 0; j < m; j++) {
-            double u = 2 * 3.14159265358979 * i / n, v = 2 * 3.14159265358979 * j / m, r = 3 + cos(v);
-            shape_point(&s, round(scale * r * cos(u)), round(scale * r * sin(u)), round(scale * sin(v)));
+            double u = 2 * 3.14159265358979 * i / n, v = 2 * 3.14159265358979 * j / m,
+                   r = 3 + cos(v);
+            shape_point(&s, round(scale * r * cos(u)), round(scale * r * sin(u)),
+                        round(scale * sin(v)));
         }
     for (uint32_t i = 0; i < n; i++)
         for (uint32_t j = 0; j < m; j++) {
-            uint32_t a = i * m + j, b = (i + 1) % n * m + j, c = (i + 1) % n * m + (j + 1) % m, d = i * m + (j + 1) % m;
+            uint32_t a = i * m + j, b = (i + 1) % n * m + j, c = (i + 1) % n * m + (j + 1) % m,
+                     d = i * m + (j + 1) % m;
             shape_triangle(&s, a, b, c);
             shape_triangle(&s, a, c, d);
         }
@@ -115,7 +120,8 @@ shape shape_patch(uint32_t n, uint32_t height, uint64_t *random)
 {
     shape s = shape_make((n + 1) * (n + 1), 2 * n * n);
     for (uint32_t y = 0; y <= n; y++)
-        for (uint32_t x = 0; x <= n; x++) shape_point(&s, 4 * x, 4 * y, mw__random_below(random, height + 1));
+        for (uint32_t x = 0; x <= n; x++)
+            shape_point(&s, 4 * x, 4 * y, mw__random_below(random, height + 1));
     for (uint32_t y = 0; y < n; y++)
         for (uint32_t x = 0; x < n; x++) {
             uint32_t p = y * (n + 1) + x, q = p + 1, r = p + n + 2, t = p + n + 1;
@@ -147,7 +153,8 @@ shape shape_join(shape a, shape b, double dx)
     for (uint32_t i = 0; i < a.triangle_count; i++)
         shape_triangle(&s, a.triangles[3 * i], a.triangles[3 * i + 1], a.triangles[3 * i + 2]);
     for (uint32_t i = 0; i < b.triangle_count; i++)
-        shape_triangle(&s, a.point_count + b.triangles[3 * i], a.point_count + b.triangles[3 * i + 1],
+        shape_triangle(&s, a.point_count + b.triangles[3 * i],
+                       a.point_count + b.triangles[3 * i + 1],
                        a.point_count + b.triangles[3 * i + 2]);
     shape_free(&a);
     shape_free(&b);
@@ -181,7 +188,8 @@ void shape_flatten(shape *s, double share, uint64_t *random)
     for (uint32_t t = 0; t < s->triangle_count; t++) {
         if (random_unit(random) >= share) continue;
         const uint32_t *v = s->triangles + 3 * (size_t)t;
-        double *a = s->points + 3 * (size_t)v[0], *b = s->points + 3 * (size_t)v[1], *c = s->points + 3 * (size_t)v[2];
+        double *a = s->points + 3 * (size_t)v[0], *b = s->points + 3 * (size_t)v[1],
+               *c = s->points + 3 * (size_t)v[2];
         int same = (int)(mw__random(random) >> 63);
         for (int k = 0; k < 3; k++) a[k] = same ? b[k] : (b[k] + c[k]) / 2;
     }

@@ -44,8 +44,10 @@ void star_shape_free(star_shape *p)
 
 mw_arrays star_shape_arrays(const star_shape *p)
 {
-    return (mw_arrays){
-        .points = p->point, .point_count = p->points, .triangles = p->corner, .triangle_count = p->triangles};
+    return (mw_arrays){.points = p->point,
+                       .point_count = p->points,
+                       .triangles = p->corner,
+                       .triangle_count = p->triangles};
 }
 
 star_shape star_shape_octahedron(unsigned levels)
@@ -67,7 +69,8 @@ star_shape star_shape_octahedron(unsigned levels)
         int turned = (sx * sy * (up ? 1 : -1)) < 0;
         for (int i = 0; i < n; i++)
             for (int j = 0; i + j < n; j++) {
-                uint32_t a = AT(sx * i, sy * j, up), b = AT(sx * (i + 1), sy * j, up), c = AT(sx * i, sy * (j + 1), up);
+                uint32_t a = AT(sx * i, sy * j, up), b = AT(sx * (i + 1), sy * j, up),
+                         c = AT(sx * i, sy * (j + 1), up);
                 star_shape_triangle(&p, a, turned ? c : b, turned ? b : c);
                 if (i + j + 2 > n) continue;
                 uint32_t d = AT(sx * (i + 1), sy * (j + 1), up);
@@ -114,7 +117,8 @@ bool star_shape_add_flat(star_shape *p, uint32_t t, uint32_t k)
     }
     for (uint32_t u = 0; u < p->triangles; u++)
         for (uint32_t j = 0; j < 3; j++) {
-            if (u == t || p->corner[3 * u + j] != b || p->corner[3 * u + (j + 1) % 3] != a) continue;
+            if (u == t || p->corner[3 * u + j] != b || p->corner[3 * u + (j + 1) % 3] != a)
+                continue;
             uint32_t y = p->corner[3 * u + (j + 2) % 3], v = star_shape_point(p, m[0], m[1], m[2]);
             p->corner[3 * u] = b; /* b v y, v a y, and b a v between */
             p->corner[3 * u + 1] = v;

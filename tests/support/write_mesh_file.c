@@ -14,7 +14,8 @@
 const double square_points[12] = {0, 0, 0, 1, 0, 0, 1, 1, 0.5, 0, 1, 0};
 const uint32_t square_triangles[6] = {0, 1, 2, 0, 2, 3};
 
-bytes mesh_file_stl(char *memory, const char *header, uint32_t count, const float (*corners)[9], size_t n)
+bytes mesh_file_stl(char *memory, const char *header, uint32_t count, const float (*corners)[9],
+                    size_t n)
 {
     memset(memory, 0, 84);
     memcpy(memory, header, strlen(header));
@@ -54,7 +55,8 @@ mw_mesh_file mesh_file_read_text(const char *name, const char *text)
     return mesh_file_read_bytes(name, (bytes){text, strlen(text)});
 }
 
-void mesh_file_expect_triangles(const mw_mesh_file *file, size_t points, size_t triangles, const uint32_t *wanted)
+void mesh_file_expect_triangles(const mw_mesh_file *file, size_t points, size_t triangles,
+                                const uint32_t *wanted)
 {
     assert_int_equal(file->point_count, points);
     assert_int_equal(file->triangle_count, triangles);
@@ -64,5 +66,6 @@ void mesh_file_expect_triangles(const mw_mesh_file *file, size_t points, size_t 
 void mesh_file_expect_points(const mw_mesh_file *file, const double *wanted)
 {
     for (size_t i = 0; i < 3 * file->point_count; i++)
-        if (file->points[i] != wanted[i]) fail_msg("coordinate %zu is %g, not %g", i, file->points[i], wanted[i]);
+        if (file->points[i] != wanted[i])
+            fail_msg("coordinate %zu is %g, not %g", i, file->points[i], wanted[i]);
 }

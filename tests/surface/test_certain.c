@@ -1,5 +1,5 @@
-/* Certain probes: what the boxes find is what all triangles, one by one, would say; on lattices, soups, surfaces that move, and at
- * the ends of the range of doubles. */
+/* Certain probes: what the boxes find is what all triangles, one by one, would say; on lattices,
+ * soups, surfaces that move, and at the ends of the range of doubles. */
 /* wrap: malloc calloc realloc aligned_alloc */
 #include <stdarg.h>
 #include <stddef.h>
@@ -30,15 +30,18 @@ static mw_line line_of(const double query[6])
     return (mw_line){{query[0], query[1], query[2]}, {query[3], query[4], query[5]}};
 }
 
-/* --- brute force -------------------------------------------------------------------------------------------------- */
+/* --- brute force ------------------------------------------------------------------------------ */
 
-/* The best triangle by the exact functions; *some is one that is touched in reach, chosen at random. */
-static uint32_t brute_force(const mw_surface *surface, const mw_line *line, double d, uint32_t *some, uint64_t *random)
+/* The best triangle by the exact functions; *some is one that is touched in reach, chosen at
+ * random. */
+static uint32_t brute_force(const mw_surface *surface, const mw_line *line, double d,
+                            uint32_t *some, uint64_t *random)
 {
     uint32_t best = MW_NONE, found = 0;
     *some = MW_NONE;
     for (uint32_t t = 0; t < surface->tri_count; t++) {
-        if (!mw__line_touches(surface, line, t) || !mw__touch_in_reach(surface, line, t, d > 0 ? d : INFINITY))
+        if (!mw__line_touches(surface, line, t) ||
+            !mw__touch_in_reach(surface, line, t, d > 0 ? d : INFINITY))
             continue;
         if (mw__random_below(random, ++found) == 0) *some = t;
         if (best == MW_NONE || mw__touch_is_better(surface, line, t, best)) best = t;
@@ -55,17 +58,20 @@ static uint32_t check(const mw_prober *prober, const mw_line *line, double d, ui
     return best;
 }
 
-/* No limit, the distance of the answer exactly as rounded and its neighbours, and some length. Returns whether there is one. */
+/* No limit, the distance of the answer exactly as rounded and its neighbours, and some length.
+ * Returns whether there is one. */
 static int check_reaches(const mw_prober *prober, const mw_line *line, uint64_t *random)
 {
     uint32_t best = check(prober, line, 0, random);
     check(prober, line, 4 * random_unit(random), random);
     if (best == MW_NONE) return 0;
-    const mw_corners c = {mw__surface_corner(prober->surface, best, 0), mw__surface_corner(prober->surface, best, 1),
+    const mw_corners c = {mw__surface_corner(prober->surface, best, 0),
+                          mw__surface_corner(prober->surface, best, 1),
                           mw__surface_corner(prober->surface, best, 2)};
     double d = fabs(mw__hit_distance(line, c));
     if (!(d > 0) || isinf(d)) return 1;
-    const double reach[5] = {d, nextafter(d, 0), nextafter(d, INFINITY), d * (1 - 0x1p-30), d * (1 + 0x1p-30)};
+    const double reach[5] = {d, nextafter(d, 0), nextafter(d, INFINITY), d * (1 - 0x1p-30),
+                             d * (1 + 0x1p-30)};
     for (int i = 0; i < 5; i++)
         if (reach[i] > 0) check(prober, line, reach[i], random);
     return 1;
@@ -99,14 +105,15 @@ static int check_shape(const shape *s, size_t n, uint64_t *random)
     return hits;
 }
 
-/* --- lattices and soups ------------------------------------------------------------------------------------------- */
+/* --- lattices and soups ----------------------------------------------------------------------- */
 
 static void test_lattices(void **state)
 {
     (void)state;
     uint64_t random = new_seed("lattices");
     for (int round = 0; round < 3; round++) {
-        shape shapes[4] = {shape_ball(6, 12, 0.3, &random), shape_torus(16, 12, 3), shape_patch(12, 4, &random),
+        shape shapes[4] = {shape_ball(6, 12, 0.3, &random), shape_torus(16, 12, 3),
+                           shape_patch(12, 4, &random),
                            shape_join(shape_patch(8, 2, &random), shape_patch(8, 2, &random), 16)};
         for (int i = 0; i < 4; i++) {
             if (round % 2) shape_clash(&shapes[i], 0.3, &random);
@@ -166,9 +173,10 @@ static void test_ties(void **state)
     assert_true(twins > 100);
 }
 
-/* --- magnitudes --------------------------------------------------------------------------------------------------- */
+/* --- magnitudes ------------------------------------------------------------------------------- */
 
-static void check_scaled(const shape *s, double scale, double shift, double m_scale, uint64_t *random)
+static void check_scaled(const shape *s, double scale, double shift, double m_scale,
+                         uint64_t *random)
 {
     enum { QUERIES = 8 };
     double *queries = shape_queries(s, QUERIES, random);
@@ -196,7 +204,8 @@ static void test_magnitudes(void **state)
 {
     (void)state;
     uint64_t random = new_seed("magnitudes");
-    static const double scale[] = {0x1p-1074, 0x1p-1070, 1e-300, 1e-200, 1e-20, 1, 1e20, 1e38, 1e200, 1e300, 0x1p1019};
+    static const double scale[] = {0x1p-1074, 0x1p-1070, 1e-300, 1e-200, 1e-20,   1,
+                                   1e20,      1e38,      1e200,  1e300,  0x1p1019};
     static const double m_scale[] = {0x1p-1060, 1e-300, 1e-30, 1, 1e30, 1e300};
     shape shapes[2] = {shape_torus(12, 9, 2), shape_soup(60, 90, &random)};
     for (size_t i = 0; i < sizeof scale / sizeof *scale; i++)
@@ -219,7 +228,8 @@ static void test_strays(void **state)
             double scale = scaled ? 1e-300 : 1;
             for (uint32_t i = 0; i < 3 * s.point_count; i++) s.points[i] *= scale;
             for (int i = 0; i < 4; i++)
-                s.points[mw__random_below(&random, 3 * s.point_count)] = far[f] * (2 * random_unit(&random) - 1);
+                s.points[mw__random_below(&random, 3 * s.point_count)] =
+                    far[f] * (2 * random_unit(&random) - 1);
             mw_surface *surface = shape_surface(&s, (mw_surface_options){0});
             mw_prober *prober = prober_with_boxes(surface);
             double *queries = shape_queries(&s, 60, &random);
@@ -237,13 +247,14 @@ static void test_strays(void **state)
         }
 }
 
-/* --- surfaces that move ------------------------------------------------------------------------------------------- */
+/* --- surfaces that move ----------------------------------------------------------------------- */
 
 static void move(mw_surface *surface, double by, uint64_t *random)
 {
     double *points = mw_surface_points(surface);
     for (uint32_t i = 0; i < mw_surface_vertex_count(surface); i++)
-        for (int k = 0; k < 3; k++) points[3 * (size_t)i + (size_t)k] += by * (2 * random_unit(random) - 1);
+        for (int k = 0; k < 3; k++)
+            points[3 * (size_t)i + (size_t)k] += by * (2 * random_unit(random) - 1);
 }
 
 /* Probes from a vertex as it is now, across the surface there. */
@@ -251,7 +262,8 @@ static int check_near(const mw_prober *prober, double d, uint64_t *random)
 {
     int hits = 0;
     for (int i = 0; i < 40; i++) {
-        const double *at = mw__surface_point(prober->surface, mw__random_below(random, prober->surface->point_count));
+        const double *at = mw__surface_point(
+            prober->surface, mw__random_below(random, prober->surface->point_count));
         mw_line line = {{0}, {0}};
         for (int k = 0; k < 3; k++) {
             line.m[k] = random_unit(random) - 0.5;
@@ -289,7 +301,8 @@ static void test_known_motion(void **state)
     shape_free(&s);
 }
 
-/* A flat patch rises by less than what makes the boxes be fitted: they are widened, or this is missed. */
+/* A flat patch rises by less than what makes the boxes be fitted: they are widened, or this is
+ * missed. */
 static void test_slack(void **state)
 {
     (void)state;
@@ -299,7 +312,8 @@ static void test_slack(void **state)
     mw_prober *prober = prober_with_boxes(surface);
     double rise = prober->slack_limit / 2;
     mw_surface_begin_update(surface);
-    for (uint32_t i = 0; i < s.point_count; i++) mw_surface_points(surface)[3 * (size_t)i + 2] += rise;
+    for (uint32_t i = 0; i < s.point_count; i++)
+        mw_surface_points(surface)[3 * (size_t)i + 2] += rise;
     mw_prober_update(prober, rise, 1);
     mw_surface_end_update(surface);
     assert_int_equal(prober->fits, 1);
@@ -326,8 +340,10 @@ static void test_unknown_motion(void **state)
         double *points = mw_surface_points(surface);
         memcpy(points, s.points, 3 * s.point_count * sizeof *points);
         move(surface, frame, &random);
-        for (int i = 0; i < frame; i++) points[mw__random_below(&random, 3 * s.point_count)] = i % 2 ? NAN : INFINITY;
-        for (int i = 0; i < 5; i++) mw_surface_flip(surface, mw__random_below(&random, s.triangle_count), 0, NULL);
+        for (int i = 0; i < frame; i++)
+            points[mw__random_below(&random, 3 * s.point_count)] = i % 2 ? NAN : INFINITY;
+        for (int i = 0; i < 5; i++)
+            mw_surface_flip(surface, mw__random_below(&random, s.triangle_count), 0, NULL);
         mw_prober_update(prober, unknown[frame % 4], (uint32_t)frame % 3);
         mw_surface_end_update(surface);
         assert_int_equal(prober->fits, frame + 2);
@@ -359,9 +375,10 @@ static void test_not_finite(void **state)
     shape_free(&s);
 }
 
-/* --- the prober --------------------------------------------------------------------------------------------------- */
+/* --- the prober ------------------------------------------------------------------------------- */
 
-/* The order of the file is kept where it is good, and neither order nor threads change an answer. */
+/* The order of the file is kept where it is good, and neither order nor threads change an answer.
+ * */
 static void test_order(void **state)
 {
     (void)state;
@@ -389,10 +406,12 @@ static void test_order(void **state)
         }
         assert_true(counters.boxes > 60);
         assert_true(counters.box_triangles >= counters.intersections);
-        assert_true(counters.box_triangles < 60 * s.triangle_count / 100); /* most boxes are passed by */
+        /* most boxes are passed by */
+        assert_true(counters.box_triangles < 60 * s.triangle_count / 100);
 
         mw_bvh_box *boxes = malloc(info.box_bytes);
-        size_t count = prober->bvh.first[prober->bvh.level_count - 1] + 1, bytes = count * sizeof *boxes;
+        size_t count = prober->bvh.first[prober->bvh.level_count - 1] + 1,
+               bytes = count * sizeof *boxes;
         memcpy(boxes, prober->bvh.box, bytes);
         for (uint32_t threads = 0; threads < 5; threads++) {
             memset(prober->bvh.box, 0, bytes);
@@ -450,10 +469,12 @@ static void test_create(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_lattices),   cmocka_unit_test(test_soups),          cmocka_unit_test(test_ties),
-        cmocka_unit_test(test_magnitudes), cmocka_unit_test(test_strays),         cmocka_unit_test(test_known_motion),
-        cmocka_unit_test(test_slack),      cmocka_unit_test(test_unknown_motion), cmocka_unit_test(test_not_finite),
-        cmocka_unit_test(test_order),      cmocka_unit_test(test_create),
+        cmocka_unit_test(test_lattices),   cmocka_unit_test(test_soups),
+        cmocka_unit_test(test_ties),       cmocka_unit_test(test_magnitudes),
+        cmocka_unit_test(test_strays),     cmocka_unit_test(test_known_motion),
+        cmocka_unit_test(test_slack),      cmocka_unit_test(test_unknown_motion),
+        cmocka_unit_test(test_not_finite), cmocka_unit_test(test_order),
+        cmocka_unit_test(test_create),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

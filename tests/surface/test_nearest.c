@@ -1,5 +1,6 @@
-/* The nearest point of a surface: what the boxes find is what each triangle says when it is alone, and no point of the
- * surface is nearer by more than rounding, by another method in longer numbers. */
+/* The nearest point of a surface: what the boxes find is what each triangle says when it is alone,
+ * and no point of the surface is nearer by more than rounding, by another method in longer
+ * numbers. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -22,7 +23,8 @@ static uint64_t new_seed(const char *name)
     return environment_print_seed(name, 19990712);
 }
 
-static mw_nearest_surface_point nearest(const mw_prober *prober, const double q[3], double max_distance)
+static mw_nearest_surface_point nearest(const mw_prober *prober, const double q[3],
+                                        double max_distance)
 {
     mw_nearest_surface_point hit;
     mw_error error;
@@ -30,7 +32,7 @@ static mw_nearest_surface_point nearest(const mw_prober *prober, const double q[
     return hit;
 }
 
-/* --- another method ----------------------------------------------------------------------------------------------- */
+/* --- another method --------------------------------------------------------------------------- */
 
 /* At least as long as long double, mostly twice as long as double. */
 #ifdef __SIZEOF_FLOAT128__
@@ -48,7 +50,8 @@ static wide_float wide_dot(const wide_float a[3], const wide_float b[3])
 
 static void wide_cross(wide_float r[3], const wide_float a[3], const wide_float b[3])
 {
-    for (int k = 0; k < 3; k++) r[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
+    for (int k = 0; k < 3; k++)
+        r[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
 }
 
 /* From the origin, squared. */
@@ -75,7 +78,8 @@ static long double distance_to_triangle(const double *const corner[3], const dou
     wide_cross(n, u, v);
     int over = 1;
     for (int i = 0; i < 3; i++) {
-        wide_cross(c, p[i], p[(i + 1) % 3]); /* its part along n is twice the area of the foot of q and the edge */
+        /* its part along n is twice the area of the foot of q and the edge */
+        wide_cross(c, p[i], p[(i + 1) % 3]);
         if (wide_dot(c, n) < 0) over = 0;
         wide_float square = square_to_segment(p[i], p[(i + 1) % 3]);
         least = square < least ? square : least;
@@ -89,15 +93,18 @@ static long double least_distance(const mw_surface *surface, const double q[3])
 {
     long double least = INFINITY;
     for (uint32_t t = 0; t < surface->tri_count; t++) {
-        const double *const corner[3] = {mw__surface_corner(surface, t, 0), mw__surface_corner(surface, t, 1),
+        const double *const corner[3] = {mw__surface_corner(surface, t, 0),
+                                         mw__surface_corner(surface, t, 1),
                                          mw__surface_corner(surface, t, 2)};
-        if (!mw__is_finite3(corner[0]) || !mw__is_finite3(corner[1]) || !mw__is_finite3(corner[2])) continue;
-        if (!mw__collinear3(corner[0], corner[1], corner[2])) least = fminl(least, distance_to_triangle(corner, q));
+        if (!mw__is_finite3(corner[0]) || !mw__is_finite3(corner[1]) || !mw__is_finite3(corner[2]))
+            continue;
+        if (!mw__collinear3(corner[0], corner[1], corner[2]))
+            least = fminl(least, distance_to_triangle(corner, q));
     }
     return least;
 }
 
-/* --- checks ------------------------------------------------------------------------------------------------------- */
+/* --- checks ----------------------------------------------------------------------------------- */
 
 /* A prober for each triangle. */
 typedef struct alone {
@@ -108,8 +115,8 @@ typedef struct alone {
 
 static alone take_apart(const shape *s)
 {
-    alone a = {malloc(s->triangle_count * sizeof *a.surface), malloc(s->triangle_count * sizeof *a.prober),
-               s->triangle_count};
+    alone a = {malloc(s->triangle_count * sizeof *a.surface),
+               malloc(s->triangle_count * sizeof *a.prober), s->triangle_count};
     for (uint32_t t = 0; t < a.count; t++) {
         shape one = shape_make(3, 1);
         for (uint32_t i = 0; i < 3; i++) {
@@ -153,14 +160,16 @@ static void check_none(const mw_nearest_surface_point *hit)
 }
 
 /* Do the members of the answer fit together, to within `slack`? */
-static void check_hit(const mw_surface *surface, const double q[3], const mw_nearest_surface_point *hit, double slack)
+static void check_hit(const mw_surface *surface, const double q[3],
+                      const mw_nearest_surface_point *hit, double slack)
 {
     double sum = 0;
     for (int k = 0; k < 3; k++) {
         assert_true(hit->weight[k] >= 0);
         sum += hit->weight[k];
         double at = 0;
-        for (uint32_t i = 0; i < 3; i++) at += hit->weight[i] * mw__surface_corner(surface, hit->triangle, i)[k];
+        for (uint32_t i = 0; i < 3; i++)
+            at += hit->weight[i] * mw__surface_corner(surface, hit->triangle, i)[k];
         assert_true(fabs(at - hit->point[k]) <= slack);
     }
     assert_true(fabs(sum - 1) < 1e-15);
@@ -181,7 +190,8 @@ static double extent_of(const shape *s, const double q[3])
     return largest;
 }
 
-/* Points of all kinds against one surface: of its queries, on it, beside it and off it, with a little noise. */
+/* Points of all kinds against one surface: of its queries, on it, beside it and off it, with a
+ * little noise. */
 static void check_shape(const shape *s, size_t n, uint64_t *random)
 {
     mw_surface *surface = shape_surface(s, (mw_surface_options){.tolerant = 1});
@@ -217,15 +227,15 @@ static void check_shape(const shape *s, size_t n, uint64_t *random)
     mw_surface_destroy(surface);
 }
 
-/* --- tests -------------------------------------------------------------------------------------------------------- */
+/* --- tests ------------------------------------------------------------------------------------ */
 
 static void test_shapes(void **state)
 {
     (void)state;
     uint64_t random = new_seed("shapes");
     for (int round = 0; round < 3; round++) {
-        shape shapes[4] = {shape_ball(5, 12, 0.3, &random), shape_torus(12, 10, 3), shape_patch(10, 4, &random),
-                           shape_soup(40, 120, &random)};
+        shape shapes[4] = {shape_ball(5, 12, 0.3, &random), shape_torus(12, 10, 3),
+                           shape_patch(10, 4, &random), shape_soup(40, 120, &random)};
         for (int i = 0; i < 4; i++) {
             if (round == 1) shape_flatten(&shapes[i], 0.1, &random);
             if (round == 2) shape_shuffle(&shapes[i], &random);
@@ -246,7 +256,8 @@ static void test_slivers(void **state)
             const uint32_t *v = s.triangles + 3 * (size_t)t;
             double at = random_unit(&random);
             for (uint32_t k = 0; k < 3; k++)
-                s.points[3 * v[2] + k] = s.points[3 * v[0] + k] * at + s.points[3 * v[1] + k] * (1 - at) +
+                s.points[3 * v[2] + k] = s.points[3 * v[0] + k] * at +
+                                         s.points[3 * v[1] + k] * (1 - at) +
                                          thin * (random_unit(&random) - 0.5);
         }
         check_shape(&s, 100, &random);
@@ -271,7 +282,8 @@ static void test_units(void **state)
         for (size_t i = 0; i < 60; i++) {
             double q[3];
             for (int k = 0; k < 3; k++) {
-                queries[6 * i + (size_t)k] = floor(queries[6 * i + (size_t)k]); /* exact also in the smallest unit */
+                /* exact also in the smallest unit */
+                queries[6 * i + (size_t)k] = floor(queries[6 * i + (size_t)k]);
                 q[k] = ldexp(queries[6 * i + (size_t)k], exponent[e]);
             }
             if (!mw__is_finite3(q)) continue;
@@ -284,8 +296,10 @@ static void test_units(void **state)
             }
             /* down there lengths are whole numbers of units of the last place */
             double unit = exponent[e] < -1000 ? ldexp(1, -1074 - exponent[e]) : 0;
-            assert_true(fabs(ldexp(there.distance, -exponent[e]) - hit.distance) <= 4 * unit + 1e-13);
-            /* beyond, lengths are rounded otherwise, and other triangles are the lowest of those equally far */
+            assert_true(fabs(ldexp(there.distance, -exponent[e]) - hit.distance) <=
+                        4 * unit + 1e-13);
+            /* beyond, lengths are rounded otherwise, and other triangles are the lowest of those
+             * equally far */
             if (abs(exponent[e]) <= 300) assert_int_equal(there.triangle, hit.triangle);
         }
         mw_prober_destroy(other_prober);
@@ -299,10 +313,12 @@ static void test_units(void **state)
 }
 
 /* A triangle alone. */
-static mw_nearest_surface_point nearest_of(const double points[9], const double q[3], double max_distance)
+static mw_nearest_surface_point nearest_of(const double points[9], const double q[3],
+                                           double max_distance)
 {
     static const uint32_t corners[3] = {0, 1, 2};
-    const mw_arrays one = {.points = points, .point_count = 3, .triangles = corners, .triangle_count = 1};
+    const mw_arrays one = {
+        .points = points, .point_count = 3, .triangles = corners, .triangle_count = 1};
     mw_surface *surface;
     mw_error error;
     expect_ok(mw_surface_create(&one, NULL, &surface, &error), "surface", &error);
@@ -325,7 +341,8 @@ static void test_offset(void **state)
     assert_int_equal(nearest_of(a, q, 0.2727).triangle, MW_NONE);
     const double corner[3] = {o + 1, o - 1, o + 0.5};
     hit = nearest_of(a, corner, INFINITY);
-    assert_true(hit.distance == 1 && hit.weight[1] == 1 && hit.point[0] == o + 1 && hit.point[2] == o + 0.5);
+    assert_true(hit.distance == 1 && hit.weight[1] == 1 && hit.point[0] == o + 1 &&
+                hit.point[2] == o + 0.5);
 }
 
 /* However much larger than the distance a triangle is. */
@@ -353,14 +370,17 @@ static long double size_from(const double points[9], const double q[3])
     for (int i = 0; i < 3; i++) {
         long double square = 0;
         for (int k = 0; k < 3; k++)
-            square += ((long double)points[3 * i + k] - q[k]) * ((long double)points[3 * i + k] - q[k]);
+            square +=
+                ((long double)points[3 * i + k] - q[k]) * ((long double)points[3 * i + k] - q[k]);
         size = fmaxl(size, sqrtl(square));
     }
     return size;
 }
 
-/* A triangle at `offset`, whose height is about `thin`, and q about `away` from a point of it, an edge, or a corner. */
-static void random_case(double points[9], double q[3], double offset, double thin, double away, uint64_t *random)
+/* A triangle at `offset`, whose height is about `thin`, and q about `away` from a point of it, an
+ * edge, or a corner. */
+static void random_case(double points[9], double q[3], double offset, double thin, double away,
+                        uint64_t *random)
 {
     double at = random_unit(random), weight[3] = {random_unit(random), 0, 0};
     int kind = (int)mw__random_below(random, 4);
@@ -375,8 +395,8 @@ static void random_case(double points[9], double q[3], double offset, double thi
     }
 }
 
-/* Off by less than 2^-48 of the size; inside a triangle that is not thin of the distance itself. So also inside an
- * edge, but for the face's foot that is taken to lie on the wrong side of it. */
+/* Off by less than 2^-48 of the size; inside a triangle that is not thin of the distance itself.
+ * So also inside an edge, but for the face's foot that is taken to lie on the wrong side of it. */
 static void test_accuracy(void **state)
 {
     (void)state;
@@ -393,10 +413,13 @@ static void test_accuracy(void **state)
         long double right = distance_to_triangle(corner, q), error = fabsl(right - hit.distance);
         long double size = size_from(points, q);
         assert_true(error <= 0x1p-48L * size);
-        if (height < 1 || size > 100 || fmax(hit.weight[0], fmax(hit.weight[1], hit.weight[2])) > 1 - 1e-6) continue;
+        if (height < 1 || size > 100 ||
+            fmax(hit.weight[0], fmax(hit.weight[1], hit.weight[2])) > 1 - 1e-6)
+            continue;
         double least = fmin(hit.weight[0], fmin(hit.weight[1], hit.weight[2]));
         if (least > 1e-6) assert_true(error <= 0x1p-48L * right + 1e-28L);
-        if (least == 0) assert_true(error <= 0x1p-48L * right + 1e-28L + 0x1p-100L * size * size / right);
+        if (least == 0)
+            assert_true(error <= 0x1p-48L * right + 1e-28L + 0x1p-100L * size * size / right);
     }
 }
 
@@ -414,7 +437,8 @@ static void test_far(void **state)
         alone each = take_apart(&s);
         for (int i = 0; i < 60; i++) {
             double q[3], distance = NAN;
-            for (int k = 0; k < 3; k++) q[k] = (i % 2 ? far[f] : 20) * (2 * random_unit(&random) - 1);
+            for (int k = 0; k < 3; k++)
+                q[k] = (i % 2 ? far[f] : 20) * (2 * random_unit(&random) - 1);
             uint32_t best = ask_each(&each, q, &distance);
             mw_nearest_surface_point hit = nearest(prober, q, INFINITY);
             assert_int_equal(hit.triangle, best);
@@ -495,9 +519,11 @@ static void test_arguments(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_shapes), cmocka_unit_test(test_slivers), cmocka_unit_test(test_units),
-        cmocka_unit_test(test_offset), cmocka_unit_test(test_huge),    cmocka_unit_test(test_accuracy),
-        cmocka_unit_test(test_far),    cmocka_unit_test(test_motion),  cmocka_unit_test(test_arguments),
+        cmocka_unit_test(test_shapes),    cmocka_unit_test(test_slivers),
+        cmocka_unit_test(test_units),     cmocka_unit_test(test_offset),
+        cmocka_unit_test(test_huge),      cmocka_unit_test(test_accuracy),
+        cmocka_unit_test(test_far),       cmocka_unit_test(test_motion),
+        cmocka_unit_test(test_arguments),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -13,7 +13,7 @@
 #include "support/meshes.h"
 #include "support/shapes.h"
 
-/* --- surfaces ----------------------------------------------------------------------------------------------------- */
+/* --- surfaces --------------------------------------------------------------------------------- */
 
 typedef struct probe_world {
     const char *name;
@@ -100,7 +100,7 @@ static mw_touch ask(const probe_world *w, mw_probe_cursor *cursor, const double 
     return mw_probe(w->prober, cursor, query, query + 3);
 }
 
-/* --- what is right ------------------------------------------------------------------------------------------------ */
+/* --- what is right ---------------------------------------------------------------------------- */
 
 static void check_fields(const touch_oracle *o, const mw_touch *touch)
 {
@@ -117,7 +117,8 @@ static void check_fields(const touch_oracle *o, const mw_touch *touch)
 }
 
 /* A touch is one, in reach, with the lowest number at its place. */
-static void check_touch(const probe_world *w, const touch_oracle *o, const mw_touch *touch, double reach)
+static void check_touch(const probe_world *w, const touch_oracle *o, const mw_touch *touch,
+                        double reach)
 {
     if (touch->state != MW_TOUCH_HIT) {
         assert_int_equal(touch->triangle, MW_NONE);
@@ -132,7 +133,7 @@ static void check_touch(const probe_world *w, const touch_oracle *o, const mw_to
     check_fields(o, touch);
 }
 
-/* --- tests -------------------------------------------------------------------------------------------------------- */
+/* --- tests ------------------------------------------------------------------------------------ */
 
 static void test_names(void **state)
 {
@@ -164,15 +165,19 @@ static void test_arguments(void **state)
     const double wrong[] = {-1, NAN, -INFINITY};
     for (int i = 0; i < 3; i++) {
         options = (mw_probe_options){.max_distance = wrong[i]};
-        assert_int_equal(mw_probe_cursor_init(w->prober, &options, &cursor, NULL), MW_ERROR_ARGUMENT);
+        assert_int_equal(mw_probe_cursor_init(w->prober, &options, &cursor, NULL),
+                         MW_ERROR_ARGUMENT);
     }
     options = (mw_probe_options){.certain = 1};
     assert_int_equal(mw_prober_create(w->surface, NULL, &bare, NULL), MW_OK);
     assert_int_equal(mw_probe_cursor_init(bare, &options, &cursor, NULL), MW_ERROR_ARGUMENT);
     mw_prober_destroy(bare);
-    assert_int_equal(mw_probe_batch(w->prober, query, 1, 5, NULL, &touch, NULL, NULL), MW_ERROR_ARGUMENT);
-    assert_int_equal(mw_probe_batch(w->prober, NULL, 1, 0, NULL, &touch, NULL, NULL), MW_ERROR_ARGUMENT);
-    assert_int_equal(mw_probe_batch(w->prober, query, 1, 0, NULL, NULL, NULL, NULL), MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_probe_batch(w->prober, query, 1, 5, NULL, &touch, NULL, NULL),
+                     MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_probe_batch(w->prober, NULL, 1, 0, NULL, &touch, NULL, NULL),
+                     MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_probe_batch(w->prober, query, 1, 0, NULL, NULL, NULL, NULL),
+                     MW_ERROR_ARGUMENT);
     assert_int_equal(mw_probe_batch(w->prober, NULL, 0, 0, NULL, NULL, NULL, NULL), MW_OK);
 }
 
@@ -180,7 +185,8 @@ static void test_arguments(void **state)
 static void test_sample_count(void **state)
 {
     (void)state;
-    static const uint32_t known[][2] = {{154, 10}, {2832, 28}, {6475, 36}, {8036, 40}, {10002, 42}, {20002, 54}};
+    static const uint32_t known[][2] = {{154, 10},  {2832, 28},  {6475, 36},
+                                        {8036, 40}, {10002, 42}, {20002, 54}};
     for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
         shape s = shape_make(known[i][0], 100);
         for (uint32_t v = 0; v < known[i][0]; v++) shape_point(&s, v, v % 7, v * v % 11);
@@ -201,10 +207,12 @@ static void test_bad_queries(void **state)
 {
     (void)state;
     const probe_world *w = &worlds[STAR_SHAPED];
-    const double bad[][6] = {{NAN, 0, 0, 0, 0, 1},       {0, 0, INFINITY, 0, 0, 1}, {0, 0, 0, 0, NAN, 1},
-                             {0, 0, 0, -INFINITY, 0, 0}, {0, 0, 0, 0, 0, 0},        {0, 0, 0, 0, -0.0, 0}};
+    const double bad[][6] = {{NAN, 0, 0, 0, 0, 1}, {0, 0, INFINITY, 0, 0, 1},
+                             {0, 0, 0, 0, NAN, 1}, {0, 0, 0, -INFINITY, 0, 0},
+                             {0, 0, 0, 0, 0, 0},   {0, 0, 0, 0, -0.0, 0}};
     for (int certain = 0; certain < 2; certain++) {
-        mw_probe_cursor cursor = cursor_of(w, (mw_probe_options){.certain = certain, .counters = 1});
+        mw_probe_cursor cursor =
+            cursor_of(w, (mw_probe_options){.certain = certain, .counters = 1});
         for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
             mw_touch touch = ask(w, &cursor, bad[i]);
             assert_int_equal(touch.state, MW_TOUCH_BAD);
@@ -239,8 +247,8 @@ static void test_nothing_faces(void **state)
     const probe_world *w = &worlds[PATCH];
     const double up[6] = {9, 9, -50, 0, 0, 1}, down[6] = {9, 9, -50, 0, 0, -1};
     for (int start = 0; start < MW_PROBE_START_COUNT; start++) {
-        mw_probe_cursor cursor =
-            cursor_of(w, (mw_probe_options){.start = (mw_probe_start)start, .samples = 5, .counters = 1});
+        mw_probe_cursor cursor = cursor_of(
+            w, (mw_probe_options){.start = (mw_probe_start)start, .samples = 5, .counters = 1});
         assert_int_equal(ask(w, &cursor, up).state, MW_TOUCH_LIMIT);
         assert_int_equal(cursor.counters.iterations, 10);
         assert_int_equal(cursor.counters.samples, 10 * 9 * 5);
@@ -264,9 +272,12 @@ static void test_touches_are_true(void **state)
         for (size_t j = 0; j < QUERIES; j++) {
             const double *q = query + 6 * j;
             if (!touch_oracle_finite(q, 6)) continue;
-            double reach = j % 3 == 0 ? 0 : j % 3 == 1 ? sqrt(q[3] * q[3] + q[4] * q[4] + q[5] * q[5]) : INFINITY;
-            mw_probe_options options = {
-                .start = (mw_probe_start)(j % MW_PROBE_START_COUNT), .seed = j, .max_distance = reach};
+            double reach = j % 3 == 0   ? 0
+                           : j % 3 == 1 ? sqrt(q[3] * q[3] + q[4] * q[4] + q[5] * q[5])
+                                        : INFINITY;
+            mw_probe_options options = {.start = (mw_probe_start)(j % MW_PROBE_START_COUNT),
+                                        .seed = j,
+                                        .max_distance = reach};
             mw_probe_cursor cursor = cursor_of(w, options);
             touch_oracle o = touch_oracle_make(&w->s, q);
             for (int again = 0; again < 3; again++) {
@@ -338,7 +349,8 @@ static void test_certain(void **state)
     for (int i = 0; i < WORLDS; i++) {
         const probe_world *w = &worlds[i];
         double *query = shape_queries(&w->s, QUERIES, &random);
-        mw_probe_cursor cursor = cursor_of(w, (mw_probe_options){.certain = 1, .race = i % 2 ? 4 : 0, .counters = 1});
+        mw_probe_cursor cursor =
+            cursor_of(w, (mw_probe_options){.certain = 1, .race = i % 2 ? 4 : 0, .counters = 1});
         for (size_t j = 0; j < QUERIES; j++) {
             const double *q = query + 6 * j;
             if (!touch_oracle_finite(q, 6)) continue;
@@ -365,8 +377,8 @@ static void test_seed_is_short(void **state)
     uint64_t random = 29;
     probe_world w = world_of("long patch", shape_patch(60, 3, &random), (mw_surface_options){0});
     const double far[6] = {238, 239, 20, 0, 0, -1}, past[6] = {250, 250, 20, 0, 0, -1};
-    mw_probe_cursor cursor =
-        cursor_of(&w, (mw_probe_options){.certain = 1, .start = MW_PROBE_START_LAST, .counters = 1});
+    mw_probe_cursor cursor = cursor_of(
+        &w, (mw_probe_options){.certain = 1, .start = MW_PROBE_START_LAST, .counters = 1});
     cursor.last = 0;
     mw_touch touch = ask(&w, &cursor, far);
     assert_int_equal(touch.state, MW_TOUCH_HIT);
@@ -382,13 +394,16 @@ static void test_sample_helps(void **state)
 {
     (void)state;
     uint64_t random = 30;
-    probe_world w = world_of("large ball", shape_ball(20, 1000, 0.1, &random), (mw_surface_options){0});
+    probe_world w =
+        world_of("large ball", shape_ball(20, 1000, 0.1, &random), (mw_surface_options){0});
     uint64_t visited[2];
     for (int i = 0; i < 2; i++) {
         mw_probe_cursor cursor = cursor_of(
-            &w, (mw_probe_options){.start = i ? MW_PROBE_START_RANDOM : MW_PROBE_START_SAMPLE, .counters = 1});
+            &w, (mw_probe_options){.start = i ? MW_PROBE_START_RANDOM : MW_PROBE_START_SAMPLE,
+                                   .counters = 1});
         for (uint32_t v = 0; v < w.s.point_count; v++) {
-            const double *p = w.s.points + 3 * (size_t)v, q[6] = {p[0], p[1], p[2], 0.5 - p[0], 0.25 - p[1], -p[2]};
+            const double *p = w.s.points + 3 * (size_t)v,
+                         q[6] = {p[0], p[1], p[2], 0.5 - p[0], 0.25 - p[1], -p[2]};
             assert_int_equal(ask(&w, &cursor, q).state, MW_TOUCH_HIT);
         }
         visited[i] = cursor.counters.triangles;
@@ -402,7 +417,8 @@ static void test_coherence(void **state)
 {
     (void)state;
     const probe_world *w = &worlds[STAR_SHAPED];
-    mw_probe_cursor cursor = cursor_of(w, (mw_probe_options){.start = MW_PROBE_START_LAST, .counters = 1});
+    mw_probe_cursor cursor =
+        cursor_of(w, (mw_probe_options){.start = MW_PROBE_START_LAST, .counters = 1});
     double down[6] = {1, 2, 90, 0.01, 0.02, -1}, up[6] = {1, 2, 90, 0.01, 0.02, 1};
     assert_int_equal(ask(w, &cursor, down).state, MW_TOUCH_HIT);
     assert_true(cursor.counters.samples > 0);
@@ -418,7 +434,8 @@ static void test_coherence(void **state)
     assert_int_equal(cursor.counters.hits, 3);
 }
 
-/* Whether walks are counted changes no answer, also where the probe stays, or moves little, and need not walk. */
+/* Whether walks are counted changes no answer, also where the probe stays, or moves little, and
+ * need not walk. */
 static void test_counting(void **state)
 {
     (void)state;
@@ -428,7 +445,8 @@ static void test_counting(void **state)
         const probe_world *w = &worlds[i];
         double *query = shape_queries(&w->s, QUERIES, &random);
         mw_probe_cursor plain = cursor_of(w, (mw_probe_options){.start = MW_PROBE_START_LAST});
-        mw_probe_cursor counted = cursor_of(w, (mw_probe_options){.start = MW_PROBE_START_LAST, .counters = 1});
+        mw_probe_cursor counted =
+            cursor_of(w, (mw_probe_options){.start = MW_PROBE_START_LAST, .counters = 1});
         for (size_t j = 0; j < QUERIES * STEPS; j++) {
             double *q = query + j / STEPS * 6;
             if (j % STEPS > 1) q[j % 3] += 0.125 * (random_unit(&random) - 0.5);
@@ -439,12 +457,14 @@ static void test_counting(void **state)
     }
 }
 
-/* By itself a probe begins at the triangle touched before where that is near, and looks for another where it is not. */
+/* By itself a probe begins at the triangle touched before where that is near, and looks for
+ * another where it is not. */
 static void test_auto(void **state)
 {
     (void)state;
     uint64_t random = 31;
-    probe_world w = world_of("large ball", shape_ball(20, 1000, 0.1, &random), (mw_surface_options){0});
+    probe_world w =
+        world_of("large ball", shape_ball(20, 1000, 0.1, &random), (mw_surface_options){0});
     mw_probe_cursor cursor = cursor_of(&w, (mw_probe_options){.counters = 1});
     for (uint32_t v = 0; v < 40; v++) {
         const double *p = w.s.points + 3 * (size_t)(v % 2 ? v : w.s.point_count - 1 - v);
@@ -465,8 +485,8 @@ static void test_auto(void **state)
     world_free(&w);
 }
 
-/* The path is what the counters count: no walk visits a triangle twice, its triangles are linked, and it passes by
- * none that is touched; on any surface. */
+/* The path is what the counters count: no walk visits a triangle twice, its triangles are linked,
+ * and it passes by none that is touched; on any surface. */
 static void test_path(void **state)
 {
     (void)state;
@@ -493,7 +513,8 @@ static void test_path(void **state)
             touch_oracle o = touch_oracle_make(&w->s, q);
             for (uint32_t k = 0; k < length; k++) {
                 int last = touch.state == MW_TOUCH_HIT && k + 1 == length;
-                int touched = o.touched[path[k]] && touch_oracle_in_reach(&o, path[k], options.max_distance);
+                int touched =
+                    o.touched[path[k]] && touch_oracle_in_reach(&o, path[k], options.max_distance);
                 assert_int_equal(touched, last);
                 assert_true(walk[k] < cursor.counters.iterations);
                 int begins = k == 0 || walk[k] != walk[k - 1];
@@ -502,8 +523,10 @@ static void test_path(void **state)
                 seen[path[k]] = walk[k] + 1 + 20 * j;
                 int linked = begins, to_first = 0;
                 for (uint32_t e = 0; e < 3 && !begins; e++) {
-                    linked = linked || mw_surface_neighbour(w->surface, path[k - 1], e, NULL) == path[k];
-                    to_first = to_first || mw_surface_neighbour(w->surface, first, e, NULL) == path[k];
+                    linked =
+                        linked || mw_surface_neighbour(w->surface, path[k - 1], e, NULL) == path[k];
+                    to_first =
+                        to_first || mw_surface_neighbour(w->surface, first, e, NULL) == path[k];
                 }
                 assert_true(linked || to_first);
                 turned += !linked;
@@ -511,10 +534,12 @@ static void test_path(void **state)
             touch_oracle_free(&o);
             uint32_t two[2] = {MW_NONE, MW_NONE};
             other = cursor_of(w, options);
-            assert_int_equal(mw_probe_path(w->prober, &other, q, q + 3, two, NULL, 1, NULL), length);
+            assert_int_equal(mw_probe_path(w->prober, &other, q, q + 3, two, NULL, 1, NULL),
+                             length);
             assert_int_equal(two[1], MW_NONE);
             other = cursor_of(w, options);
-            assert_int_equal(mw_probe_path(w->prober, &other, q, q + 3, NULL, NULL, 0, NULL), length);
+            assert_int_equal(mw_probe_path(w->prober, &other, q, q + 3, NULL, NULL, 0, NULL),
+                             length);
         }
         if (i == PATCH) assert_true(turned > 0);
         free(query);
@@ -524,13 +549,13 @@ static void test_path(void **state)
     }
 }
 
-/* An iteration that starts near one border finds what lies beyond the first triangle, on the way to the other
- * border. */
+/* An iteration that starts near one border finds what lies beyond the first triangle, on the way
+ * to the other border. */
 static void test_border(void **state)
 {
     (void)state;
-    /* A strip of quadrangles bent upwards at its ends, and a line through its last one: from any triangle that faces
-     * the line the walk must find it, to whatever side it sets out first. */
+    /* A strip of quadrangles bent upwards at its ends, and a line through its last one: from any
+     * triangle that faces the line the walk must find it, to whatever side it sets out first. */
     enum { N = 12 };
     shape s = shape_make(2 * N + 2, 2 * N);
     for (int i = 0; i <= N; i++) {
@@ -544,14 +569,15 @@ static void test_border(void **state)
     probe_world w = world_of("strip", s, (mw_surface_options){0});
     for (uint32_t first = 0; first < 2 * N; first++) {
         double q[6] = {11.5, 2.1, 20, 0, 0, -1};
-        mw_probe_cursor cursor =
-            cursor_of(&w, (mw_probe_options){.start = MW_PROBE_START_LAST, .iterations = 1, .counters = 1});
+        mw_probe_cursor cursor = cursor_of(
+            &w, (mw_probe_options){.start = MW_PROBE_START_LAST, .iterations = 1, .counters = 1});
         cursor.last = first;
         mw_touch touch = ask(&w, &cursor, q);
         assert_int_equal(touch.state, MW_TOUCH_HIT);
         assert_true(touch.triangle >= 2 * N - 2);
         q[0] = -0.5; /* beyond the border: the walk goes to both ends */
-        cursor = cursor_of(&w, (mw_probe_options){.start = MW_PROBE_START_LAST, .iterations = 1, .counters = 1});
+        cursor = cursor_of(
+            &w, (mw_probe_options){.start = MW_PROBE_START_LAST, .iterations = 1, .counters = 1});
         cursor.last = first;
         assert_int_equal(ask(&w, &cursor, q).state, MW_TOUCH_LIMIT);
         assert_true(cursor.counters.triangles <= 2 * N);
@@ -572,13 +598,15 @@ static void test_degenerate_planes(void **state)
     static const uint32_t faces[4][3] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
     for (int i = 0; i < 4; i++) shape_triangle(&s, faces[i][0], faces[i][1], faces[i][2]);
     probe_world w = world_of("tetrahedron", s, (mw_surface_options){0});
-    const double lines[][6] = {{1, 1, 1, -1, -1, -1}, {0, 0, 3, 0, 0, -1}, {3, 0, 0, -1, 0, 0},   {0, 0, 3, -1, -1, -2},
-                               {3, 0, 0, -2, -1, -1}, {1, 0, 0, 0, 1, 0},  {2, 1, 0, -1, -1, -1}, {1, 1, 0, 0, 0, 1}};
+    const double lines[][6] = {{1, 1, 1, -1, -1, -1}, {0, 0, 3, 0, 0, -1},   {3, 0, 0, -1, 0, 0},
+                               {0, 0, 3, -1, -1, -2}, {3, 0, 0, -2, -1, -1}, {1, 0, 0, 0, 1, 0},
+                               {2, 1, 0, -1, -1, -1}, {1, 1, 0, 0, 0, 1}};
     for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
         touch_oracle o = touch_oracle_make(&w.s, lines[i]);
         uint32_t best = touch_oracle_best(&o, 0);
         for (uint32_t first = 0; first < 4; first++) {
-            mw_probe_cursor cursor = cursor_of(&w, (mw_probe_options){.start = MW_PROBE_START_LAST, .iterations = 200});
+            mw_probe_cursor cursor =
+                cursor_of(&w, (mw_probe_options){.start = MW_PROBE_START_LAST, .iterations = 200});
             cursor.last = first;
             mw_touch touch = ask(&w, &cursor, lines[i]);
             check_touch(&w, &o, &touch, 0);
@@ -586,8 +614,10 @@ static void test_degenerate_planes(void **state)
         }
         touch_oracle_free(&o);
     }
-    mw_probe_cursor cursor = cursor_of(
-        &w, (mw_probe_options){.start = MW_PROBE_START_LAST, .iterations = 1, .max_distance = 1e-9, .counters = 1});
+    mw_probe_cursor cursor = cursor_of(&w, (mw_probe_options){.start = MW_PROBE_START_LAST,
+                                                              .iterations = 1,
+                                                              .max_distance = 1e-9,
+                                                              .counters = 1});
     const double middle[6] = {2, 2, 2, -1, -1, -1};
     cursor.last = 2; /* its middle (1, 1, 1) lies on the line and spans no plane with it */
     assert_int_equal(ask(&w, &cursor, middle).state, MW_TOUCH_LIMIT);
@@ -615,7 +645,8 @@ static void test_extremes(void **state)
             mw_touch touch = ask(&w, &cursor, q);
             if (touch.state == MW_TOUCH_HIT) {
                 assert_true(o.touched[touch.triangle]);
-                assert_int_equal(touch.triangle, touch_oracle_lowest_linked(&o, w.surface, touch.triangle));
+                assert_int_equal(touch.triangle,
+                                 touch_oracle_lowest_linked(&o, w.surface, touch.triangle));
                 hits++;
             }
             touch_oracle_free(&o);
@@ -636,7 +667,8 @@ static void test_welded_moved_apart(void **state)
     probe_world w = world_of("apart", s, (mw_surface_options){.weld = 1});
     mw_surface_begin_update(w.surface);
     double *points = mw_surface_points(w.surface);
-    for (uint32_t i = 0; i < 3 * w.s.point_count; i++) points[i] = w.s.points[i] += mw__random_below(&random, 5) - 2.0;
+    for (uint32_t i = 0; i < 3 * w.s.point_count; i++)
+        points[i] = w.s.points[i] += mw__random_below(&random, 5) - 2.0;
     mw_prober_update(w.prober, -1, 1);
     mw_surface_end_update(w.surface);
     double *query = shape_queries(&w.s, 300, &random);
@@ -661,7 +693,8 @@ static void test_out_of_date(void **state)
 {
     (void)state;
     uint64_t random = 28;
-    probe_world w = world_of("updated", shape_ball(3, 32, 0.3, &random), (mw_surface_options){.shared = 1});
+    probe_world w =
+        world_of("updated", shape_ball(3, 32, 0.3, &random), (mw_surface_options){.shared = 1});
     const double q[6] = {1, 2, 90, 0.01, 0.02, -1};
     mw_probe_cursor walks = cursor_of(&w, (mw_probe_options){0});
     mw_probe_cursor certain = cursor_of(&w, (mw_probe_options){.certain = 1});
@@ -695,8 +728,9 @@ static void test_single_triangle(void **state)
     shape_triangle(&s, 0, 1, 2);
     probe_world w = world_of("triangle", s, (mw_surface_options){0});
     mw_probe_cursor cursor = cursor_of(&w, (mw_probe_options){.max_distance = 5});
-    const double on[6] = {1, 1, 5, 0, 0, -3}, below[6] = {1, 1, -5, 0, 0, -3}, above[6] = {1, 1, 5.001, 0, 0, -3},
-                 back[6] = {1, 1, 5, 0, 0, 3}, beside[6] = {3, 3, 1, 0, 0, -1}, edge[6] = {2, 2, 1, 0, 0, -1};
+    const double on[6] = {1, 1, 5, 0, 0, -3}, below[6] = {1, 1, -5, 0, 0, -3},
+                 above[6] = {1, 1, 5.001, 0, 0, -3}, back[6] = {1, 1, 5, 0, 0, 3},
+                 beside[6] = {3, 3, 1, 0, 0, -1}, edge[6] = {2, 2, 1, 0, 0, -1};
     mw_touch touch = ask(&w, &cursor, on);
     assert_int_equal(touch.state, MW_TOUCH_HIT);
     assert_true(touch.distance == 5);

@@ -1,5 +1,5 @@
-/* test_probe_threads.c - probes in threads: batches, races, cursors of their own, and a surface that moves between
- * queries; the same answers, and (under ThreadSanitizer) no data race. */
+/* test_probe_threads.c - probes in threads: batches, races, cursors of their own, and a surface
+ * that moves between queries; the same answers, and (under ThreadSanitizer) no data race. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -50,11 +50,13 @@ static int destroy_world(void **state)
     return 0;
 }
 
-static mw_touch *probe_batch(const race_world *w, mw_probe_options options, mw_probe_counters *counters)
+static mw_touch *probe_batch(const race_world *w, mw_probe_options options,
+                             mw_probe_counters *counters)
 {
     mw_touch *touch = calloc(QUERIES, sizeof *touch);
     assert_non_null(touch);
-    assert_int_equal(mw_probe_batch(w->prober, w->query, QUERIES, 0, &options, touch, counters, NULL), MW_OK);
+    assert_int_equal(
+        mw_probe_batch(w->prober, w->query, QUERIES, 0, &options, touch, counters, NULL), MW_OK);
     return touch;
 }
 
@@ -105,14 +107,15 @@ static void test_batch_as_single(void **state)
     free(touch);
 }
 
-/* What a race finds is a touch; it finds where one walk after the other does; in certain mode the answer is the
- * same. */
+/* What a race finds is a touch; it finds where one walk after the other does; in certain mode the
+ * answer is the same. */
 static void test_race(void **state)
 {
     const race_world *w = *state;
     size_t hits = 0;
     mw_probe_cursor serial, race, certain, sure;
-    mw_probe_options options = {.start = MW_PROBE_START_SAMPLE, .iterations = 12, .max_distance = 200, .counters = 1};
+    mw_probe_options options = {
+        .start = MW_PROBE_START_SAMPLE, .iterations = 12, .max_distance = 200, .counters = 1};
     assert_int_equal(mw_probe_cursor_init(w->prober, &options, &serial, NULL), MW_OK);
     options.race = THREADS;
     assert_int_equal(mw_probe_cursor_init(w->prober, &options, &race, NULL), MW_OK);
@@ -122,8 +125,10 @@ static void test_race(void **state)
     assert_int_equal(mw_probe_cursor_init(w->prober, &options, &certain, NULL), MW_OK);
     for (size_t i = 0; i < FEW; i++) {
         const double *q = w->query + 6 * i;
-        mw_touch a = mw_probe(w->prober, &serial, q, q + 3), b = mw_probe(w->prober, &race, q, q + 3);
-        mw_touch c = mw_probe(w->prober, &certain, q, q + 3), d = mw_probe(w->prober, &sure, q, q + 3);
+        mw_touch a = mw_probe(w->prober, &serial, q, q + 3),
+                 b = mw_probe(w->prober, &race, q, q + 3);
+        mw_touch c = mw_probe(w->prober, &certain, q, q + 3),
+                 d = mw_probe(w->prober, &sure, q, q + 3);
         assert_memory_equal(&c, &d, sizeof c);
         assert_int_equal(a.state, b.state);
         if (b.state != MW_TOUCH_HIT) continue;
@@ -148,7 +153,8 @@ static void test_race_in_batch(void **state)
     mw_touch touch[FEW];
     mw_probe_counters counters;
     mw_probe_options options = {.race = 3, .threads = THREADS, .counters = 1};
-    assert_int_equal(mw_probe_batch(w->prober, w->query, FEW, 6, &options, touch, &counters, NULL), MW_OK);
+    assert_int_equal(mw_probe_batch(w->prober, w->query, FEW, 6, &options, touch, &counters, NULL),
+                     MW_OK);
     assert_int_equal(counters.queries, FEW);
     size_t hits = 0;
     for (size_t i = 0; i < FEW; i++) hits += touch[i].state == MW_TOUCH_HIT;
@@ -156,7 +162,7 @@ static void test_race_in_batch(void **state)
     assert_true(hits > FEW / 4);
 }
 
-/* --- a surface that moves between queries ------------------------------------------------------------------------- */
+/* --- a surface that moves between queries ----------------------------------------------------- */
 
 typedef struct probe_job {
     const race_world *world;
@@ -171,12 +177,15 @@ static void draw_direction(uint64_t *random, double m[3])
     for (int k = 0; k < 3; k++) m[k] = random_unit(random) - 0.5;
 }
 
-/* Probes from the outside to the middle of the ball, until told to stop. Wherever it has moved, they touch. */
+/* Probes from the outside to the middle of the ball, until told to stop. Wherever it has moved,
+ * they touch. */
 static void *probing(void *argument)
 {
     probe_job *j = argument;
-    mw_probe_options options = {
-        .certain = j->number % 2, .race = j->number == 2 ? 2 : 0, .iterations = 10000, .seed = j->number};
+    mw_probe_options options = {.certain = j->number % 2,
+                                .race = j->number == 2 ? 2 : 0,
+                                .iterations = 10000,
+                                .seed = j->number};
     mw_probe_cursor cursor;
     if (mw_probe_cursor_init(j->world->prober, &options, &cursor, NULL)) return "no cursor";
     uint64_t random = j->number;
@@ -213,7 +222,8 @@ static void deform(race_world *w, mw_star *star, int frame)
     double moved = 0, *points = mw_surface_points(w->surface);
     mw_surface_begin_update(w->surface);
     for (uint32_t v = 0; v < w->s.point_count; v++) {
-        double *p = points + 3 * (size_t)v, factor = 1 + (frame % 2 ? -0.01 : 0.01) * (v % 7) / 7.0, square = 0;
+        double *p = points + 3 * (size_t)v, factor = 1 + (frame % 2 ? -0.01 : 0.01) * (v % 7) / 7.0,
+               square = 0;
         for (int k = 0; k < 3; k++) {
             double before = p[k];
             p[k] *= factor;
@@ -252,7 +262,8 @@ static void test_moving(void **state)
         next.tv_nsec += FRAME_NS;
         next.tv_sec += next.tv_nsec / 1000000000;
         next.tv_nsec %= 1000000000;
-        clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &next, NULL); /* at once where a frame took longer */
+        /* at once where a frame took longer */
+        clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &next, NULL);
     }
     atomic_store(&stop, 1);
     const char *wrong = NULL;
@@ -271,8 +282,9 @@ static void test_moving(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_batches),       cmocka_unit_test(test_batch_as_single), cmocka_unit_test(test_race),
-        cmocka_unit_test(test_race_in_batch), cmocka_unit_test(test_moving),
+        cmocka_unit_test(test_batches), cmocka_unit_test(test_batch_as_single),
+        cmocka_unit_test(test_race),    cmocka_unit_test(test_race_in_batch),
+        cmocka_unit_test(test_moving),
     };
     return cmocka_run_group_tests(tests, make_world, destroy_world);
 }

@@ -1,5 +1,5 @@
-/* Surfaces in space from arrays: links, places, flips, descriptions and checks, beside counts by brute force; every
- * allocation fails once. */
+/* Surfaces in space from arrays: links, places, flips, descriptions and checks, beside counts by
+ * brute force; every allocation fails once. */
 /* wrap: malloc calloc realloc aligned_alloc */
 #include <stdarg.h>
 #include <stddef.h>
@@ -18,7 +18,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* --- small surfaces ------------------------------------------------------------------------------------------------ */
+/* --- small surfaces --------------------------------------------------------------------------- */
 
 typedef struct solid {
     double *points; /* x y z */
@@ -75,20 +75,24 @@ static mw_surface *solid_surface(const solid *s, mw_surface_options options)
 }
 
 /* The corners of the unit cube by bits x, y, z; fronts face out. */
-static const uint32_t cube_triangles[12][3] = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
-                                               {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+static const uint32_t cube_triangles[12][3] = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6},
+                                               {0, 1, 4}, {1, 5, 4}, {2, 6, 3}, {3, 6, 7},
+                                               {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
 
-/* A box with a corner at `at`; `soup`: each triangle with vertices of its own, and zeros of either sign. */
+/* A box with a corner at `at`; `soup`: each triangle with vertices of its own, and zeros of either
+ * sign. */
 static void add_box(solid *s, const double at[3], double size, int soup)
 {
     uint32_t first = s->point_count;
     for (uint32_t i = 0; i < 8 && !soup; i++)
-        solid_point(s, at[0] + size * (i & 1), at[1] + size * (i >> 1 & 1), at[2] + size * (i >> 2));
+        solid_point(s, at[0] + size * (i & 1), at[1] + size * (i >> 1 & 1),
+                    at[2] + size * (i >> 2));
     for (uint32_t t = 0; t < 12; t++) {
         uint32_t v[3];
         for (int k = 0; k < 3; k++) {
             uint32_t i = cube_triangles[t][k];
-            double p[3] = {at[0] + size * (i & 1), at[1] + size * (i >> 1 & 1), at[2] + size * (i >> 2)};
+            double p[3] = {at[0] + size * (i & 1), at[1] + size * (i >> 1 & 1),
+                           at[2] + size * (i >> 2)};
             for (int c = 0; c < 3; c++)
                 if (p[c] == 0 && t % 2) p[c] = -0.0;
             v[k] = soup ? solid_point(s, p[0], p[1], p[2]) : first + i;
@@ -119,7 +123,8 @@ static solid random_soup(uint32_t points, uint32_t triangles, int bad, uint64_t 
     while (s.triangle_count < triangles) {
         uint32_t v[3];
         for (int k = 0; k < 3; k++) v[k] = mw__random_below(random, points);
-        if (bad || (v[0] != v[1] && v[1] != v[2] && v[2] != v[0])) solid_triangle(&s, v[0], v[1], v[2]);
+        if (bad || (v[0] != v[1] && v[1] != v[2] && v[2] != v[0]))
+            solid_triangle(&s, v[0], v[1], v[2]);
     }
     return s;
 }
@@ -130,19 +135,30 @@ static solid sphere(int levels, uint64_t *random)
     uint32_t n = 8u << 2 * levels;
     solid s = solid_make(n, n);
     for (int i = 0; i < 6; i++)
-        solid_point(&s, i == 0 ? 1 : i == 1 ? -1 : 0, i == 2 ? 1 : i == 3 ? -1 : 0, i == 4 ? 1 : i == 5 ? -1 : 0);
+        solid_point(&s,
+                    i == 0   ? 1
+                    : i == 1 ? -1
+                             : 0,
+                    i == 2   ? 1
+                    : i == 3 ? -1
+                             : 0,
+                    i == 4   ? 1
+                    : i == 5 ? -1
+                             : 0);
     for (uint32_t i = 0; i < 8; i++) {
         uint32_t x = i & 1, y = 2 + (i >> 1 & 1), z = 4 + (i >> 2), odd = (i ^ i >> 1 ^ i >> 2) & 1;
         solid_triangle(&s, x, odd ? z : y, odd ? y : z);
     }
     for (; levels > 0; levels--) {
-        uint32_t count = s.triangle_count, *pairs = malloc(3 * sizeof *pairs * 3 * count), pair_count = 0;
+        uint32_t count = s.triangle_count, *pairs = malloc(3 * sizeof *pairs * 3 * count),
+                 pair_count = 0;
         assert_non_null(pairs);
         for (uint32_t t = 0; t < count; t++) {
             uint32_t v[3], m[3];
             memcpy(v, s.triangles + 3 * (size_t)t, sizeof v);
             for (int k = 0; k < 3; k++) {
-                uint32_t a = v[k], b = v[(k + 1) % 3], low = a < b ? a : b, high = a < b ? b : a, i = 0;
+                uint32_t a = v[k], b = v[(k + 1) % 3], low = a < b ? a : b, high = a < b ? b : a,
+                         i = 0;
                 while (i < pair_count && (pairs[3 * i] != low || pairs[3 * i + 1] != high)) i++;
                 if (i == pair_count) {
                     double p[3], length = 0;
@@ -167,7 +183,7 @@ static solid sphere(int levels, uint64_t *random)
     return s;
 }
 
-/* --- brute force --------------------------------------------------------------------------------------------------- */
+/* --- brute force ------------------------------------------------------------------------------ */
 
 /* What the library finds in linear time, over all pairs. */
 typedef struct naive {
@@ -198,7 +214,8 @@ static uint32_t corner(const naive *n, const solid *s, uint32_t t, uint32_t k)
 
 static int same_edge(const naive *n, const solid *s, uint32_t t, uint32_t k, uint32_t u, uint32_t j)
 {
-    uint32_t a = corner(n, s, t, k), b = corner(n, s, t, k + 1), c = corner(n, s, u, j), d = corner(n, s, u, j + 1);
+    uint32_t a = corner(n, s, t, k), b = corner(n, s, t, k + 1), c = corner(n, s, u, j),
+             d = corner(n, s, u, j + 1);
     return (a == c && b == d) || (a == d && b == c);
 }
 
@@ -250,11 +267,16 @@ static void naive_counts(naive *n, const solid *s)
     }
     n->loops = n->border;
     for (uint32_t t = 0; t < s->triangle_count; t++) {
-        for (uint32_t k = 0; k < 3; k++) n->pieces -= naive_join(piece, corner(n, s, t, k), corner(n, s, t, 0));
+        for (uint32_t k = 0; k < 3; k++)
+            n->pieces -= naive_join(piece, corner(n, s, t, k), corner(n, s, t, 0));
         for (uint32_t k = 0; k < 3 && n->proper[t]; k++)
-            for (uint32_t other = 0; other < 4 * s->triangle_count && n->link[t][k] == MW_NONE; other++) {
-                if ((other & 3) == 3 || !n->proper[other >> 2] || n->link[other >> 2][other & 3] != MW_NONE) continue;
-                for (uint32_t end = 0; end < 4; end++) /* border edges that end at the two sides of one fan */
+            for (uint32_t other = 0; other < 4 * s->triangle_count && n->link[t][k] == MW_NONE;
+                 other++) {
+                if ((other & 3) == 3 || !n->proper[other >> 2] ||
+                    n->link[other >> 2][other & 3] != MW_NONE)
+                    continue;
+                for (uint32_t end = 0; end < 4;
+                     end++) /* border edges that end at the two sides of one fan */
                     if (naive_root(fan, 4 * t + (k + end % 2) % 3) ==
                         naive_root(fan, (other & ~3u) + ((other & 3) + end / 2) % 3))
                         n->loops -= naive_join(loop, 4 * t + k, other);
@@ -263,7 +285,8 @@ static void naive_counts(naive *n, const solid *s)
     for (uint32_t v = 0; v < s->point_count; v++) {
         uint32_t fans = 0;
         for (uint32_t i = 0; i < 4 * s->triangle_count; i++)
-            fans += (i & 3) < 3 && n->proper[i >> 2] && corner(n, s, i >> 2, i & 3) == v && fan[i] == i;
+            fans +=
+                (i & 3) < 3 && n->proper[i >> 2] && corner(n, s, i >> 2, i & 3) == v && fan[i] == i;
         n->pinched += fans > 1;
     }
 }
@@ -275,7 +298,8 @@ static naive *count_naively(const solid *s, int weld)
     for (uint32_t v = 0; v < s->point_count; v++) {
         const double *p = s->points + 3 * v, *q = s->points;
         n->place[v] = 0;
-        while (n->place[v] < v && !(weld && p[0] == q[0] && p[1] == q[1] && p[2] == q[2] && mw__is_finite3(p))) {
+        while (n->place[v] < v &&
+               !(weld && p[0] == q[0] && p[1] == q[1] && p[2] == q[2] && mw__is_finite3(p))) {
             n->place[v]++;
             q += 3;
         }
@@ -340,12 +364,15 @@ static void assert_checked(const solid *s, int weld, const naive *n)
         const mw_defect *d = &check.defects[i];
         if (d->kind == MW_DEFECT_CLASHING)
             assert_int_equal(n->link[d->triangle][d->edge], 4 * d->other + d->other_edge);
-        if (d->kind == MW_DEFECT_NON_MANIFOLD_EDGE) assert_int_equal(n->link[d->triangle][d->edge], MW_NONE);
+        if (d->kind == MW_DEFECT_NON_MANIFOLD_EDGE)
+            assert_int_equal(n->link[d->triangle][d->edge], MW_NONE);
     }
     mw_surface *surface;
-    mw_status status = mw_surface_create(&view, &(mw_surface_options){.weld = weld}, &surface, NULL);
+    mw_status status =
+        mw_surface_create(&view, &(mw_surface_options){.weld = weld}, &surface, NULL);
     mw_surface_destroy(surface);
-    int usable = count_kind(&check, MW_DEFECT_CLASHING) + count_kind(&check, MW_DEFECT_FLAT) == check.defect_count;
+    int usable = count_kind(&check, MW_DEFECT_CLASHING) + count_kind(&check, MW_DEFECT_FLAT) ==
+                 check.defect_count;
     assert_int_equal(status, usable ? MW_OK : MW_ERROR_INPUT);
     mw_check_release(&check);
 }
@@ -362,7 +389,8 @@ static void test_random_soups(void **state)
         solid s = random_soup(points, triangles, round % 2, &random);
         for (int weld = 0; weld < 2; weld++) {
             naive *n = count_naively(&s, weld);
-            mw_surface *surface = solid_surface(&s, (mw_surface_options){.tolerant = 1, .weld = weld});
+            mw_surface *surface =
+                solid_surface(&s, (mw_surface_options){.tolerant = 1, .weld = weld});
             assert_links(surface, n);
             assert_counts(surface, &s, n);
             assert_checked(&s, weld, n);
@@ -378,7 +406,7 @@ static void test_random_soups(void **state)
     }
 }
 
-/* --- from arrays --------------------------------------------------------------------------------------------------- */
+/* --- from arrays ------------------------------------------------------------------------------ */
 
 static void test_arrays(void **state)
 {
@@ -502,7 +530,8 @@ static void test_shared_by_place(void **state)
     }
     mw_surface_destroy(solid_surface(&s, (mw_surface_options){0}));
     mw_error error = refused(solid_view(&s), (mw_surface_options){.weld = 1}, MW_ERROR_INPUT);
-    assert_string_equal(error.message, "triangle 2: two others share its edge 0, from vertex 6 to 7");
+    assert_string_equal(error.message,
+                        "triangle 2: two others share its edge 0, from vertex 6 to 7");
     solid_free(&s);
 }
 
@@ -515,13 +544,16 @@ static void test_weld(void **state)
     for (uint32_t t = 0; t < 12; t++)
         for (unsigned k = 0; k < 3; k++) {
             unsigned e = 7, f = 8;
-            assert_int_equal(mw_surface_neighbour(one, t, k, &e), mw_surface_neighbour(other, t, k, &f));
+            assert_int_equal(mw_surface_neighbour(one, t, k, &e),
+                             mw_surface_neighbour(other, t, k, &f));
             assert_int_equal(e, f);
-            assert_true(mw__surface_orientations_agree(one, t, k) && mw__surface_orientations_agree(other, t, k));
+            assert_true(mw__surface_orientations_agree(one, t, k) &&
+                        mw__surface_orientations_agree(other, t, k));
         }
     mw_surface_info info;
     assert_int_equal(mw_surface_describe(other, &info, NULL), MW_OK);
-    assert_true(info.vertices == 8 && info.closed && info.oriented && info.euler == 2 && info.components == 1);
+    assert_true(info.vertices == 8 && info.closed && info.oriented && info.euler == 2 &&
+                info.components == 1);
     assert_true(info.volume == 1 && info.area == 6);
     mw_surface_destroy(other);
     /* A sliver between two triangles, whose ends fell on one place: they are neighbours. */
@@ -532,9 +564,11 @@ static void test_weld(void **state)
     for (uint32_t t = 0; t < 3; t++) solid_triangle(&flat, 3 * t, 3 * t + 1, 3 * t + 2);
     other = solid_surface(&flat, (mw_surface_options){.weld = 1});
     assert_int_equal(mw_surface_neighbour(other, 0, 0, NULL), 2);
-    for (unsigned k = 0; k < 3; k++) assert_int_equal(mw_surface_neighbour(other, 1, k, NULL), MW_NONE);
+    for (unsigned k = 0; k < 3; k++)
+        assert_int_equal(mw_surface_neighbour(other, 1, k, NULL), MW_NONE);
     assert_int_equal(mw_surface_describe(other, &info, NULL), MW_OK);
-    assert_true(info.flat_triangles == 1 && info.border_edges == 4 && info.border_loops == 1 && info.euler == 1);
+    assert_true(info.flat_triangles == 1 && info.border_edges == 4 && info.border_loops == 1 &&
+                info.euler == 1);
     mw_surface_destroy(other);
     mw_surface_destroy(one);
     solid_free(&flat);
@@ -542,14 +576,15 @@ static void test_weld(void **state)
     solid_free(&whole);
 }
 
-/* --- change -------------------------------------------------------------------------------------------------------- */
+/* --- change ----------------------------------------------------------------------------------- */
 
 static void test_update(void **state)
 {
     (void)state;
     for (int kind = 0; kind < 4; kind++) {
         solid s = box(0, 0, 0, 1, 0);
-        mw_surface *surface = solid_surface(&s, (mw_surface_options){.borrow = kind & 1, .shared = kind >> 1});
+        mw_surface *surface =
+            solid_surface(&s, (mw_surface_options){.borrow = kind & 1, .shared = kind >> 1});
         assert_int_equal(mw_surface_points(surface) == s.points, kind & 1);
         uint64_t version = surface->version;
         mw_surface_begin_update(surface);
@@ -563,7 +598,8 @@ static void test_update(void **state)
         mw_surface_points(surface)[5] = NAN;
         mw_surface_end_update(surface);
         assert_int_equal(mw_surface_describe(surface, &info, NULL), MW_OK);
-        assert_true(isnan(info.volume) && isfinite(info.area) && info.flat_triangles > 0 && info.closed);
+        assert_true(isnan(info.volume) && isfinite(info.area) && info.flat_triangles > 0 &&
+                    info.closed);
         mw_surface_destroy(surface);
         solid_free(&s);
     }
@@ -574,7 +610,8 @@ static int naively_joined(const naive *n, const solid *s, uint32_t c, uint32_t d
 {
     for (uint32_t t = 0; t < s->triangle_count; t++) {
         int found = 0;
-        for (uint32_t k = 0; k < 3; k++) found |= (corner(n, s, t, k) == c) | (corner(n, s, t, k) == d) << 1;
+        for (uint32_t k = 0; k < 3; k++)
+            found |= (corner(n, s, t, k) == c) | (corner(n, s, t, k) == d) << 1;
         if (found == 3) return 1;
     }
     return c == d;
@@ -588,7 +625,8 @@ static void flip_about(solid *s, int weld, uint64_t *random)
     uint32_t flips = 0, refusals = 0;
     mw_surface_begin_update(surface);
     for (int i = 0; i < 400; i++) {
-        uint32_t t = mw__random_below(random, s->triangle_count), k = mw__random_below(random, 3), v[3];
+        uint32_t t = mw__random_below(random, s->triangle_count), k = mw__random_below(random, 3),
+                 v[3];
         naive *n = count_naively(s, weld);
         uint32_t link = n->link[t][k], u = link >> 2, j = link & 3, *tv = s->triangles + 3 * t;
         int possible = link != MW_NONE && corner(n, s, u, j) == corner(n, s, t, k + 1) &&
@@ -629,7 +667,8 @@ static void test_flips(void **state)
     for (int kind = 0; kind < 3; kind++) { /* 0: closed, 1: open and with clashes, 2: welded */
         solid s = kind == 2 ? box(0, 0, 0, 1, 1) : sphere(1, &random);
         if (kind == 1) {
-            memcpy(s.triangles + 21, s.triangles + 84, 3 * sizeof *s.triangles); /* the last face: 7 and 29 to 31 */
+            /* the last face: 7 and 29 to 31 */
+            memcpy(s.triangles + 21, s.triangles + 84, 3 * sizeof *s.triangles);
             s.triangle_count = 28;
             for (uint32_t t = 0; t < 4; t++) {
                 uint32_t *v = s.triangles + 21 * t, first = v[0];
@@ -658,7 +697,8 @@ static void test_flips_refused(void **state)
     s.triangles[5] = 1;
     surface = solid_surface(&s, (mw_surface_options){0});
     assert_int_equal(mw_surface_flip(surface, 0, 2, &error), MW_ERROR_INPUT);
-    assert_string_equal(error.message, "triangle 0: its neighbour at edge 2 is oriented differently");
+    assert_string_equal(error.message,
+                        "triangle 0: its neighbour at edge 2 is oriented differently");
     mw_surface_destroy(surface);
     s.triangles[4] = 1; /* two sides of one triangle */
     s.triangles[5] = 2;
@@ -671,21 +711,24 @@ static void test_flips_refused(void **state)
     solid_triangle(&s, 1, 2, 3);
     surface = solid_surface(&s, (mw_surface_options){0}); /* a tetrahedron: all are joined */
     for (uint32_t t = 0; t < 4; t++)
-        for (unsigned k = 0; k < 3; k++) assert_int_equal(mw_surface_flip(surface, t, k, &error), MW_ERROR_INPUT);
+        for (unsigned k = 0; k < 3; k++)
+            assert_int_equal(mw_surface_flip(surface, t, k, &error), MW_ERROR_INPUT);
     assert_non_null(strstr(error.message, "joined already"));
     mw_surface_destroy(surface);
     solid_free(&s);
 }
 
-/* --- geometry ------------------------------------------------------------------------------------------------------ */
+/* --- geometry --------------------------------------------------------------------------------- */
 
 static void test_collinear(void **state)
 {
     (void)state;
-    const double o[3] = {0, 0, 0}, a[3] = {0.1, 0.2, 0.4}, b[3] = {0.2, 0.4, 0.8}, c[3] = {1e300, 2e300, 4e300};
+    const double o[3] = {0, 0, 0}, a[3] = {0.1, 0.2, 0.4}, b[3] = {0.2, 0.4, 0.8},
+                 c[3] = {1e300, 2e300, 4e300};
     assert_true(mw__collinear3(o, a, b) && mw__collinear3(a, b, a) && mw__collinear3(a, a, a));
     assert_true(mw__collinear3(o, a, c));
-    const double d[3] = {1, 2, 4}, e[3] = {0x1p900, 0x1p901, 0x1p902}, f[3] = {0x1p-900, 0x1p-899, 0x1p-898};
+    const double d[3] = {1, 2, 4}, e[3] = {0x1p900, 0x1p901, 0x1p902},
+                 f[3] = {0x1p-900, 0x1p-899, 0x1p-898};
     assert_true(mw__collinear3(o, d, e) && mw__collinear3(f, d, o) && mw__collinear3(e, f, o));
     for (int k = 0; k < 3; k++) { /* a rounding beside the line, in each direction */
         for (int way = -1; way < 2; way += 2) {
@@ -744,18 +787,23 @@ static void test_empty(void **state)
     mw_surface_info info;
     mw_check check;
     for (int weld = 0; weld < 2; weld++) {
-        assert_int_equal(mw_surface_create(&nothing, &(mw_surface_options){.weld = weld}, &surface, NULL), MW_OK);
+        assert_int_equal(
+            mw_surface_create(&nothing, &(mw_surface_options){.weld = weld}, &surface, NULL),
+            MW_OK);
         assert_int_equal(mw_surface_describe(surface, &info, NULL), MW_OK);
-        assert_true(!info.closed && info.oriented && info.euler == 0 && info.components == 0 && info.area == 0);
+        assert_true(!info.closed && info.oriented && info.euler == 0 && info.components == 0 &&
+                    info.area == 0);
         assert_true(isnan(info.low[2]) && isnan(info.high[0]) && isnan(info.volume));
         mw_surface_destroy(surface);
         assert_int_equal(mw_surface_check_arrays(&nothing, weld, NULL, &check, NULL), MW_OK);
         assert_true(check.valid && check.defect_count == 0);
         mw_check_release(&check);
     }
-    mw_arrays loose = {.triangles = cube_triangles, .triangle_count = 1}; /* a triangle, but no vertices */
+    /* a triangle, but no vertices */
+    mw_arrays loose = {.triangles = cube_triangles, .triangle_count = 1};
     assert_int_equal(mw_surface_check_arrays(&loose, 0, NULL, &check, NULL), MW_OK);
-    assert_true(!check.valid && check.defect_count == 3 && check.defects[2].kind == MW_DEFECT_MISSING_VERTEX);
+    assert_true(!check.valid && check.defect_count == 3 &&
+                check.defects[2].kind == MW_DEFECT_MISSING_VERTEX);
     mw_check_release(&check);
 }
 
@@ -773,14 +821,17 @@ static void test_every_defect(void **state)
     solid_triangle(&s, 7, 11, 8);
     solid_triangle(&s, 9, 99, 10);
     solid_triangle(&s, 6, 7, 8);
-    for (int c = 0; c < 3; c++) s.points[3 * 8 + c] = 2 * s.points[3 * 7 + c] - s.points[3 * 6 + c]; /* 6: flat */
+    /* 6: flat */
+    for (int c = 0; c < 3; c++) s.points[3 * 8 + c] = 2 * s.points[3 * 7 + c] - s.points[3 * 6 + c];
     mw_arrays view = solid_view(&s);
     mw_check check;
     assert_int_equal(mw_surface_check_arrays(&view, 0, NULL, &check, NULL), MW_OK);
-    static const mw_defect expected[] = {
-        {MW_DEFECT_MISSING_VERTEX, 5, MW_NONE, 99, 255, 255}, {MW_DEFECT_NOT_FINITE, 4, MW_NONE, 11, 255, 255},
-        {MW_DEFECT_REPEATED_VERTEX, 3, MW_NONE, 5, 255, 255}, {MW_DEFECT_NON_MANIFOLD_EDGE, 2, 0, MW_NONE, 0, 255},
-        {MW_DEFECT_FLAT, 6, MW_NONE, MW_NONE, 255, 255},      {MW_DEFECT_CLASHING, 0, 1, MW_NONE, 1, 0}};
+    static const mw_defect expected[] = {{MW_DEFECT_MISSING_VERTEX, 5, MW_NONE, 99, 255, 255},
+                                         {MW_DEFECT_NOT_FINITE, 4, MW_NONE, 11, 255, 255},
+                                         {MW_DEFECT_REPEATED_VERTEX, 3, MW_NONE, 5, 255, 255},
+                                         {MW_DEFECT_NON_MANIFOLD_EDGE, 2, 0, MW_NONE, 0, 255},
+                                         {MW_DEFECT_FLAT, 6, MW_NONE, MW_NONE, 255, 255},
+                                         {MW_DEFECT_CLASHING, 0, 1, MW_NONE, 1, 0}};
     assert_int_equal(check.defect_count, 6);
     assert_false(check.valid);
     for (size_t i = 0; i < 6; i++) {
@@ -793,7 +844,7 @@ static void test_every_defect(void **state)
     solid_free(&s);
 }
 
-/* --- out of memory ------------------------------------------------------------------------------------------------- */
+/* --- out of memory ---------------------------------------------------------------------------- */
 
 typedef mw_status surface_job(const mw_arrays *view, mw_error *error);
 
@@ -801,8 +852,8 @@ static mw_status describe_job(const mw_arrays *view, mw_error *error)
 {
     mw_surface *surface;
     mw_surface_info info;
-    mw_status status =
-        mw_surface_create(view, &(mw_surface_options){.tolerant = 1, .weld = 1, .shared = 1}, &surface, error);
+    mw_status status = mw_surface_create(
+        view, &(mw_surface_options){.tolerant = 1, .weld = 1, .shared = 1}, &surface, error);
     if (!status) status = mw_surface_describe(surface, &info, error);
     mw_surface_destroy(surface);
     return status;
@@ -846,7 +897,7 @@ static void test_memory(void **state)
     solid_free(&t);
 }
 
-/* --- real surfaces: counts that others counted --------------------------------------------------------------------- */
+/* --- real surfaces: counts that others counted ------------------------------------------------ */
 
 static const struct {
     const char *name;
@@ -904,7 +955,8 @@ static const struct {
     {"bad/polygon_mesh.off.gz", 16344, 32245, 489, 14, 1, -23, 0, 2, 0},
     {"bad/tetra_intersected_by_triangle.off", 7, 5, 3, 1, 2, 3, 0, 0, 0},
     {"bad/non_manif_hole.ply", 432, 755, 119, 2, 1, -5, 0, 5, 0},
-    {"bad/brain_pieces.ply.gz", 18844, 36752, 920, 16, 14, 8, 0, 4, 0}, /* of the loops some meet at a vertex */
+    /* of the loops some meet at a vertex */
+    {"bad/brain_pieces.ply.gz", 18844, 36752, 920, 16, 14, 8, 0, 4, 0},
 };
 
 static void test_real(void **state)
@@ -921,7 +973,8 @@ static void test_real(void **state)
         snprintf(path, sizeof path, "%s/%s", MW_TEST_SHARED, real[i].name);
         expect_ok(mw_read_mesh(path, NULL, &file, &error), path, &error);
         mw_arrays view = mw_mesh_file_arrays(&file);
-        expect_ok(mw_surface_create(&view, &(mw_surface_options){.borrow = 1}, &surface, &error), path, &error);
+        expect_ok(mw_surface_create(&view, &(mw_surface_options){.borrow = 1}, &surface, &error),
+                  path, &error);
         expect_ok(mw_surface_describe(surface, &info, &error), path, &error);
         expect_ok(mw_surface_check_arrays(&view, 0, NULL, &check, &error), path, &error);
         if (info.vertices != real[i].vertices || info.triangles != real[i].triangles ||
@@ -929,10 +982,12 @@ static void test_real(void **state)
             info.components != real[i].components || info.euler != real[i].euler ||
             info.unused_vertices != real[i].unused || info.pinched_vertices != real[i].pinched ||
             info.clashing_edges != real[i].clashing)
-            fail_msg("%s: %u vertices, %u triangles, %u border edges in %u loops, %u components, chi %lld, "
+            fail_msg("%s: %u vertices, %u triangles, %u border edges in %u loops, %u components, "
+                     "chi %lld, "
                      "%u unused, %u pinched, %u clashing",
-                     path, info.vertices, info.triangles, info.border_edges, info.border_loops, info.components,
-                     (long long)info.euler, info.unused_vertices, info.pinched_vertices, info.clashing_edges);
+                     path, info.vertices, info.triangles, info.border_edges, info.border_loops,
+                     info.components, (long long)info.euler, info.unused_vertices,
+                     info.pinched_vertices, info.clashing_edges);
         assert_int_equal(info.closed, real[i].border == 0);
         assert_int_equal(count_kind(&check, MW_DEFECT_CLASHING), real[i].clashing);
         assert_int_equal(count_kind(&check, MW_DEFECT_FLAT), info.flat_triangles);

@@ -1,5 +1,5 @@
-/* test_surface_threads.c - queries in threads while one thread, or two, keep updating: everybody sees whole updates only, and
- * (under ThreadSanitizer) there is no data race. */
+/* test_surface_threads.c - queries in threads while one thread, or two, keep updating: everybody
+ * sees whole updates only, and (under ThreadSanitizer) there is no data race. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -70,9 +70,11 @@ static void test_gate(void **state)
     (void)state;
     static double points[3 * POINTS];
     static const uint32_t triangle[3] = {0, 1, 2};
-    mw_arrays arrays = {.points = points, .point_count = POINTS, .triangles = triangle, .triangle_count = 1};
+    mw_arrays arrays = {
+        .points = points, .point_count = POINTS, .triangles = triangle, .triangle_count = 1};
     surface_world w = {.updaters_left = UPDATERS};
-    assert_int_equal(mw_surface_create(&arrays, &(mw_surface_options){.shared = 1}, &w.surface, NULL), MW_OK);
+    assert_int_equal(
+        mw_surface_create(&arrays, &(mw_surface_options){.shared = 1}, &w.surface, NULL), MW_OK);
     pthread_t thread[READERS + UPDATERS];
     for (int i = 0; i < READERS + UPDATERS; i++)
         assert_int_equal(pthread_create(&thread[i], NULL, i < READERS ? query : update, &w), 0);
@@ -87,7 +89,8 @@ static void test_gate(void **state)
 /* An update that begins while a query is inside waits for it. */
 typedef struct meeting {
     mw_surface *surface;
-    atomic_int stage;    /* 1: the query is inside, 2: the update is about to begin, 3: the query is about to leave */
+    /* 1: the query is inside, 2: the update is about to begin, 3: the query is about to leave */
+    atomic_int stage;
     int begun, too_soon; /* the update has begun; while the query was inside */
 } meeting;
 
@@ -127,7 +130,9 @@ static void test_update_waits(void **state)
     mw_arrays nothing = {0};
     for (int round = 0; round < 100; round++) {
         meeting m = {0};
-        assert_int_equal(mw_surface_create(&nothing, &(mw_surface_options){.shared = 1}, &m.surface, NULL), MW_OK);
+        assert_int_equal(
+            mw_surface_create(&nothing, &(mw_surface_options){.shared = 1}, &m.surface, NULL),
+            MW_OK);
         pthread_t thread[2];
         assert_int_equal(pthread_create(&thread[0], NULL, early_query, &m), 0);
         assert_int_equal(pthread_create(&thread[1], NULL, one_update, &m), 0);
@@ -139,6 +144,7 @@ static void test_update_waits(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_gate), cmocka_unit_test(test_update_waits)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_gate),
+                                       cmocka_unit_test(test_update_waits)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

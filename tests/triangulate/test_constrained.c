@@ -1,5 +1,6 @@
-/* Constrained triangulations: every result is taken apart exactly. Its segments are chains of edges, its other edges
- * are locally Delaunay, it fills the hull once, and what is kept of it is what brute force keeps. */
+/* Constrained triangulations: every result is taken apart exactly. Its segments are chains of
+ * edges, its other edges are locally Delaunay, it fills the hull once, and what is kept of it is
+ * what brute force keeps. */
 /* wrap: malloc calloc realloc aligned_alloc */
 #include <stdarg.h>
 #include <stddef.h>
@@ -68,7 +69,8 @@ static void add_ring(constrained_scene *s, uint32_t n, const double *xy, uint32_
     for (uint32_t i = 0; i < n; i++) add_segment(s, first + i, first + (i + 1) % n, polygon);
 }
 
-static void add_box(constrained_scene *s, double x0, double y0, double x1, double y1, uint32_t polygon)
+static void add_box(constrained_scene *s, double x0, double y0, double x1, double y1,
+                    uint32_t polygon)
 {
     add_ring(s, 4, (double[]){x0, y0, x1, y0, x1, y1, x0, y1}, polygon);
 }
@@ -128,8 +130,8 @@ static bool cross(mw_point a, mw_point b, mw_point c, mw_point d)
 /* Does p lie on the segment ab, its ends included? */
 static bool lies_on(mw_point a, mw_point b, mw_point p)
 {
-    return turn(a, b, p) == 0 && p.x >= fmin(a.x, b.x) && p.x <= fmax(a.x, b.x) && p.y >= fmin(a.y, b.y) &&
-           p.y <= fmax(a.y, b.y);
+    return turn(a, b, p) == 0 && p.x >= fmin(a.x, b.x) && p.x <= fmax(a.x, b.x) &&
+           p.y >= fmin(a.y, b.y) && p.y <= fmax(a.y, b.y);
 }
 
 static bool crosses_any(const constrained_scene *s, uint32_t a, uint32_t b)
@@ -144,7 +146,8 @@ static bool crosses_any(const constrained_scene *s, uint32_t a, uint32_t b)
 static void add_random_segments(constrained_scene *s, uint32_t tries)
 {
     for (uint32_t i = 0; i < tries; i++) {
-        uint32_t a = mw__random_below(&s->random, s->points), b = mw__random_below(&s->random, s->points);
+        uint32_t a = mw__random_below(&s->random, s->points),
+                 b = mw__random_below(&s->random, s->points);
         if (!crosses_any(s, a, b)) add_segment(s, a, b, MW_NONE);
     }
 }
@@ -189,13 +192,16 @@ static edge *find_edge(const result *r, uint32_t a, uint32_t b)
         else
             last = middle;
     }
-    if (first == 3 * (size_t)r->count || r->edge[first].low != low || r->edge[first].high != high) return NULL;
+    if (first == 3 * (size_t)r->count || r->edge[first].low != low || r->edge[first].high != high)
+        return NULL;
     return &r->edge[first];
 }
 
 static edge *twin_of(const result *r, edge *e)
 {
-    return e + 1 < r->edge + 3 * (size_t)r->count && e[1].low == e->low && e[1].high == e->high ? e + 1 : NULL;
+    return e + 1 < r->edge + 3 * (size_t)r->count && e[1].low == e->low && e[1].high == e->high
+               ? e + 1
+               : NULL;
 }
 
 static void list_edges(result *r)
@@ -203,7 +209,8 @@ static void list_edges(result *r)
     for (uint32_t t = 0; t < r->count; t++)
         for (uint32_t k = 0; k < 3; k++) {
             uint32_t a = r->tri[t][k], b = r->tri[t][(k + 1) % 3];
-            r->edge[3 * t + k] = (edge){a < b ? a : b, a < b ? b : a, t, r->tri[t][(k + 2) % 3], MW_NONE};
+            r->edge[3 * t + k] =
+                (edge){a < b ? a : b, a < b ? b : a, t, r->tri[t][(k + 2) % 3], MW_NONE};
         }
     qsort(r->edge, 3 * (size_t)r->count, sizeof *r->edge, compare_edges);
     for (uint32_t i = 0; i < r->pieces.count; i++) {
@@ -219,8 +226,9 @@ static result run(const constrained_scene *s, mw_keep keep, int split)
 {
     result r = {.duplicate_of = malloc((s->points + 1) * sizeof(uint32_t))};
     mw_constraints given = view(s);
-    r.status = mw_constrained_delaunay(&given, &(mw_constrain_options){.keep = keep, .split = split}, r.duplicate_of,
-                                       &r.report, &r.pieces, &r.mesh, &r.error);
+    r.status =
+        mw_constrained_delaunay(&given, &(mw_constrain_options){.keep = keep, .split = split},
+                                r.duplicate_of, &r.report, &r.pieces, &r.mesh, &r.error);
     if (r.status) {
         assert_null(r.mesh);
         assert_int_equal(r.pieces.count, 0);
@@ -253,7 +261,8 @@ static void release(result *r)
 
 /* --- checks --- */
 
-/* Triangles turn left, neighbours are linked, no edge has three; but at pieces they are locally Delaunay. */
+/* Triangles turn left, neighbours are linked, no edge has three; but at pieces they are locally
+ * Delaunay. */
 static void assert_sound(const constrained_scene *s, const result *r)
 {
     assert_int_equal(r->status, MW_OK);
@@ -273,7 +282,8 @@ static void assert_sound(const constrained_scene *s, const result *r)
             assert_int_equal(n, other ? other->triangle : MW_NONE);
             if (!other) continue;
             assert_int_equal(r->tri[n][back], v[(k + 1) % 3]);
-            if (e->piece == MW_NONE) assert_true(mw__incircle(p[0], p[1], p[2], r->point[other->apex]) <= 0);
+            if (e->piece == MW_NONE)
+                assert_true(mw__incircle(p[0], p[1], p[2], r->point[other->apex]) <= 0);
         }
     }
 }
@@ -306,13 +316,14 @@ static const mw_point *sorted_points; /* of the comparison below */
 
 static int compare_points(const void *left, const void *right)
 {
-    mw_point a = sorted_points[*(const uint32_t *)left], b = sorted_points[*(const uint32_t *)right];
+    mw_point a = sorted_points[*(const uint32_t *)left],
+             b = sorted_points[*(const uint32_t *)right];
     if (a.x != b.x) return a.x < b.x ? -1 : 1;
     return a.y < b.y ? -1 : a.y > b.y;
 }
 
-/* Each segment is the chain of edges through the vertices that lie on it; pieces are parts of the lowest segment that
- * lies along them, and nothing else is a piece. lowest: per piece. */
+/* Each segment is the chain of edges through the vertices that lie on it; pieces are parts of the
+ * lowest segment that lies along them, and nothing else is a piece. lowest: per piece. */
 static void assert_forced(const constrained_scene *s, const result *r)
 {
     uint32_t *on = malloc((r->n + 1) * sizeof *on);
@@ -334,7 +345,8 @@ static void assert_forced(const constrained_scene *s, const result *r)
     }
     for (size_t i = 0; i < r->pieces.count; i++) {
         assert_int_equal(lowest[i], r->pieces.segment[i]);
-        mw_point a = given_point(s, s->segment[2 * lowest[i]]), b = given_point(s, s->segment[2 * lowest[i] + 1]);
+        mw_point a = given_point(s, s->segment[2 * lowest[i]]),
+                 b = given_point(s, s->segment[2 * lowest[i] + 1]);
         mw_point from = r->point[r->pieces.edge[2 * i]], to = r->point[r->pieces.edge[2 * i + 1]];
         assert_true((b.x - a.x) * (to.x - from.x) >= 0 && (b.y - a.y) * (to.y - from.y) >= 0);
     }
@@ -358,7 +370,8 @@ static bool inside(const constrained_scene *s, uint32_t polygon, mw_point q)
 static bool inside_any(const constrained_scene *s, mw_point q)
 {
     for (uint32_t i = 0; i < s->segments; i++)
-        if (s->polygon[i] != MW_NONE && (i == 0 || s->polygon[i] != s->polygon[i - 1]) && inside(s, s->polygon[i], q))
+        if (s->polygon[i] != MW_NONE && (i == 0 || s->polygon[i] != s->polygon[i - 1]) &&
+            inside(s, s->polygon[i], q))
             return true;
     return false;
 }
@@ -394,7 +407,8 @@ static uint32_t *label_parts(const result *r)
         for (size_t i = 0; i < 3 * (size_t)r->count; i++) {
             edge *e = &r->edge[i], *twin = twin_of(r, e);
             if (e->piece != MW_NONE || (i > 0 && twin_of(r, e - 1) == e)) continue;
-            uint32_t outside = 0, *a = &label[e->triangle], *b = twin ? &label[twin->triangle] : &outside;
+            uint32_t outside = 0, *a = &label[e->triangle],
+                     *b = twin ? &label[twin->triangle] : &outside;
             if (*a == *b) continue;
             *a = *b = *a < *b ? *a : *b;
             changed = true;
@@ -481,9 +495,10 @@ static double distance(mw_point a, mw_point b, mw_point p)
     return hypot(p.x - a.x - t * dx, p.y - a.y - t * dy);
 }
 
-/* Pieces lead from the beginning of the segment to its end, near it all the way: those that are called its own in their
- * direction, those that it shares with lower ones in any. */
-static void assert_led(const constrained_scene *s, const result *r, uint32_t segment, double tolerance)
+/* Pieces lead from the beginning of the segment to its end, near it all the way: those that are
+ * called its own in their direction, those that it shares with lower ones in any. */
+static void assert_led(const constrained_scene *s, const result *r, uint32_t segment,
+                       double tolerance)
 {
     uint32_t from = s->segment[2 * segment], to = s->segment[2 * segment + 1];
     mw_point a = given_point(s, from), b = given_point(s, to);
@@ -519,15 +534,16 @@ static size_t check_split(const constrained_scene *s, double tolerance)
     for (size_t i = 0; i < 2 * r.pieces.count; i++) is_end[r.pieces.edge[i]] = 1;
     for (uint32_t i = 0; i < s->segments; i++)
         for (uint32_t v = 0; v < s->points; v++)
-            if (lies_on(given_point(s, s->segment[2 * i]), given_point(s, s->segment[2 * i + 1]), r.point[v]) &&
+            if (lies_on(given_point(s, s->segment[2 * i]), given_point(s, s->segment[2 * i + 1]),
+                        r.point[v]) &&
                 !equal(given_point(s, s->segment[2 * i]), given_point(s, s->segment[2 * i + 1])))
                 assert_true(is_end[v] || r.duplicate_of[v] != MW_NONE);
     free(is_end);
     for (uint32_t v = s->points; v < r.n; v++) { /* made where two segments are near */
         uint32_t near = 0;
         for (uint32_t i = 0; i < s->segments; i++)
-            near += distance(given_point(s, s->segment[2 * i]), given_point(s, s->segment[2 * i + 1]), r.point[v]) <=
-                    tolerance;
+            near += distance(given_point(s, s->segment[2 * i]),
+                             given_point(s, s->segment[2 * i + 1]), r.point[v]) <= tolerance;
         assert_true(near >= 2);
     }
     size_t added = r.report.vertices_added;
@@ -537,7 +553,8 @@ static size_t check_split(const constrained_scene *s, double tolerance)
 
 /* --- tests --- */
 
-/* Points of a small grid, on lines and circles, some at one place, with any segments that do not cross. */
+/* Points of a small grid, on lines and circles, some at one place, with any segments that do not
+ * cross. */
 static void test_grids(void **state)
 {
     (void)state;
@@ -551,10 +568,13 @@ static void test_grids(void **state)
         add_point(s, offset, offset);
         add_point(s, offset + scale * grid, offset);
         add_point(s, offset, offset + scale * grid);
-        for (uint32_t i = 0; i < n; i++) add_point(s, offset + scale * below(s, grid), offset + scale * below(s, grid));
+        for (uint32_t i = 0; i < n; i++)
+            add_point(s, offset + scale * below(s, grid), offset + scale * below(s, grid));
         add_random_segments(s, (uint32_t)below(s, 4 * n));
-        if (round % 3 == 0) add_hole(s, offset + scale * below(s, grid), offset + scale * below(s, grid));
-        if (round % 3 == 1) add_hole(s, offset + scale * grid * uniform(s), offset + scale * grid * uniform(s));
+        if (round % 3 == 0)
+            add_hole(s, offset + scale * below(s, grid), offset + scale * below(s, grid));
+        if (round % 3 == 1)
+            add_hole(s, offset + scale * grid * uniform(s), offset + scale * grid * uniform(s));
         check(s);
     }
 }
@@ -576,7 +596,8 @@ static void test_long(void **state)
 {
     (void)state;
     constrained_scene *s = new_scene(3);
-    uint32_t west = add_point(s, -1, 0.5), east = add_point(s, 2, 0.5 + 1e-9), low = add_point(s, -1, -2);
+    uint32_t west = add_point(s, -1, 0.5), east = add_point(s, 2, 0.5 + 1e-9),
+             low = add_point(s, -1, -2);
     uint32_t high = add_point(s, 2, 3);
     for (int i = 0; i < 2000; i++) add_point(s, uniform(s), uniform(s));
     add_segment(s, west, east, MW_NONE);
@@ -590,7 +611,8 @@ static void test_long(void **state)
     check(s);
 }
 
-/* Fans of slivers: triangulations with vertices of a high degree, rims that run back along themselves. */
+/* Fans of slivers: triangulations with vertices of a high degree, rims that run back along
+ * themselves. */
 static void test_fans(void **state)
 {
     (void)state;
@@ -608,7 +630,8 @@ static void test_fans(void **state)
 static void test_polygons(void **state)
 {
     (void)state;
-    constrained_scene *s = new_scene(6); /* islands in holes, and a line in the hole; points everywhere */
+    /* islands in holes, and a line in the hole; points everywhere */
+    constrained_scene *s = new_scene(6);
     add_box(s, 0, 0, 90, 90, 7);
     add_box(s, 10, 10, 80, 80, 7);
     add_box(s, 20, 20, 70, 70, 7);
@@ -616,7 +639,8 @@ static void test_polygons(void **state)
     add_line(s, 12, 15, 17, 75);
     for (int i = 0; i < 400; i++) add_point(s, below(s, 300) - 100, below(s, 300) - 100);
     check(s);
-    s = new_scene(6); /* one inside another: their union; a box that shares a corner and a border; one given twice */
+    /* one inside another: their union; a box that shares a corner and a border; one given twice */
+    s = new_scene(6);
     add_box(s, 0, 0, 90, 90, 4000000000u);
     add_box(s, 10, 10, 20, 20, 5);
     add_box(s, 90, 90, 100, 100, 1);
@@ -626,7 +650,8 @@ static void test_polygons(void **state)
     check(s);
 }
 
-/* Parcels: each shares its borders with its neighbours; some are left out, some drawn the other way round. */
+/* Parcels: each shares its borders with its neighbours; some are left out, some drawn the other
+ * way round. */
 static void test_parcels(void **state)
 {
     (void)state;
@@ -634,12 +659,15 @@ static void test_parcels(void **state)
         constrained_scene *s = new_scene(60 + round);
         enum { SIDE = 9 };
         for (int i = 0; i < SIDE * SIDE; i++)
-            add_point(s, i % SIDE + (round % 2 ? uniform(s) / 3 : 0), i / SIDE + (round % 2 ? uniform(s) / 3 : 0));
+            add_point(s, i % SIDE + (round % 2 ? uniform(s) / 3 : 0),
+                      i / SIDE + (round % 2 ? uniform(s) / 3 : 0));
         for (uint32_t i = 0; i < (SIDE - 1) * (SIDE - 1); i++) {
-            uint32_t a = i / (SIDE - 1) * SIDE + i % (SIDE - 1), ring[5] = {a, a + 1, a + 1 + SIDE, a + SIDE, a};
+            uint32_t a = i / (SIDE - 1) * SIDE + i % (SIDE - 1),
+                     ring[5] = {a, a + 1, a + 1 + SIDE, a + SIDE, a};
             if (below(s, 4) == 0) continue;
             bool back = below(s, 2) > 0;
-            for (uint32_t k = 0; k < 4; k++) add_segment(s, ring[back ? k + 1 : k], ring[back ? k : k + 1], i);
+            for (uint32_t k = 0; k < 4; k++)
+                add_segment(s, ring[back ? k + 1 : k], ring[back ? k : k + 1], i);
         }
         for (int i = 0; i < 100; i++) add_point(s, SIDE * uniform(s), SIDE * uniform(s));
         check(s);
@@ -654,19 +682,21 @@ static void test_touching(void **state)
 {
     (void)state;
     constrained_scene *s = new_scene(8);
-    add_ring(s, 6, (double[]){0, 0, 4, 4, 8, 0, 8, 8, 4, 4, 0, 8}, 0); /* a bow tie that meets in the middle */
+    /* a bow tie that meets in the middle */
+    add_ring(s, 6, (double[]){0, 0, 4, 4, 8, 0, 8, 8, 4, 4, 0, 8}, 0);
     check(s);
     s = new_scene(8);
     add_box(s, 0, 0, 12, 12, 0);
     add_ring(s, 3, (double[]){0, 6, 4, 4, 4, 8}, 0); /* a hole touches the outline inside an edge */
     add_ring(s, 3, (double[]){4, 4, 8, 2, 8, 4}, 0); /* and another hole in a vertex              */
     add_ring(s, 4, (double[]){6, 8, 10, 8, 10, 10, 6, 10}, 0);
-    add_ring(s, 4, (double[]){6, 8, 10, 8, 10, 10, 6, 10}, 1); /* the hole of one is another polygon */
+    /* the hole of one is another polygon */
+    add_ring(s, 4, (double[]){6, 8, 10, 8, 10, 10, 6, 10}, 1);
     check(s);
 }
 
-/* Without polygons: what no segment parts from the outside goes, what holes reach too, and lines that end anywhere part
- * nothing. */
+/* Without polygons: what no segment parts from the outside goes, what holes reach too, and lines
+ * that end anywhere part nothing. */
 static void test_flood(void **state)
 {
     (void)state;
@@ -685,20 +715,22 @@ static void test_flood(void **state)
 }
 
 /* Of the triangles whose middle is not near a segment, those inside polygons are kept. */
-static void assert_far_kept(const constrained_scene *s, const result *hull, const result *r, double near)
+static void assert_far_kept(const constrained_scene *s, const result *hull, const result *r,
+                            double near)
 {
     for (uint32_t t = 0; t < hull->count; t++) {
         mw_point q;
         if (!middle_of(hull, t, &q)) continue;
         bool far = true;
         for (uint32_t i = 0; i < s->segments; i++)
-            far &= distance(given_point(s, s->segment[2 * i]), given_point(s, s->segment[2 * i + 1]), q) >= near;
+            far &= distance(given_point(s, s->segment[2 * i]),
+                            given_point(s, s->segment[2 * i + 1]), q) >= near;
         if (far) assert_int_equal(has_triangle(r, hull->tri[t]), inside_any(s, q));
     }
 }
 
-/* Random triangles on a grid as polygons, that cross, overlap, coincide: split. Coordinates are rounded, so brute force
- * is asked only away from borders. */
+/* Random triangles on a grid as polygons, that cross, overlap, coincide: split. Coordinates are
+ * rounded, so brute force is asked only away from borders. */
 static void test_union(void **state)
 {
     (void)state;
@@ -730,8 +762,8 @@ static void test_crossing_is_told(void **state)
     assert_int_equal(r.status, MW_ERROR_INPUT);
     assert_int_equal(r.report.crossing_segments[0], 0);
     assert_int_equal(r.report.crossing_segments[1], 1);
-    assert_string_equal(r.error.message,
-                        "segments 0 (from point 1 to 2) and 1 (from point 3 to 4) cross near 5.26315789 4.73684211");
+    assert_string_equal(r.error.message, "segments 0 (from point 1 to 2) and 1 (from point 3 to 4) "
+                                         "cross near 5.26315789 4.73684211");
     release(&r);
     assert_int_equal(check_split(s, 1e-12), 1);
 }
@@ -748,8 +780,9 @@ static void test_split_counts(void **state)
             uint32_t a = add_point(s, offset + uniform(s), offset + uniform(s));
             uint32_t b = add_point(s, offset + uniform(s), offset + uniform(s));
             for (uint32_t k = 0; k < s->segments; k++)
-                crossings += cross(given_point(s, a), given_point(s, b), given_point(s, s->segment[2 * k]),
-                                   given_point(s, s->segment[2 * k + 1]));
+                crossings +=
+                    cross(given_point(s, a), given_point(s, b), given_point(s, s->segment[2 * k]),
+                          given_point(s, s->segment[2 * k + 1]));
             add_segment(s, a, b, MW_NONE);
         }
         for (int i = 0; i < 50; i++) add_point(s, offset + uniform(s), offset + uniform(s));
@@ -789,7 +822,8 @@ static void test_split_among(void **state)
         enum { SIDE = 40, LINES = 20 };
         for (int i = 0; i < SIDE * SIDE; i++) add_point(s, i % SIDE, i / SIDE);
         for (int i = 0; i < LINES; i++) {
-            uint32_t a = mw__random_below(&s->random, SIDE * SIDE), b = mw__random_below(&s->random, SIDE * SIDE);
+            uint32_t a = mw__random_below(&s->random, SIDE * SIDE),
+                     b = mw__random_below(&s->random, SIDE * SIDE);
             add_segment(s, a, b, MW_NONE);
         }
         add_line(s, uniform(s), 3 * uniform(s), SIDE, SIDE * uniform(s));
@@ -829,7 +863,8 @@ static void test_split_shallow(void **state)
         constrained_scene *s = new_scene(500 + round);
         double scale = round % 4 == 0 ? 1e300 : round % 4 == 1 ? 1e-300 : round % 4 == 2 ? 1e6 : 1;
         add_point(s, 0, scale);
-        for (int i = 0; i < 30; i++) add_line(s, 0, scale * uniform(s) * 1e-14, scale, scale * uniform(s) * 1e-14);
+        for (int i = 0; i < 30; i++)
+            add_line(s, 0, scale * uniform(s) * 1e-14, scale, scale * uniform(s) * 1e-14);
         result r = run(s, MW_KEEP_HULL, 1);
         if (r.status) fprintf(stderr, "%s\n", r.error.message);
         assert_sound(s, &r);
@@ -838,7 +873,8 @@ static void test_split_shallow(void **state)
     }
 }
 
-static void check_split_of(uint32_t n, const double *xy, uint32_t m, const uint32_t *segment, double tolerance)
+static void check_split_of(uint32_t n, const double *xy, uint32_t m, const uint32_t *segment,
+                           double tolerance)
 {
     constrained_scene *s = new_scene(0);
     for (uint32_t i = 0; i < n; i++) add_point(s, xy[2 * i], xy[2 * i + 1]);
@@ -855,9 +891,10 @@ static void test_split_close(void **state)
     const double three[] = {1250816.0639249918, Y, 531171.4665219282,  Y + 4 * unit,
                             1303493.7280111513, Y, 816597.12245701486, Y + 6 * unit};
     check_split_of(4, three, 3, (const uint32_t[]){0, 3, 0, 1, 1, 2}, 4 * unit);
-    const double others[] = {
-        1238705.1289641492, Y, 1248737.949965422, Y, 458771.71222629939, Y + 6 * unit, 609270.95347090648,
-        Y + 14 * unit};
+    const double others[] = {1238705.1289641492, Y,
+                             1248737.949965422,  Y,
+                             458771.71222629939, Y + 6 * unit,
+                             609270.95347090648, Y + 14 * unit};
     check_split_of(4, others, 3, (const uint32_t[]){3, 0, 2, 0, 1, 2}, 4 * unit);
     const double many[] = {1283425.3194980419, Y,
                            1366677.5162477922, Y,
@@ -886,20 +923,22 @@ static void test_split_nearly_parallel(void **state)
     print_message("seed %llu\n", (unsigned long long)seed);
     for (uint64_t round = 0; round < 600; round++) {
         constrained_scene *s = new_scene(seed + round);
-        uint32_t n = 4 + (uint32_t)below(s, 20), units = 2 + (uint32_t)below(s, 20), m = 3 + (uint32_t)below(s, 20);
+        uint32_t n = 4 + (uint32_t)below(s, 20), units = 2 + (uint32_t)below(s, 20),
+                 m = 3 + (uint32_t)below(s, 20);
         double slope = round % 3 == 2 ? uniform(s) : 0;
         add_point(s, 0, 0);
         for (uint32_t i = 0; i < n; i++) {
             double x = 4e5 + 1e6 * uniform(s), y = 5e6 + slope * x + 0x1p-30 * below(s, units);
             add_point(s, x, round % 3 == 1 && below(s, 4) == 0 ? 5e6 + 1e6 * uniform(s) : y);
         }
-        for (uint32_t i = 0; i < m; i++) add_segment(s, 1 + (uint32_t)below(s, n), 1 + (uint32_t)below(s, n), MW_NONE);
+        for (uint32_t i = 0; i < m; i++)
+            add_segment(s, 1 + (uint32_t)below(s, n), 1 + (uint32_t)below(s, n), MW_NONE);
         check_split(s, 8 * 0x1p-30);
     }
 }
 
-/* Triangles with one side along nearly the same line as those of the others: sides become one chain, and what each of
- * them bounds stays apart. */
+/* Triangles with one side along nearly the same line as those of the others: sides become one
+ * chain, and what each of them bounds stays apart. */
 static void test_union_close(void **state)
 {
     (void)state;
@@ -908,7 +947,9 @@ static void test_union_close(void **state)
         for (uint32_t i = 0; i < 8; i++) {
             double xy[6];
             for (int k = 0; k < 6; k++)
-                xy[k] = k % 2 == 0 ? 1e6 * uniform(s) : k < 5 ? 5e6 + 0x1p-30 * below(s, 9) : 4e6 + 2e6 * uniform(s);
+                xy[k] = k % 2 == 0 ? 1e6 * uniform(s)
+                        : k < 5    ? 5e6 + 0x1p-30 * below(s, 9)
+                                   : 4e6 + 2e6 * uniform(s);
             add_ring(s, 3, xy, i / 2);
         }
         result hull = run(s, MW_KEEP_HULL, 1), r = run(s, MW_KEEP_INSIDE, 1);
@@ -920,7 +961,8 @@ static void test_union_close(void **state)
     }
 }
 
-/* A segment is led through a vertex that another one was led through before: its pieces still follow one another. */
+/* A segment is led through a vertex that another one was led through before: its pieces still
+ * follow one another. */
 static void test_split_directions(void **state)
 {
     (void)state;
@@ -943,15 +985,16 @@ static void test_split_directions(void **state)
     release(&r);
 }
 
-static void expect(const constrained_scene *s, const mw_constraints *given, mw_constrain_options options,
-                   mw_status status, const char *message)
+static void expect(const constrained_scene *s, const mw_constraints *given,
+                   mw_constrain_options options, mw_status status, const char *message)
 {
     mw_constraints all = view(s);
     mw_mesh *mesh;
     mw_error error;
     mw_constrained_edges pieces;
-    assert_int_equal(mw_constrained_delaunay(given ? given : &all, &options, NULL, NULL, &pieces, &mesh, &error),
-                     status);
+    assert_int_equal(
+        mw_constrained_delaunay(given ? given : &all, &options, NULL, NULL, &pieces, &mesh, &error),
+        status);
     assert_null(mesh);
     assert_null(pieces.edge);
     assert_string_equal(error.message, message);
@@ -961,13 +1004,16 @@ static void test_wrong_arguments(void **state)
 {
     (void)state;
     constrained_scene *s = new_scene(0);
-    mw_constrain_options none = {0}, inside_only = {.keep = MW_KEEP_INSIDE}, unknown = {.keep = (mw_keep)9};
+    mw_constrain_options none = {0}, inside_only = {.keep = MW_KEEP_INSIDE},
+                         unknown = {.keep = (mw_keep)9};
     mw_error error;
     mw_mesh *mesh;
-    assert_int_equal(mw_constrained_delaunay(NULL, NULL, NULL, NULL, NULL, &mesh, &error), MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_constrained_delaunay(NULL, NULL, NULL, NULL, NULL, &mesh, &error),
+                     MW_ERROR_ARGUMENT);
     add_box(s, 0, 0, 1, 1, MW_NONE);
     mw_constraints given = view(s);
-    assert_int_equal(mw_constrained_delaunay(&given, NULL, NULL, NULL, NULL, NULL, &error), MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_constrained_delaunay(&given, NULL, NULL, NULL, NULL, NULL, &error),
+                     MW_ERROR_ARGUMENT);
     expect(s, NULL, unknown, MW_ERROR_ARGUMENT, "unknown choice of what to keep");
     given.stride = 1;
     expect(s, &given, none, MW_ERROR_ARGUMENT, "a stride of 1 holds no y");
@@ -979,11 +1025,14 @@ static void test_wrong_arguments(void **state)
     expect(s, &given, none, MW_ERROR_ARGUMENT, "segment 2: 3 is no point; there are 3");
     given.segment_count = 2;
     given.point_count = 3;
-    assert_int_equal(mw_constrained_delaunay(&given, &none, NULL, NULL, NULL, &mesh, &error), MW_OK);
+    assert_int_equal(mw_constrained_delaunay(&given, &none, NULL, NULL, NULL, &mesh, &error),
+                     MW_OK);
     mw_mesh_destroy(mesh);
-    expect(s, &given, inside_only, MW_ERROR_INPUT, "nothing is left: all 1 triangles are outside or in holes");
+    expect(s, &given, inside_only, MW_ERROR_INPUT,
+           "nothing is left: all 1 triangles are outside or in holes");
     s->polygon[0] = s->polygon[1] = 6;
-    expect(s, &given, inside_only, MW_ERROR_INPUT, "polygon 6 is not closed: a ring ends at point 0");
+    expect(s, &given, inside_only, MW_ERROR_INPUT,
+           "polygon 6 is not closed: a ring ends at point 0");
     add_hole(s, NAN, 0);
     expect(s, NULL, none, MW_ERROR_ARGUMENT, "the place of hole 0 is not finite");
     s->holes = 0;
@@ -1000,11 +1049,13 @@ static void test_plain(void **state)
     (void)state;
     double points[] = {0, 0, 9, 1, 0, 9, 0, 0, 9, 1, 1, 9, 0, 1, 9};
     uint32_t segments[] = {3, 2, 2, 0}, duplicate_of[5];
-    mw_constraints given = {.points = points, .point_count = 5, .stride = 3, .segments = segments, .segment_count = 2};
+    mw_constraints given = {
+        .points = points, .point_count = 5, .stride = 3, .segments = segments, .segment_count = 2};
     mw_mesh *mesh;
     mw_constrain_report report;
     mw_constrained_edges pieces;
-    assert_int_equal(mw_constrained_delaunay(&given, NULL, duplicate_of, &report, &pieces, &mesh, NULL), MW_OK);
+    assert_int_equal(
+        mw_constrained_delaunay(&given, NULL, duplicate_of, &report, &pieces, &mesh, NULL), MW_OK);
     assert_int_equal(mw_mesh_triangle_count(mesh), 2);
     assert_int_equal(duplicate_of[2], 0);
     assert_int_equal(duplicate_of[3], MW_NONE);
@@ -1040,8 +1091,8 @@ static void test_repeatable(void **state)
     release(&b);
 }
 
-/* A long segment through n points crosses of the order of sqrt(n) triangles; it is not counted twice, nor is the whole
- * triangulation looked at. */
+/* A long segment through n points crosses of the order of sqrt(n) triangles; it is not counted
+ * twice, nor is the whole triangulation looked at. */
 static void test_crossed(void **state)
 {
     (void)state;
@@ -1051,7 +1102,8 @@ static void test_crossed(void **state)
     result r = run(s, MW_KEEP_HULL, 0);
     assert_in_range(r.report.triangles_crossed, 60, 400);
     release(&r);
-    s = new_scene(0); /* what is crossed before the two are split counts, although nothing is in the end */
+    /* what is crossed before the two are split counts, although nothing is in the end */
+    s = new_scene(0);
     add_line(s, 0, 0, 4, 4);
     add_line(s, 0, 4, 4, 0);
     r = run(s, MW_KEEP_HULL, 1);
@@ -1136,9 +1188,11 @@ static void check_real(const constrained_scene *s, const char *name)
     bool crosses = false;
     for (uint32_t i = 0; i < s->segments && !crosses; i++)
         for (uint32_t k = 0; k < i && !crosses; k++)
-            crosses = cross(given_point(s, s->segment[2 * i]), given_point(s, s->segment[2 * i + 1]),
-                            given_point(s, s->segment[2 * k]), given_point(s, s->segment[2 * k + 1]));
-    print_message("%s: %u points, %u segments%s\n", name, s->points, s->segments, crosses ? ", that cross" : "");
+            crosses =
+                cross(given_point(s, s->segment[2 * i]), given_point(s, s->segment[2 * i + 1]),
+                      given_point(s, s->segment[2 * k]), given_point(s, s->segment[2 * k + 1]));
+    print_message("%s: %u points, %u segments%s\n", name, s->points, s->segments,
+                  crosses ? ", that cross" : "");
     if (!crosses) {
         check(s);
         return;
@@ -1156,7 +1210,8 @@ static void test_real(void **state)
     static const char *const pairs[] = {
         "capital_a", "cdt",    "cdt_duplicates", "corner_cases",  "gh_issue",          "guitar",
         "island",    "kidney", "letter_u",       "lake_superior", "sweden_constrained"};
-    static const char *const rings[] = {"bird", "dude", "kzer-za", "nazca_heron", "nazca_monkey", "sketchup", "tank"};
+    static const char *const rings[] = {"bird",         "dude",     "kzer-za", "nazca_heron",
+                                        "nazca_monkey", "sketchup", "tank"};
     for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++) {
         char name[64];
         snprintf(name, sizeof name, "%s.cdt.txt", pairs[i]);

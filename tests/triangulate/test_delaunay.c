@@ -77,7 +77,8 @@ static void triangulate_or_refuse(const mw_point *points, uint32_t n)
 {
     if (on_one_line(points, n)) {
         mw_mesh *mesh;
-        assert_int_equal(mw_delaunay(&points->x, n, 2, NULL, NULL, NULL, &mesh, NULL), MW_ERROR_INPUT);
+        assert_int_equal(mw_delaunay(&points->x, n, 2, NULL, NULL, NULL, &mesh, NULL),
+                         MW_ERROR_INPUT);
         assert_null(mesh);
     } else {
         triangulate(points, n);
@@ -90,7 +91,8 @@ static void test_all_fours(void **state)
     (void)state;
     for (uint32_t code = 0; code < 9 * 9 * 9 * 9; code++) {
         mw_point points[4];
-        for (uint32_t i = 0, c = code; i < 4; i++, c /= 9) points[i] = (mw_point){c % 9 % 3, c % 9 / 3};
+        for (uint32_t i = 0, c = code; i < 4; i++, c /= 9)
+            points[i] = (mw_point){c % 9 % 3, c % 9 / 3};
         triangulate_or_refuse(points, 4);
     }
 }
@@ -150,7 +152,8 @@ static void refuses(const mw_point *points, size_t n, int64_t vertex, const char
 {
     mw_mesh *mesh = (mw_mesh *)1;
     mw_error error;
-    assert_int_equal(mw_delaunay(points ? &points->x : NULL, n, 2, NULL, NULL, NULL, &mesh, &error), MW_ERROR_INPUT);
+    assert_int_equal(mw_delaunay(points ? &points->x : NULL, n, 2, NULL, NULL, NULL, &mesh, &error),
+                     MW_ERROR_INPUT);
     assert_null(mesh);
     assert_int_equal(error.status, MW_ERROR_INPUT);
     assert_int_equal(error.vertex, vertex);
@@ -188,7 +191,8 @@ static void test_refused_calls(void **state)
     assert_null(mesh);
     assert_int_equal(mw_delaunay(NULL, 3, 2, NULL, NULL, NULL, &mesh, &error), MW_ERROR_ARGUMENT);
     assert_int_equal(mw_delaunay(points, 3, 2, NULL, NULL, NULL, NULL, &error), MW_ERROR_ARGUMENT);
-    assert_int_equal(mw_delaunay(points, (size_t)1 << 40, 2, NULL, NULL, NULL, &mesh, &error), MW_ERROR_LIMIT);
+    assert_int_equal(mw_delaunay(points, (size_t)1 << 40, 2, NULL, NULL, NULL, &mesh, &error),
+                     MW_ERROR_LIMIT);
     assert_null(mesh);
 }
 
@@ -225,7 +229,8 @@ static void test_order_of_triangles(void **state)
     free(points);
 }
 
-/* Whichever allocation fails, the call says so and leaves nothing behind (the leak checker looks on). */
+/* Whichever allocation fails, the call says so and leaves nothing behind (the leak checker looks
+ * on). */
 static void test_memory_failures(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* The Delaunay triangulation cut into patches, down to single points: each result is checked exactly, and is the same on any
- * number of threads. */
+/* The Delaunay triangulation cut into patches, down to single points: each result is checked
+ * exactly, and is the same on any number of threads. */
 /* wrap: malloc calloc realloc aligned_alloc */
 #include <stdarg.h>
 #include <stddef.h>
@@ -29,13 +29,14 @@ typedef struct made {
 
 static made make(const mw_point *points, uint32_t n, uint32_t patch, uint32_t threads)
 {
-    made m = {.error.message = "", .mesh.point_count = n, .mesh.point = malloc((n + 1) * sizeof *points)};
+    made m = {
+        .error.message = "", .mesh.point_count = n, .mesh.point = malloc((n + 1) * sizeof *points)};
     const mw_delaunay_setup setup = {.patch = patch};
     mw_job job = {.threads = threads};
     memcpy(m.mesh.point, points, n * sizeof *points);
     m.duplicate_of = malloc((n + 1) * sizeof *m.duplicate_of);
-    m.status = mw__delaunay_set_up(points, n, &setup, &job, m.duplicate_of, &m.report, &m.mesh.tri, &m.mesh.tri_count,
-                                   &m.error);
+    m.status = mw__delaunay_set_up(points, n, &setup, &job, m.duplicate_of, &m.report, &m.mesh.tri,
+                                   &m.mesh.tri_count, &m.error);
     return m;
 }
 
@@ -89,8 +90,8 @@ static void test_sets(void **state)
         }
 }
 
-/* Random sequences of up to 14 points of a 4 x 4 grid; most are flat somewhere. What cannot be triangulated is refused in the
- * words that it is without a cut. */
+/* Random sequences of up to 14 points of a 4 x 4 grid; most are flat somewhere. What cannot be
+ * triangulated is refused in the words that it is without a cut. */
 static void test_small_sets(void **state)
 {
     (void)state;
@@ -110,7 +111,8 @@ static void test_small_sets(void **state)
     }
 }
 
-/* Points on the lines that part patches, each twice or so: the borders of the cells of a curve through 0..64 are integers. */
+/* Points on the lines that part patches, each twice or so: the borders of the cells of a curve
+ * through 0..64 are integers. */
 static void test_cuts(void **state)
 {
     (void)state;
@@ -140,7 +142,9 @@ static void test_crowd(void **state)
         points[i] = (mw_point){scale * random_unit(&random), scale * random_unit(&random)};
     }
     triangulate(points, N, 200);
-    for (uint32_t i = 0; i < N; i++) points[i] = i < 3 ? (mw_point){i, i * i} : (mw_point){1.5, 0.25}; /* twins */
+    /* twins */
+    for (uint32_t i = 0; i < N; i++)
+        points[i] = i < 3 ? (mw_point){i, i * i} : (mw_point){1.5, 0.25};
     mw_delaunay_report report = triangulate(points, N, 200);
     assert_int_equal(report.duplicates, N - 4);
     free(points);
@@ -176,8 +180,11 @@ static void test_options(void **state)
     const mw_kind_options three = {.threads = 3};
     assert_int_equal(mw_delaunay(&points->x, N, 2, NULL, NULL, NULL, &mesh[0], NULL), MW_OK);
     assert_int_equal(mw_delaunay(&points->x, N, 2, &two, NULL, NULL, &mesh[1], NULL), MW_OK);
-    assert_int_equal(mw_triangulate(MW_KIND_DELAUNAY, &points->x, N, 2, &three, NULL, NULL, &mesh[2], NULL), MW_OK);
-    for (int i = 1; i < 3; i++) assert_int_equal(mw_mesh_triangle_count(mesh[i]), mw_mesh_triangle_count(mesh[0]));
+    assert_int_equal(
+        mw_triangulate(MW_KIND_DELAUNAY, &points->x, N, 2, &three, NULL, NULL, &mesh[2], NULL),
+        MW_OK);
+    for (int i = 1; i < 3; i++)
+        assert_int_equal(mw_mesh_triangle_count(mesh[i]), mw_mesh_triangle_count(mesh[0]));
     for (uint32_t t = 0; t < mw_mesh_triangle_count(mesh[0]); t++) {
         uint32_t v[3][3];
         for (int i = 0; i < 3; i++) mw_mesh_triangle(mesh[i], t, v[i]);
@@ -188,7 +195,8 @@ static void test_options(void **state)
     free(points);
 }
 
-/* Whichever allocation fails, the call says so and leaves nothing behind (the leak checker looks on). */
+/* Whichever allocation fails, the call says so and leaves nothing behind (the leak checker looks
+ * on). */
 static void test_memory_failures(void **state)
 {
     (void)state;
@@ -202,7 +210,8 @@ static void test_memory_failures(void **state)
         const mw_delaunay_setup setup = {.patch = 1000};
         mw_job job = {.threads = 2};
         allocations_left = allowed;
-        mw_status status = mw__delaunay_set_up(points, N, &setup, &job, NULL, NULL, &tri, &tri_count, &error);
+        mw_status status =
+            mw__delaunay_set_up(points, N, &setup, &job, NULL, NULL, &tri, &tri_count, &error);
         bool failed = allocations_left < 0;
         allocations_left = -1;
         if (status == MW_OK) {

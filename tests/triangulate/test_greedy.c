@@ -1,5 +1,5 @@
-/* The greedy triangulation against its definition: all pairs of points sorted by length in integers (GMP), each taken
- * unless a taken edge or a point is in its way. */
+/* The greedy triangulation against its definition: all pairs of points sorted by length in
+ * integers (GMP), each taken unless a taken edge or a point is in its way. */
 /* wrap: malloc calloc realloc aligned_alloc */
 #include <stdarg.h>
 #include <stddef.h>
@@ -40,7 +40,8 @@ static void uniform(mw_point *p, uint32_t n, uint64_t *random)
 static void lattice(mw_point *p, uint32_t n, uint64_t *random)
 {
     uint32_t size = 2 + mw__random_below(random, 14);
-    for (uint32_t i = 0; i < n; i++) p[i] = (mw_point){mw__random_below(random, size), mw__random_below(random, size)};
+    for (uint32_t i = 0; i < n; i++)
+        p[i] = (mw_point){mw__random_below(random, size), mw__random_below(random, size)};
 }
 
 /* All of a square lattice, in order. */
@@ -60,7 +61,8 @@ static void cocircular(mw_point *p, uint32_t n, uint64_t *random)
         const int *v = on[mw__random_below(random, 9)];
         uint64_t signs = mw__random(random);
         p[i] = (mw_point){signs >> 63 ? v[0] : -v[0], signs >> 62 & 1 ? v[1] : -v[1]};
-        if (i % 11 == 10) p[i] = (mw_point){mw__random_below(random, 30), mw__random_below(random, 30)};
+        if (i % 11 == 10)
+            p[i] = (mw_point){mw__random_below(random, 30), mw__random_below(random, 30)};
     }
     p[0] = (mw_point){0, 0};
 }
@@ -70,7 +72,8 @@ static void polygon(mw_point *p, uint32_t n, uint64_t *random)
 {
     double turn = random_unit(random);
     for (uint32_t i = 0; i < n; i++)
-        p[i] = (mw_point){cos(turn + 6.283185307179586 * i / n), sin(turn + 6.283185307179586 * i / n)};
+        p[i] = (mw_point){cos(turn + 6.283185307179586 * i / n),
+                          sin(turn + 6.283185307179586 * i / n)};
 }
 
 static void two_circles(mw_point *p, uint32_t n, uint64_t *random)
@@ -84,7 +87,8 @@ static void clusters(mw_point *p, uint32_t n, uint64_t *random)
 {
     uniform(p, n, random);
     double size = ldexp(1, -(int)mw__random_below(random, 40));
-    for (uint32_t i = 4; i < n; i++) p[i] = (mw_point){p[i % 4].x + size * p[i].x, p[i % 4].y + size * p[i].y};
+    for (uint32_t i = 4; i < n; i++)
+        p[i] = (mw_point){p[i % 4].x + size * p[i].x, p[i % 4].y + size * p[i].y};
 }
 
 /* Two curves that bulge towards or away from each other, or are straight. */
@@ -100,7 +104,8 @@ static void lens(mw_point *p, uint32_t n, uint64_t *random)
 /* Rows that are straight up to 1e-9. */
 static void slivers(mw_point *p, uint32_t n, uint64_t *random)
 {
-    for (uint32_t i = 0; i < n; i++) p[i] = (mw_point){random_unit(random), 0.1 * (i % 3) + 1e-9 * random_unit(random)};
+    for (uint32_t i = 0; i < n; i++)
+        p[i] = (mw_point){random_unit(random), 0.1 * (i % 3) + 1e-9 * random_unit(random)};
 }
 
 /* A point that sees all others, on a bent row, and some behind them. */
@@ -123,8 +128,9 @@ static void spiral(mw_point *p, uint32_t n, uint64_t *random)
     }
 }
 
-static make_points *const makers[] = {uniform,  lattice, lattice, full_lattice, cocircular, polygon,
-                                      clusters, lens,    slivers, hub,          spiral,     two_circles};
+static make_points *const makers[] = {uniform,    lattice, lattice,  full_lattice,
+                                      cocircular, polygon, clusters, lens,
+                                      slivers,    hub,     spiral,   two_circles};
 enum { MAKERS = sizeof makers / sizeof makers[0] };
 
 /* Large, small, subnormal, or far from the origin. */
@@ -133,7 +139,8 @@ static void rescale(mw_point *p, uint32_t n, uint64_t *random)
     static const int exponents[] = {1000, 510, -480, -1060, -30};
     uint32_t how = mw__random_below(random, 12);
     for (uint32_t i = 0; i < n; i++) {
-        if (how < 5) p[i] = (mw_point){ldexp(p[i].x, exponents[how]), ldexp(p[i].y, exponents[how])};
+        if (how < 5)
+            p[i] = (mw_point){ldexp(p[i].x, exponents[how]), ldexp(p[i].y, exponents[how])};
         if (how == 5) p[i] = (mw_point){p[i].x + 5e6, p[i].y - 4e5};
         if (how == 6) p[i].y = ldexp(p[i].y, -20);
         if (how == 7) p[i].x = ldexp(p[i].x, -1000);
@@ -202,14 +209,15 @@ static bool holds_point(const mw_point *p, uint32_t n, const pair *e)
 {
     mw_point a = p[e->low], b = p[e->high];
     for (uint32_t i = 0; i < n; i++)
-        if (side(p, e->low, e->high, i) == 0 && fmin(a.x, b.x) <= p[i].x && p[i].x <= fmax(a.x, b.x) &&
-            fmin(a.y, b.y) <= p[i].y && p[i].y <= fmax(a.y, b.y) && (p[i].x != a.x || p[i].y != a.y) &&
-            (p[i].x != b.x || p[i].y != b.y))
+        if (side(p, e->low, e->high, i) == 0 && fmin(a.x, b.x) <= p[i].x &&
+            p[i].x <= fmax(a.x, b.x) && fmin(a.y, b.y) <= p[i].y && p[i].y <= fmax(a.y, b.y) &&
+            (p[i].x != a.x || p[i].y != a.y) && (p[i].x != b.x || p[i].y != b.y))
             return true;
     return false;
 }
 
-/* The greedy triangulation of points that are no duplicates; its edges come first in `pairs`. Returns their number. */
+/* The greedy triangulation of points that are no duplicates; its edges come first in `pairs`.
+ * Returns their number. */
 static size_t take_greedily(const mw_point *p, uint32_t n, const uint32_t *duplicate_of)
 {
     size_t count = 0, taken = 0;
@@ -235,11 +243,13 @@ static size_t take_greedily(const mw_point *p, uint32_t n, const uint32_t *dupli
 /* --- what is checked --- */
 
 /* The greedy triangulation, or NULL where all points lie on one line. */
-static mw_mesh *greedy_mesh(const mw_point *p, uint32_t n, uint32_t *duplicate_of, mw_kind_report *report)
+static mw_mesh *greedy_mesh(const mw_point *p, uint32_t n, uint32_t *duplicate_of,
+                            mw_kind_report *report)
 {
     mw_mesh *mesh;
     mw_error error;
-    mw_status status = mw_triangulate(MW_KIND_GREEDY, &p->x, n, 2, NULL, duplicate_of, report, &mesh, &error);
+    mw_status status =
+        mw_triangulate(MW_KIND_GREEDY, &p->x, n, 2, NULL, duplicate_of, report, &mesh, &error);
     if (status == MW_ERROR_INPUT) return NULL;
     expect_ok(status, "greedy", &error);
     return mesh;
@@ -263,7 +273,8 @@ static uint32_t count_edges(const mw_mesh *mesh)
     return count;
 }
 
-/* Triangles counter-clockwise, links symmetric, an embedding; as many as the Delaunay triangulation has. */
+/* Triangles counter-clockwise, links symmetric, an embedding; as many as the Delaunay
+ * triangulation has. */
 static void check_sound(const mw_mesh *mesh, const mw_point *p, uint32_t n)
 {
     mw_mesh *delaunay = mesh_delaunay(&p->x, n);
@@ -293,7 +304,8 @@ static void check_sound(const mw_mesh *mesh, const mw_point *p, uint32_t n)
     arrays_free(&a);
 }
 
-/* No edge could be exchanged for the other diagonal of its two triangles, were that to be taken first. */
+/* No edge could be exchanged for the other diagonal of its two triangles, were that to be taken
+ * first. */
 static void check_diagonals(const mw_mesh *mesh, const mw_point *p)
 {
     pair e, f;
@@ -369,7 +381,8 @@ static void test_larger(void **state)
     for (uint64_t seed = 1; seed <= 2 * MAKERS; seed++) check_large(makers[seed % MAKERS], seed);
 }
 
-/* Two curves that bulge towards each other make many corners that cannot be cut off: the heap is filled anew. */
+/* Two curves that bulge towards each other make many corners that cannot be cut off: the heap is
+ * filled anew. */
 static void bulges(mw_point *p, uint32_t n, uint64_t *random)
 {
     for (uint32_t i = 0; i < n; i++) {
@@ -388,7 +401,8 @@ static void test_many_corners(void **state)
 static void test_ties(void **state)
 {
     (void)state;
-    const mw_point square[4] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}}, turned[4] = {{1, 0}, {1, 1}, {0, 0}, {0, 1}};
+    const mw_point square[4] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}},
+                   turned[4] = {{1, 0}, {1, 1}, {0, 0}, {0, 1}};
     mw_mesh *mesh = greedy_mesh(square, 4, NULL, NULL);
     assert_true(has_edge(mesh, 0, 2) && !has_edge(mesh, 1, 3));
     mw_mesh_destroy(mesh);
@@ -408,7 +422,8 @@ static void test_memory(void **state)
         mw_mesh *mesh = (mw_mesh *)1;
         mw_error error;
         allocations_left = allowed;
-        mw_status status = mw_triangulate(MW_KIND_GREEDY, &p->x, N, 2, NULL, NULL, NULL, &mesh, &error);
+        mw_status status =
+            mw_triangulate(MW_KIND_GREEDY, &p->x, N, 2, NULL, NULL, NULL, &mesh, &error);
         allocations_left = -1;
         if (status == MW_OK) {
             assert_true(allowed > 15);
@@ -424,8 +439,9 @@ static void test_memory(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_definition), cmocka_unit_test(test_larger), cmocka_unit_test(test_many_corners),
-        cmocka_unit_test(test_ties),       cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_definition),   cmocka_unit_test(test_larger),
+        cmocka_unit_test(test_many_corners), cmocka_unit_test(test_ties),
+        cmocka_unit_test(test_memory),
     };
     return cmocka_run_group_tests_name("greedy", tests, NULL, NULL);
 }

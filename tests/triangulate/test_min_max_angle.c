@@ -1,5 +1,5 @@
-/* The triangulation with the smallest largest angle: against all triangulations of small sets, exactly; and the comparison of
- * angles against GMP. */
+/* The triangulation with the smallest largest angle: against all triangulations of small sets,
+ * exactly; and the comparison of angles against GMP. */
 /* wrap: malloc calloc realloc aligned_alloc */
 #include <stdarg.h>
 #include <stddef.h>
@@ -30,8 +30,8 @@ static mw_angle angle_at(const double *p)
     return mw__angle((mw_point){p[0], p[1]}, (mw_point){p[2], p[3]}, (mw_point){p[4], p[5]});
 }
 
-/* The square of the cosine of the angle at the middle one of three points, with the sign of the cosine. False if a point
- * equals the middle one. */
+/* The square of the cosine of the angle at the middle one of three points, with the sign of the
+ * cosine. False if a point equals the middle one. */
 static bool exact_cosine(const double p[6], mpq_t cosine)
 {
     mpq_t v[6], dot, length[2], s;
@@ -87,8 +87,8 @@ static void check_angles(const double p[12])
     fail_msg("angles: %d is wrong, it is %d", mw__compare_angles(&s, &t), expected);
 }
 
-/* The first angle, turned and scaled by a product with (x, y) as a complex number, moved, perhaps mirrored; exact where the numbers
- * are small. */
+/* The first angle, turned and scaled by a product with (x, y) as a complex number, moved, perhaps
+ * mirrored; exact where the numbers are small. */
 static void make_similar(double p[12])
 {
     double x = (double)cases_below(1000) - 500, y = (double)cases_below(1000) - 500;
@@ -126,7 +126,8 @@ static void test_angles_of_quarters(void **unused)
         double p[12] = {0};
         for (int k = 0; k < 12; k += 2) {
             const double *w = way[cases_below(4)];
-            double length = ldexp(1 + cases_below(3), (int)cases_below(1000) * (cases_below(2) ? 1 : -1));
+            double length =
+                ldexp(1 + cases_below(3), (int)cases_below(1000) * (cases_below(2) ? 1 : -1));
             if (k % 6 == 2) continue;
             p[k] = w[0] * length;
             p[k + 1] = w[1] * length;
@@ -153,9 +154,12 @@ typedef struct small_set {
     uint32_t n;
     small_triangle triangle[MOST_TRIANGLES];
     int count;
-    bool apart[MOST_TRIANGLES][MOST_TRIANGLES]; /* no inner point in common                                   */
-    bool ties;                                  /* two triangles of equal rank                                */
-    bool covered[MOST][MOST];                   /* directed edges with a triangle on their left, or the outside */
+    /* no inner point in common */
+    bool apart[MOST_TRIANGLES][MOST_TRIANGLES];
+    /* two triangles of equal rank */
+    bool ties;
+    /* directed edges with a triangle on their left, or the outside */
+    bool covered[MOST][MOST];
     int chosen[2 * MOST], chosen_count;
     int best[2 * MOST], best_count; /* ranks by falling angle, the least list so far */
     long found;
@@ -170,8 +174,8 @@ static bool left_of(uint32_t a, uint32_t b, uint32_t c)
 
 static bool in_closed_triangle(const uint32_t v[3], uint32_t i)
 {
-    return i != v[0] && i != v[1] && i != v[2] && !left_of(v[1], v[0], i) && !left_of(v[2], v[1], i) &&
-           !left_of(v[0], v[2], i);
+    return i != v[0] && i != v[1] && i != v[2] && !left_of(v[1], v[0], i) &&
+           !left_of(v[2], v[1], i) && !left_of(v[0], v[2], i);
 }
 
 /* An edge of one of them parts them. */
@@ -179,7 +183,8 @@ static bool parted(const uint32_t a[3], const uint32_t b[3])
 {
     for (int k = 0; k < 3; k++) {
         uint32_t from = a[k], to = a[(k + 1) % 3];
-        if (!left_of(from, to, b[0]) && !left_of(from, to, b[1]) && !left_of(from, to, b[2])) return true;
+        if (!left_of(from, to, b[0]) && !left_of(from, to, b[1]) && !left_of(from, to, b[2]))
+            return true;
     }
     return false;
 }
@@ -193,7 +198,8 @@ static void add_triangle(uint32_t a, uint32_t b, uint32_t c)
     for (uint32_t i = 0; i < set.n; i++)
         if (in_closed_triangle(t->v, i)) return;
     for (int k = 0; k < 3; k++) {
-        mw_angle angle = mw__angle(set.point[t->v[k]], set.point[t->v[(k + 1) % 3]], set.point[t->v[(k + 2) % 3]]);
+        mw_angle angle = mw__angle(set.point[t->v[k]], set.point[t->v[(k + 1) % 3]],
+                                   set.point[t->v[(k + 2) % 3]]);
         if (k == 0 || mw__compare_angles(&angle, &t->largest) > 0) t->largest = angle;
     }
     set.count++;
@@ -208,8 +214,8 @@ static void rank_triangles(void)
             int order = mw__compare_angles(&set.triangle[i].largest, &set.triangle[j].largest);
             set.triangle[i].rank += order > 0;
             set.ties |= i != j && order == 0;
-            set.apart[i][j] =
-                parted(set.triangle[i].v, set.triangle[j].v) || parted(set.triangle[j].v, set.triangle[i].v);
+            set.apart[i][j] = parted(set.triangle[i].v, set.triangle[j].v) ||
+                              parted(set.triangle[j].v, set.triangle[i].v);
         }
     }
 }
@@ -236,7 +242,8 @@ static void record(void)
     int ranks[2 * MOST];
     for (int i = 0; i < set.chosen_count; i++) ranks[i] = set.triangle[set.chosen[i]].rank;
     qsort(ranks, (size_t)set.chosen_count, sizeof ranks[0], by_falling_rank);
-    if (set.found++ == 0 || compare_lists(ranks, set.best, set.chosen_count) < 0) memcpy(set.best, ranks, sizeof ranks);
+    if (set.found++ == 0 || compare_lists(ranks, set.best, set.chosen_count) < 0)
+        memcpy(set.best, ranks, sizeof ranks);
     set.best_count = set.chosen_count;
 }
 
@@ -247,7 +254,8 @@ static bool fits(int i)
     return true;
 }
 
-/* Put each triangle that fits on the first edge that still lacks one. An edge lacks one if its other side has one. */
+/* Put each triangle that fits on the first edge that still lacks one. An edge lacks one if its
+ * other side has one. */
 static void enumerate(void)
 {
     uint32_t from = 0, to = 0;
@@ -271,13 +279,15 @@ static void enumerate(void)
     }
 }
 
-/* The outside covers the far side of the hull's edges: those with nothing on their right, and no point between. */
+/* The outside covers the far side of the hull's edges: those with nothing on their right, and no
+ * point between. */
 static bool is_hull_edge(uint32_t a, uint32_t b)
 {
     for (uint32_t i = 0; i < set.n; i++) {
         if (i == a || i == b) continue;
         if (left_of(b, a, i)) return false;
-        if (!left_of(a, b, i) && mw__dot2d(set.point[i], set.point[a], set.point[b]) < 0) return false;
+        if (!left_of(a, b, i) && mw__dot2d(set.point[i], set.point[a], set.point[b]) < 0)
+            return false;
     }
     return a != b;
 }
@@ -313,7 +323,8 @@ static int triangulated(uint32_t limit, int ranks[2 * MOST], mw_kind_report *rep
     mw_mesh *mesh;
     mw_error error;
     mw_kind_options options = {.limit = limit};
-    expect_ok(mw_triangulate(MW_KIND_MIN_MAX_ANGLE, &set.point[0].x, set.n, 0, &options, NULL, report, &mesh, &error),
+    expect_ok(mw_triangulate(MW_KIND_MIN_MAX_ANGLE, &set.point[0].x, set.n, 0, &options, NULL,
+                             report, &mesh, &error),
               "min-max angle", &error);
     int count = (int)mesh->tri_count;
     for (int i = 0; i < count; i++) ranks[i] = rank_of(&mesh->tri[i]);
@@ -335,7 +346,9 @@ static mw_point small_point(uint32_t kind)
         return cases_below(4) ? (mw_point){c[0], c[1]}
                               : (mw_point){(double)cases_below(7) - 3, (double)cases_below(7) - 3};
     case 4: return (mw_point){cases_uniform(), 1e-3 * cases_uniform()};
-    case 5: return (mw_point){(double)cases_below(1000), (double)cases_below(2) * 0x1p-30 + (double)cases_below(2)};
+    case 5:
+        return (mw_point){(double)cases_below(1000),
+                          (double)cases_below(2) * 0x1p-30 + (double)cases_below(2)};
     default: {
         double angle = 3.14159265 * cases_uniform(), radius = cases_below(5) ? 1 : cases_uniform();
         return (mw_point){radius * cos(angle), radius * sin(angle)};
@@ -351,20 +364,24 @@ static bool make_small_set(uint32_t n, uint32_t kind)
     for (int tries = 0; set.n < n && tries < 200; tries++) {
         mw_point p = small_point(kind);
         bool equal = false;
-        for (uint32_t i = 0; i < set.n; i++) equal |= p.x == set.point[i].x && p.y == set.point[i].y;
+        for (uint32_t i = 0; i < set.n; i++)
+            equal |= p.x == set.point[i].x && p.y == set.point[i].y;
         if (!equal) set.point[set.n++] = p;
     }
-    for (uint32_t i = 2; i < set.n; i++) flat &= mw__orient2d(set.point[0], set.point[1], set.point[i]) == 0;
+    for (uint32_t i = 2; i < set.n; i++)
+        flat &= mw__orient2d(set.point[0], set.point[1], set.point[i]) == 0;
     return !flat;
 }
 
-/* No triangulation has a smaller largest angle; without equal angles, none has a smaller sorted list. */
+/* No triangulation has a smaller largest angle; without equal angles, none has a smaller sorted
+ * list. */
 static void test_all_triangulations(void **unused)
 {
     (void)unused;
     long unique = 0, flips_fail = 0, several = 0;
     for (long i = cases_count(3000); i > 0; i--) {
-        if (!make_small_set(3 + cases_below(i % 50 == 0 ? MOST - 2 : MOST - 4), cases_below(7))) continue;
+        if (!make_small_set(3 + cases_below(i % 50 == 0 ? MOST - 2 : MOST - 4), cases_below(7)))
+            continue;
         enumerate_all();
         assert_true(set.found > 0);
         int ranks[2 * MOST];
@@ -391,16 +408,21 @@ static mw_point large_point(uint32_t kind, uint32_t i, uint32_t n)
     switch (kind) {
     case 0: return (mw_point){cases_uniform(), cases_uniform()};
     case 1: return (mw_point){i % side, (double)(i / side)};
-    case 2: return (mw_point){i % side + 1e-9 * cases_uniform(), (double)(i / side) + 1e-9 * cases_uniform()};
+    case 2:
+        return (mw_point){i % side + 1e-9 * cases_uniform(),
+                          (double)(i / side) + 1e-9 * cases_uniform()};
     case 3: return (mw_point){cos(angle), sin(angle)};
-    case 4: return (mw_point){i / 4 + 0.3 * cases_uniform(), i % 4 * 1e-3 * (1 + 1e-3 * cases_uniform())};
+    case 4:
+        return (mw_point){i / 4 + 0.3 * cases_uniform(),
+                          i % 4 * 1e-3 * (1 + 1e-3 * cases_uniform())};
     case 5:
         return (mw_point){1e6 + cases_uniform() * exp(10 * cases_uniform()),
                           cases_uniform() * exp(10 * cases_uniform())};
     case 6:
         return (mw_point){ldexp(cases_uniform(), (int)cases_below(400) - 200),
                           ldexp(cases_uniform(), (int)cases_below(400) - 200)};
-    case 7: return (mw_point){(double)cases_below(40), (double)cases_below(40)}; /* many equal ones */
+    /* many equal ones */
+    case 7: return (mw_point){(double)cases_below(40), (double)cases_below(40)};
     default: return (mw_point){cases_uniform(), 1e-7 * cases_uniform()};
     }
 }
@@ -424,7 +446,8 @@ static mw_angle larger(mw_angle a, mw_angle b)
 static mw_angle largest_angle(const mw_mesh *mesh)
 {
     mw_angle largest = largest_of(mesh, &mesh->tri[0]);
-    for (uint32_t i = 1; i < mesh->tri_count; i++) largest = larger(largest, largest_of(mesh, &mesh->tri[i]));
+    for (uint32_t i = 1; i < mesh->tri_count; i++)
+        largest = larger(largest, largest_of(mesh, &mesh->tri[i]));
     return largest;
 }
 
@@ -433,7 +456,8 @@ static void check_exchange(const mw_mesh *mesh, const mw_triangle *t, uint32_t k
 {
     if (t->link[k] == MW_NONE) return;
     const mw_triangle *u = &mesh->tri[mw__link_triangle(t->link[k])];
-    uint32_t a = t->v[k], b = t->v[k + 1], c = t->v[mw__prev(k)], d = u->v[mw__prev(mw__link_edge(t->link[k]))];
+    uint32_t a = t->v[k], b = t->v[k + 1], c = t->v[mw__prev(k)],
+             d = u->v[mw__prev(mw__link_edge(t->link[k]))];
     mw_triangle one = {.v = {c, a, d, c}}, other = {.v = {d, b, c, d}};
     if (!mw__has_area(mesh->point, &one) || !mw__has_area(mesh->point, &other)) return;
     mw_angle before = larger(largest_of(mesh, t), largest_of(mesh, u));
@@ -449,7 +473,8 @@ static uint32_t border_count(const mw_mesh *mesh)
     return count;
 }
 
-/* An embedding with the triangles and border edges of the Delaunay triangulation: it fills the hull with all points. */
+/* An embedding with the triangles and border edges of the Delaunay triangulation: it fills the
+ * hull with all points. */
 static void check_large(const mw_mesh *mesh, const mw_mesh *delaunay)
 {
     arrays a = arrays_of_mesh(mesh);
@@ -483,9 +508,9 @@ static void test_large_sets(void **unused)
         mw_kind_report report[2];
         for (uint32_t k = 0; k < 2; k++) {
             mw_kind_options options = {.limit = k};
-            expect_ok(
-                mw_triangulate(MW_KIND_MIN_MAX_ANGLE, &point[0].x, n, 0, &options, NULL, &report[k], &mesh[k], &error),
-                "min-max angle", &error);
+            expect_ok(mw_triangulate(MW_KIND_MIN_MAX_ANGLE, &point[0].x, n, 0, &options, NULL,
+                                     &report[k], &mesh[k], &error),
+                      "min-max angle", &error);
             check_large(mesh[k], delaunay);
         }
         mw_angle best = largest_angle(mesh[0]), local = largest_angle(mesh[1]);
@@ -520,7 +545,8 @@ static void make_bow(mw_point *point, uint32_t n)
 }
 
 /* Improve a Delaunay triangulation within limits. */
-static mw_mesh *limited_mesh(const mw_point *point, uint32_t n, mw_angle_limits limits, bool *proved)
+static mw_mesh *limited_mesh(const mw_point *point, uint32_t n, mw_angle_limits limits,
+                             bool *proved)
 {
     mw_mesh *mesh = mesh_delaunay(&point[0].x, n);
     mw_triangulation t = {mesh->point, mesh->point_count, mesh->tri, mesh->tri_count, MW_ALONE};
@@ -532,7 +558,8 @@ static mw_angle_limits random_limits(void)
 {
     mw_angle_limits limits = {UINT64_MAX, SIZE_MAX};
     if (cases_below(2)) limits.most_work = UINT64_C(1) << cases_below(24);
-    if (limits.most_work == UINT64_MAX || cases_below(2)) limits.most_seen = (size_t)1 << cases_below(16);
+    if (limits.most_work == UINT64_MAX || cases_below(2))
+        limits.most_seen = (size_t)1 << cases_below(16);
     return limits;
 }
 
@@ -549,8 +576,9 @@ static void test_limits(void **unused)
         if (kind == 8) make_parabola(point, N);
         if (kind == 9) make_bow(point, N);
         bool proved[2];
-        mw_mesh *mesh[2] = {limited_mesh(point, N, random_limits(), &proved[0]),
-                            limited_mesh(point, N, (mw_angle_limits){UINT64_MAX, SIZE_MAX}, &proved[1])};
+        mw_mesh *mesh[2] = {
+            limited_mesh(point, N, random_limits(), &proved[0]),
+            limited_mesh(point, N, (mw_angle_limits){UINT64_MAX, SIZE_MAX}, &proved[1])};
         mw_mesh *delaunay = mesh_delaunay(&point[0].x, N);
         for (int k = 0; k < 2; k++) check_large(mesh[k], delaunay);
         mw_angle limited = largest_angle(mesh[0]), best = largest_angle(mesh[1]);
@@ -593,8 +621,9 @@ static void test_many_sights(void **unused)
     make_parabola(point, N);
     mw_mesh *delaunay = mesh_delaunay(&point[0].x, N), *mesh;
     mw_error error;
-    expect_ok(mw_triangulate(MW_KIND_MIN_MAX_ANGLE, &point[0].x, N, 0, NULL, NULL, NULL, &mesh, &error),
-              "min-max angle", &error);
+    expect_ok(
+        mw_triangulate(MW_KIND_MIN_MAX_ANGLE, &point[0].x, N, 0, NULL, NULL, NULL, &mesh, &error),
+        "min-max angle", &error);
     check_large(mesh, delaunay);
     mw_mesh_destroy(mesh);
     mw_mesh_destroy(delaunay);
@@ -606,7 +635,8 @@ typedef struct attempts {
 } attempts;
 
 /* An insertion that is not decided stays within its limits and changes nothing. */
-static void check_attempt(const mw_mesh *mesh, mw_triangle *tri, mw_angle_limits limits, attempts *count)
+static void check_attempt(const mw_mesh *mesh, mw_triangle *tri, mw_angle_limits limits,
+                          attempts *count)
 {
     mw_insertion in = {.point = mesh->point,
                        .tri = tri,
@@ -625,7 +655,8 @@ static void check_attempt(const mw_mesh *mesh, mw_triangle *tri, mw_angle_limits
         count->spent++;
         /* at most an ear on either side too many, all angles compared exactly */
         assert_true(in.work <= limits.most_work || in.work - limits.most_work < 1000);
-        for (uint32_t j = 0; j < mesh->tri_count; j++) assert_memory_equal(tri[j].v, mesh->tri[j].v, sizeof tri[j].v);
+        for (uint32_t j = 0; j < mesh->tri_count; j++)
+            assert_memory_equal(tri[j].v, mesh->tri[j].v, sizeof tri[j].v);
     }
     mw__insertion_release(&in);
 }
@@ -662,7 +693,8 @@ static void test_memory(void **unused)
         mw_mesh *mesh = NULL;
         mw_error error;
         allocations_left = k;
-        status = mw_triangulate(MW_KIND_MIN_MAX_ANGLE, &point[0].x, 300, 0, NULL, NULL, NULL, &mesh, &error);
+        status = mw_triangulate(MW_KIND_MIN_MAX_ANGLE, &point[0].x, 300, 0, NULL, NULL, NULL, &mesh,
+                                &error);
         allocations_left = -1;
         assert_true(status == MW_OK || (status == MW_ERROR_MEMORY && !mesh));
         mw_mesh_destroy(mesh);

@@ -1,5 +1,6 @@
-/* Triangulations of least weight: held against all triangulations of small sets, against plain dynamic programming on
- * convex polygons, against what every triangulation of least weight must be; candidates against all edges. */
+/* Triangulations of least weight: held against all triangulations of small sets, against plain
+ * dynamic programming on convex polygons, against what every triangulation of least weight must
+ * be; candidates against all edges. */
 /* wrap: malloc calloc realloc aligned_alloc */
 #include <stdarg.h>
 #include <stddef.h>
@@ -33,13 +34,16 @@ static mw_point draw(int kind, uint32_t i, uint32_t n, uint64_t *random)
 {
     static const double on_circle[12][2] = {{5, 0},  {4, 3},   {3, 4},   {0, 5},  {-3, 4}, {-4, 3},
                                             {-5, 0}, {-4, -3}, {-3, -4}, {0, -5}, {3, -4}, {4, -3}};
-    double x = random_unit(random), y = random_unit(random), turn = 2 * PI * (kind == WHEEL ? (double)i / (n - 1) : x);
+    double x = random_unit(random), y = random_unit(random),
+           turn = 2 * PI * (kind == WHEEL ? (double)i / (n - 1) : x);
     uint32_t k = mw__random_below(random, 12);
     switch (kind) {
     case LATTICE: return (mw_point){floor(4 * x), floor(4 * y)};
     case FINE_LATTICE: return (mw_point){floor(2 * sqrt(n) * x), floor(2 * sqrt(n) * y)};
     case CIRCLE: return (mw_point){cos(turn), sin(turn)};
-    case COCIRCULAR: return y < 0.2 ? (mw_point){floor(9 * x) - 4, 0} : (mw_point){on_circle[k][0], on_circle[k][1]};
+    case COCIRCULAR:
+        return y < 0.2 ? (mw_point){floor(9 * x) - 4, 0}
+                       : (mw_point){on_circle[k][0], on_circle[k][1]};
     case CLUSTERS: return (mw_point){k % 3 + 1e-3 * normal(random), k % 2 + 1e-3 * normal(random)};
     case SLIVER: return (mw_point){x, 1e-7 * y};
     case WHEEL: return i == n - 1 ? (mw_point){0, 0} : (mw_point){cos(turn), sin(turn)};
@@ -84,20 +88,23 @@ static double area(const arrays *a)
     for (uint32_t i = 0; i < 2 * a->point_count; i++) unit = fmax(unit, fabs(a->points[i]));
     for (uint32_t t = 0; t < a->triangle_count; t++) {
         double p[6];
-        for (uint32_t k = 0; k < 6; k++) p[k] = a->points[2 * a->triangles[3 * t + k / 2] + k % 2] / unit;
+        for (uint32_t k = 0; k < 6; k++)
+            p[k] = a->points[2 * a->triangles[3 * t + k / 2] + k % 2] / unit;
         sum += turn_of(p, 0, 1, 2);
     }
     return sum;
 }
 
-/* The triangulation; NULL if the points are on one line. It is checked for being one, with no edge that could be
- * exchanged for a shorter one. */
-static mw_mesh *triangulate(const double *points, uint32_t n, uint32_t limit, mw_kind_report *report)
+/* The triangulation; NULL if the points are on one line. It is checked for being one, with no edge
+ * that could be exchanged for a shorter one. */
+static mw_mesh *triangulate(const double *points, uint32_t n, uint32_t limit,
+                            mw_kind_report *report)
 {
     mw_kind_options options = {.limit = limit};
     mw_mesh *mesh, *delaunay;
     mw_error error;
-    mw_status status = mw_triangulate(MW_KIND_MIN_WEIGHT, points, n, 2, &options, NULL, report, &mesh, &error);
+    mw_status status =
+        mw_triangulate(MW_KIND_MIN_WEIGHT, points, n, 2, &options, NULL, report, &mesh, &error);
     if (status == MW_ERROR_INPUT) return NULL;
     expect_ok(status, "triangulation", &error);
     delaunay = mesh_delaunay(points, n);
@@ -113,15 +120,16 @@ static mw_mesh *triangulate(const double *points, uint32_t n, uint32_t limit, mw
     for (uint32_t t = 0; t < a.triangle_count; t++)
         for (uint32_t k = 0; k < 3; k++) {
             const uint32_t *v = a.triangles + 3 * t, *w;
-            uint32_t p = v[k], q = v[(k + 1) % 3], apex = v[(k + 2) % 3], other = mw_mesh_neighbour(mesh, t, k, NULL),
-                     l = 0;
+            uint32_t p = v[k], q = v[(k + 1) % 3], apex = v[(k + 2) % 3],
+                     other = mw_mesh_neighbour(mesh, t, k, NULL), l = 0;
             if (k == 0) assert_true(turn_of(points, v[0], v[1], v[2]) > 0);
             twice += distance(points, p, q) * (other == MW_NONE ? 2 : 1);
             if (other == MW_NONE) continue;
             w = a.triangles + 3 * (size_t)other;
             while (w[l] == p || w[l] == q) l++;
             bool convex = turn_of(points, apex, p, w[l]) > 0 && turn_of(points, w[l], q, apex) > 0;
-            assert_true(!convex || distance(points, p, q) <= distance(points, apex, w[l]) * (1 + 1e-12));
+            assert_true(!convex ||
+                        distance(points, p, q) <= distance(points, apex, w[l]) * (1 + 1e-12));
         }
     assert_true(fabs(twice / 2 - report->edge_length) <= 1e-12 * twice);
     arrays_free(&a);
@@ -163,8 +171,8 @@ static bool is_empty(const weight_scene *s, uint32_t a, uint32_t b, uint32_t c)
 {
     if (turn_of(s->points, a, b, c) <= 0) return false;
     for (uint32_t d = 0; d < s->n; d++)
-        if (d != a && d != b && d != c && turn_of(s->points, a, b, d) >= 0 && turn_of(s->points, b, c, d) >= 0 &&
-            turn_of(s->points, c, a, d) >= 0)
+        if (d != a && d != b && d != c && turn_of(s->points, a, b, d) >= 0 &&
+            turn_of(s->points, b, c, d) >= 0 && turn_of(s->points, c, a, d) >= 0)
             return false;
     return true;
 }
@@ -271,7 +279,8 @@ static uint32_t check_reduced(const weight_scene *s)
     for (uint32_t a = 0; a < s->n; a++)
         for (uint32_t b = a + 1; b < s->n; b++)
             if (s->edge[a][b])
-                assert_true(mw__edge_push(&list, mw__edge_key(a, b) | (s->hull & bit(a, b) ? MW_EDGE_KNOWN : 0)));
+                assert_true(mw__edge_push(&list, mw__edge_key(a, b) |
+                                                     (s->hull & bit(a, b) ? MW_EDGE_KNOWN : 0)));
     assert_int_equal(mw__lmt_create(&lmt, &scaled, &list), MW_LMT_DONE);
     mw__lmt_reduce(&lmt, &effort);
     for (uint32_t e = 0; e < lmt.edge_count; e++) {
@@ -300,7 +309,8 @@ static uint32_t without_duplicates(const double *points, uint32_t n, double *out
     uint32_t kept = 0;
     for (uint32_t i = 0; i < n; i++) {
         bool seen = false;
-        for (uint32_t j = 0; j < kept; j++) seen |= out[2 * j] == points[2 * i] && out[2 * j + 1] == points[2 * i + 1];
+        for (uint32_t j = 0; j < kept; j++)
+            seen |= out[2 * j] == points[2 * i] && out[2 * j + 1] == points[2 * i + 1];
         if (seen) continue;
         out[2 * kept] = points[2 * i];
         out[2 * kept++ + 1] = points[2 * i + 1];
@@ -321,7 +331,8 @@ static void test_small(void **state)
             mw_kind_report report;
             mw_mesh *mesh = triangulate(points, n, 0, &report);
             if (mesh) {
-                double least = least_weight(different, without_duplicates(points, n, different), &all, &remaining);
+                double least = least_weight(different, without_duplicates(points, n, different),
+                                            &all, &remaining);
                 tried++;
                 optimal += report.optimal != 0;
                 assert_true(report.edge_length >= least * (1 - 1e-12));
@@ -345,7 +356,8 @@ static double polygon_weight(const double *points, uint32_t n)
         for (uint32_t i = 0; i + gap < n; i++) {
             uint32_t j = i + gap;
             double least = gap > 1 ? INFINITY : 0;
-            for (uint32_t m = i + 1; m < j; m++) least = fmin(least, best[i * n + m] + best[m * n + j]);
+            for (uint32_t m = i + 1; m < j; m++)
+                least = fmin(least, best[i * n + m] + best[m * n + j]);
             best[i * n + j] = least + distance(points, i, j);
         }
     length = best[n - 1];
@@ -378,7 +390,8 @@ static void test_convex(void **state)
         mw_mesh_destroy(mesh);
         mw_mesh_destroy(triangulate(points, n, 5, &limited));
         assert_true(limited.edge_length >= least * (1 - 1e-12));
-        assert_true(limited.optimal == (limited.largest_face <= 5) && limited.faces == report.faces);
+        assert_true(limited.optimal == (limited.largest_face <= 5) &&
+                    limited.faces == report.faces);
         free(points);
     }
 }
@@ -394,12 +407,15 @@ static void test_large(void **state)
         mw_kind_report report, delaunay, greedy;
         mw_mesh *mesh = triangulate(points, n, 0, &report), *other;
         mw_error error;
-        expect_ok(mw_triangulate(MW_KIND_GREEDY, points, n, 2, NULL, NULL, &greedy, &other, &error), "greedy", &error);
+        expect_ok(mw_triangulate(MW_KIND_GREEDY, points, n, 2, NULL, NULL, &greedy, &other, &error),
+                  "greedy", &error);
         mw_mesh_destroy(other);
-        expect_ok(mw_triangulate(MW_KIND_DELAUNAY, points, n, 2, NULL, NULL, &delaunay, &other, &error), "delaunay",
-                  &error);
+        expect_ok(
+            mw_triangulate(MW_KIND_DELAUNAY, points, n, 2, NULL, NULL, &delaunay, &other, &error),
+            "delaunay", &error);
         print_message("kind %d: %g of Delaunay, %zu faces, largest %zu, local %zu\n", kind,
-                      report.edge_length / delaunay.edge_length, report.faces, report.largest_face, report.local_faces);
+                      report.edge_length / delaunay.edge_length, report.faces, report.largest_face,
+                      report.local_faces);
         assert_true(report.edge_length <= delaunay.edge_length * (1 + 1e-12));
         assert_true(report.edge_length <= greedy.edge_length * (1 + 1e-12));
         assert_true(report.optimal == (report.local_faces == 0));
@@ -410,14 +426,16 @@ static void test_large(void **state)
     }
 }
 
-/* A regular polygon of many corners and its centre: every spoke is crossed by a candidate, so a face holds a point. */
+/* A regular polygon of many corners and its centre: every spoke is crossed by a candidate, so a
+ * face holds a point. */
 static void test_point_in_face(void **state)
 {
     (void)state;
     double *points = make_points(WHEEL, 40, 1);
     mw_kind_report report;
     mw_mesh_destroy(triangulate(points, 40, 0, &report));
-    assert_true(!report.optimal && report.local_faces == 1 && report.faces == 1 && report.largest_face == 39);
+    assert_true(!report.optimal && report.local_faces == 1 && report.faces == 1 &&
+                report.largest_face == 39);
     free(points);
 }
 
@@ -429,7 +447,8 @@ static void test_too_many(void **state)
     double *points = make_points(CIRCLE, MANY, 1);
     mw_kind_report report;
     mw_mesh_destroy(triangulate(points, MANY, 0, &report));
-    assert_true(!report.optimal && report.local_faces == 1 && report.faces == 1 && report.largest_face == MANY);
+    assert_true(!report.optimal && report.local_faces == 1 && report.faces == 1 &&
+                report.largest_face == MANY);
     free(points);
 }
 
@@ -444,15 +463,17 @@ static void test_scales(void **state)
         for (int power = -900; power <= 900; power += 1800) {
             for (int i = 0; i < 600; i++) points[i] = ldexp(points[i], power);
             mw_mesh_destroy(triangulate(points, 300, 0, &scaled));
-            assert_true(scaled.edge_length == ldexp(plain.edge_length, power) && scaled.faces == plain.faces);
+            assert_true(scaled.edge_length == ldexp(plain.edge_length, power) &&
+                        scaled.faces == plain.faces);
             for (int i = 0; i < 600; i++) points[i] = ldexp(points[i], -power);
         }
         free(points);
     }
 }
 
-/* Coordinates so far apart that scaling brings points together: the way from one to the other has no direction then,
- * and must rule out no edge. If it does, the last four sets come out too heavy. */
+/* Coordinates so far apart that scaling brings points together: the way from one to the other has
+ * no direction then, and must rule out no edge. If it does, the last four sets come out too heavy.
+ * */
 static void test_span(void **state)
 {
     (void)state;
@@ -462,7 +483,8 @@ static void test_span(void **state)
         uint64_t random = seeds[k];
         double points[2 * POINTS];
         for (int i = 0; i < POINTS; i++) {
-            int power = i < 4 ? (seeds[k] % 2 ? -1030 : -300) + (int)mw__random_below(&random, 30) : 1020;
+            int power =
+                i < 4 ? (seeds[k] % 2 ? -1030 : -300) + (int)mw__random_below(&random, 30) : 1020;
             double x = random_unit(&random) - 0.5, y = random_unit(&random) - 0.5;
             points[2 * i] = ldexp(i < 4 ? x : fabs(x), power);
             points[2 * i + 1] = ldexp(y, power);
@@ -471,8 +493,9 @@ static void test_span(void **state)
         mw_error error;
         mw_mesh *mesh;
         weight_scene s;
-        expect_ok(mw_triangulate(MW_KIND_MIN_WEIGHT, points, POINTS, 2, NULL, NULL, &report, &mesh, &error), "mesh",
-                  &error);
+        expect_ok(mw_triangulate(MW_KIND_MIN_WEIGHT, points, POINTS, 2, NULL, NULL, &report, &mesh,
+                                 &error),
+                  "mesh", &error);
         search_all(&s, points, POINTS);
         assert_true(!report.optimal || report.edge_length <= s.best * (1 + 1e-12));
         mw_mesh_destroy(mesh);
@@ -481,15 +504,18 @@ static void test_span(void **state)
 
 /* --- candidates --- */
 
-/* Is there a point in the triangle on the left of pq with base angles a little less than pi / 4.6? */
+/* Is there a point in the triangle on the left of pq with base angles a little less than pi / 4.6?
+ * */
 static bool holds_point(const double *points, uint32_t n, uint32_t p, uint32_t q)
 {
-    double ux = points[2 * q] - points[2 * p], uy = points[2 * q + 1] - points[2 * p + 1], square = ux * ux + uy * uy;
+    double ux = points[2 * q] - points[2 * p], uy = points[2 * q + 1] - points[2 * p + 1],
+           square = ux * ux + uy * uy;
     double tangent = tan(PI / 4.6) * (1 - 1e-9);
     for (uint32_t i = 0; i < n; i++) {
         double wx = points[2 * i] - points[2 * p], wy = points[2 * i + 1] - points[2 * p + 1];
         double height = ux * wy - uy * wx, along = ux * wx + uy * wy;
-        if (i != p && i != q && height > 0 && height < tangent * fmin(along, square - along)) return true;
+        if (i != p && i != q && height > 0 && height < tangent * fmin(along, square - along))
+            return true;
     }
     return false;
 }
@@ -512,7 +538,8 @@ static void check_candidates(const double *points, uint32_t n)
     uint8_t *found = calloc((size_t)n * n, 1);
     for (uint32_t i = 0; i < n; i++) vertex[i] = i;
     assert_int_equal(mw__diamond(&s, vertex, n, &effort, &list), MW_LMT_DONE);
-    for (size_t i = 0; i < list.count; i++) found[mw__edge_low(list.key[i]) * n + mw__edge_high(list.key[i])]++;
+    for (size_t i = 0; i < list.count; i++)
+        found[mw__edge_low(list.key[i]) * n + mw__edge_high(list.key[i])]++;
     for (uint32_t p = 0; p < n; p++)
         for (uint32_t q = p + 1; q < n; q++) {
             bool wanted = !holds_point(points, n, p, q) || !holds_point(points, n, q, p);
@@ -530,7 +557,8 @@ static void test_candidates(void **state)
     for (uint64_t seed = 1; seed <= 3; seed++)
         for (int kind = 0; kind < KINDS; kind++) {
             uint32_t n = 60 + 120 * (uint32_t)seed;
-            double *points = make_points(kind, n, seed), *different = malloc(2 * n * sizeof *different);
+            double *points = make_points(kind, n, seed),
+                   *different = malloc(2 * n * sizeof *different);
             check_candidates(different, without_duplicates(points, n, different));
             free(different);
             free(points);
@@ -561,9 +589,11 @@ static void test_memory(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_small),         cmocka_unit_test(test_convex),     cmocka_unit_test(test_large),
-        cmocka_unit_test(test_point_in_face), cmocka_unit_test(test_too_many),   cmocka_unit_test(test_scales),
-        cmocka_unit_test(test_span),          cmocka_unit_test(test_candidates), cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_small),    cmocka_unit_test(test_convex),
+        cmocka_unit_test(test_large),    cmocka_unit_test(test_point_in_face),
+        cmocka_unit_test(test_too_many), cmocka_unit_test(test_scales),
+        cmocka_unit_test(test_span),     cmocka_unit_test(test_candidates),
+        cmocka_unit_test(test_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

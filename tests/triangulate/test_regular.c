@@ -102,16 +102,19 @@ static uint32_t count_places(const weighted *w, bool *first)
         bool known = false;
         first[i] = true;
         for (uint32_t k = 0; k < w->n; k++) {
-            if (k == i || memcmp(w->points + 2 * i, w->points + 2 * k, 2 * sizeof(double)) != 0) continue;
+            if (k == i || memcmp(w->points + 2 * i, w->points + 2 * k, 2 * sizeof(double)) != 0)
+                continue;
             known = known || k < i;
-            if (w->weights[k] > w->weights[i] || (w->weights[k] == w->weights[i] && k < i)) first[i] = false;
+            if (w->weights[k] > w->weights[i] || (w->weights[k] == w->weights[i] && k < i))
+                first[i] = false;
         }
         places += !known;
     }
     return places;
 }
 
-static void expect_told(const weighted *w, const mw_mesh *mesh, const uint8_t *hidden, const mw_kind_report *report)
+static void expect_told(const weighted *w, const mw_mesh *mesh, const uint8_t *hidden,
+                        const mw_kind_report *report)
 {
     uint32_t vertices = 0;
     bool *used = calloc(w->n, sizeof *used), *first = calloc(w->n, sizeof *first);
@@ -141,17 +144,20 @@ static void lattices_are_regular(void **state)
     size_t hidden_sum = 0;
     (void)state;
     for (int round = 0; round < 240; round++) {
-        uint32_t n = 4 + mw__random_below(&random, 60), side = 2 + mw__random_below(&random, round % 2 ? 8 : 40);
+        uint32_t n = 4 + mw__random_below(&random, 60),
+                 side = 2 + mw__random_below(&random, round % 2 ? 8 : 40);
         weighted w = weighted_lattice(n, side, heaviest[round % 6], &random);
         if (round % 5 == 4) /* on one plane, or hardly off it */
             for (uint32_t i = 0; i < n; i++)
-                w.weights[i] = w.points[2 * i] * w.points[2 * i] + w.points[2 * i + 1] * w.points[2 * i + 1] +
+                w.weights[i] = w.points[2 * i] * w.points[2 * i] +
+                               w.points[2 * i + 1] * w.points[2 * i + 1] +
                                (round % 2 ? w.weights[i] / 8 - fmod(w.weights[i] / 8, 1) : 0);
         uint8_t *hidden = malloc(n);
         mw_kind_report report;
         mw_kind_options options = {.weights = w.weights, .hidden = hidden, .threads = 1};
         mw_mesh *mesh;
-        mw_status status = mw_triangulate(MW_KIND_REGULAR, w.points, n, 2, &options, NULL, &report, &mesh, NULL);
+        mw_status status =
+            mw_triangulate(MW_KIND_REGULAR, w.points, n, 2, &options, NULL, &report, &mesh, NULL);
         if (status == MW_OK) { /* else all points lie on a line */
             expect_regular(&w, mesh);
             expect_told(&w, mesh, hidden, &report);
@@ -174,12 +180,15 @@ static void equal_weights_are_delaunay(void **state)
     double points[2 * N], weights[N];
     (void)state;
     for (int round = 0; round < 4; round++) {
-        for (int i = 0; i < 2 * N; i++) points[i] = round % 2 ? floor(16 * random_unit(&random)) : random_unit(&random);
+        for (int i = 0; i < 2 * N; i++)
+            points[i] = round % 2 ? floor(16 * random_unit(&random)) : random_unit(&random);
         for (int i = 0; i < N; i++) weights[i] = 7.25;
         mw_mesh *mesh;
         mw_kind_report report;
         mw_kind_options options = {.weights = round < 2 ? weights : NULL};
-        assert_int_equal(mw_triangulate(MW_KIND_REGULAR, points, N, 0, &options, NULL, &report, &mesh, NULL), MW_OK);
+        assert_int_equal(
+            mw_triangulate(MW_KIND_REGULAR, points, N, 0, &options, NULL, &report, &mesh, NULL),
+            MW_OK);
         assert_int_equal(report.hidden, 0);
         mw_mesh_info info;
         assert_int_equal(mw_mesh_describe(mesh, NULL, &info, NULL), MW_OK);
@@ -203,7 +212,8 @@ static void many_points_are_regular(void **state)
     for (int i = 0; i < 2 * N; i++) points[i] = random_unit(&random);
     for (int i = 0; i < N; i++) weights[i] = 1e-4 * random_unit(&random);
     mw_kind_options options = {.weights = weights, .hidden = hidden};
-    assert_int_equal(mw_triangulate(MW_KIND_REGULAR, points, N, 0, &options, NULL, &report, &mesh, NULL), MW_OK);
+    assert_int_equal(
+        mw_triangulate(MW_KIND_REGULAR, points, N, 0, &options, NULL, &report, &mesh, NULL), MW_OK);
     assert_true(report.hidden > N / 20 && report.hidden < N);
     mw_mesh_info info;
     assert_int_equal(mw_mesh_describe(mesh, NULL, &info, NULL), MW_OK);
@@ -212,7 +222,8 @@ static void many_points_are_regular(void **state)
         uint32_t t[3], far[3];
         mw_weighted_point p[4];
         mw_mesh_triangle(mesh, i, t);
-        for (int k = 0; k < 3; k++) p[k] = (mw_weighted_point){{points[2 * t[k]], points[2 * t[k] + 1]}, weights[t[k]]};
+        for (int k = 0; k < 3; k++)
+            p[k] = (mw_weighted_point){{points[2 * t[k]], points[2 * t[k] + 1]}, weights[t[k]]};
         for (unsigned k = 0; k < 3; k++) {
             unsigned edge;
             uint32_t across = mw_mesh_neighbour(mesh, i, k, &edge);
@@ -232,7 +243,8 @@ static void many_points_are_regular(void **state)
         mw_location at = mw_locate(locator, &cursor, points[2 * i], points[2 * i + 1]);
         assert_true(at.triangle != MW_NONE);
         mw_mesh_triangle(mesh, at.triangle, t);
-        for (int k = 0; k < 3; k++) p[k] = (mw_weighted_point){{points[2 * t[k]], points[2 * t[k] + 1]}, weights[t[k]]};
+        for (int k = 0; k < 3; k++)
+            p[k] = (mw_weighted_point){{points[2 * t[k]], points[2 * t[k] + 1]}, weights[t[k]]};
         p[3] = (mw_weighted_point){{points[2 * i], points[2 * i + 1]}, weights[i]};
         assert_true(mw__power_exact(p) <= 0);
     }
@@ -252,8 +264,9 @@ static void weights_that_are_not_finite_are_refused(void **state)
         mw_mesh *mesh;
         mw_error error;
         mw_kind_options options = {.weights = weights};
-        assert_int_equal(mw_triangulate(MW_KIND_REGULAR, points, 4, 0, &options, NULL, NULL, &mesh, &error),
-                         MW_ERROR_INPUT);
+        assert_int_equal(
+            mw_triangulate(MW_KIND_REGULAR, points, 4, 0, &options, NULL, NULL, &mesh, &error),
+            MW_ERROR_INPUT);
         assert_null(mesh);
         assert_int_equal(error.vertex, 2);
     }
@@ -263,11 +276,13 @@ static void weights_that_are_not_finite_are_refused(void **state)
 static void extreme_weights(void **state)
 {
     (void)state;
-    const double points[] = {0, 0, 4, 0, 4, 4, 0, 4, 2, 2, 1, 3}, weights[] = {0, 0, 0, 0, 1e308, -1e308};
+    const double points[] = {0, 0, 4, 0, 4, 4, 0, 4, 2, 2, 1, 3},
+                 weights[] = {0, 0, 0, 0, 1e308, -1e308};
     uint8_t hidden[6];
     mw_mesh *mesh;
     mw_kind_options options = {.weights = weights, .hidden = hidden};
-    assert_int_equal(mw_triangulate(MW_KIND_REGULAR, points, 6, 0, &options, NULL, NULL, &mesh, NULL), MW_OK);
+    assert_int_equal(
+        mw_triangulate(MW_KIND_REGULAR, points, 6, 0, &options, NULL, NULL, &mesh, NULL), MW_OK);
     const uint8_t want[6] = {0, 0, 0, 0, 0, 1};
     assert_memory_equal(hidden, want, 6);
     assert_int_equal(mw_mesh_triangle_count(mesh), 4);
@@ -285,7 +300,8 @@ static void failing_allocations_are_reported(void **state)
         mw_mesh *mesh;
         assert_true(k < 1000);
         allocations_left = k;
-        status = mw_triangulate(MW_KIND_REGULAR, w.points, w.n, 0, &options, NULL, NULL, &mesh, NULL);
+        status =
+            mw_triangulate(MW_KIND_REGULAR, w.points, w.n, 0, &options, NULL, NULL, &mesh, NULL);
         allocations_left = -1;
         assert_true(status == MW_OK || (status == MW_ERROR_MEMORY && !mesh));
         mw_mesh_destroy(mesh);
@@ -297,9 +313,12 @@ static void failing_allocations_are_reported(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(lattices_are_regular),    cmocka_unit_test(equal_weights_are_delaunay),
-        cmocka_unit_test(many_points_are_regular), cmocka_unit_test(weights_that_are_not_finite_are_refused),
-        cmocka_unit_test(extreme_weights),         cmocka_unit_test(failing_allocations_are_reported),
+        cmocka_unit_test(lattices_are_regular),
+        cmocka_unit_test(equal_weights_are_delaunay),
+        cmocka_unit_test(many_points_are_regular),
+        cmocka_unit_test(weights_that_are_not_finite_are_refused),
+        cmocka_unit_test(extreme_weights),
+        cmocka_unit_test(failing_allocations_are_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,5 @@
-/* Segments forced into triangulations: the pieces, the triangles, and the Delaunay property, on points of small grids. */
+/* Segments forced into triangulations: the pieces, the triangles, and the Delaunay property, on
+ * points of small grids. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -32,7 +33,8 @@ static double turn(const segment_scene *s, uint32_t a, uint32_t b, uint32_t c)
 /* Different points of a grid; false if they lie on one line. */
 static bool make_points(segment_scene *s)
 {
-    uint32_t grid = 3 + mw__random_below(&s->random, 8), wanted = 3 + mw__random_below(&s->random, MAX_POINTS - 3);
+    uint32_t grid = 3 + mw__random_below(&s->random, 8),
+             wanted = 3 + mw__random_below(&s->random, MAX_POINTS - 3);
     s->n = 0;
     for (uint32_t i = 0; i < wanted; i++) {
         mw_point p = {mw__random_below(&s->random, grid), mw__random_below(&s->random, grid)};
@@ -45,7 +47,8 @@ static bool make_points(segment_scene *s)
     return false;
 }
 
-/* Triangles counter-clockwise and linked, pieces the same from both sides; locally Delaunay but at pieces. */
+/* Triangles counter-clockwise and linked, pieces the same from both sides; locally Delaunay but at
+ * pieces. */
 static void assert_sound(const segment_scene *s)
 {
     for (uint32_t t = 0; t < s->tri_count; t++) {
@@ -67,7 +70,8 @@ static void assert_sound(const segment_scene *s)
             assert_int_equal(s->net.subsegment[3 * other + e], piece);
             mw_point apex = s->point[s->tri[other].v[mw__prev(e)]];
             if (piece == MW_NONE)
-                assert_true(mw__incircle(s->point[tri->v[0]], s->point[tri->v[1]], s->point[tri->v[2]], apex) <= 0);
+                assert_true(mw__incircle(s->point[tri->v[0]], s->point[tri->v[1]],
+                                         s->point[tri->v[2]], apex) <= 0);
         }
     }
     for (uint32_t v = 0; v < s->n; v++) {
@@ -116,7 +120,9 @@ static bool force(segment_scene *s, uint32_t a, uint32_t b, uint32_t *made)
 static void run_scene(segment_scene *s, uint32_t *whole, uint32_t *stopped)
 {
     if (!make_points(s)) return;
-    assert_int_equal(mw__delaunay_triangles(s->point, s->n, MW_ALONE, NULL, NULL, &s->tri, &s->tri_count, NULL), MW_OK);
+    assert_int_equal(
+        mw__delaunay_triangles(s->point, s->n, MW_ALONE, NULL, NULL, &s->tri, &s->tri_count, NULL),
+        MW_OK);
     assert_true(mw__segment_insertion_create(&s->net, s->point, s->n, s->tri, s->tri_count));
     assert_sound(s);
     uint32_t made = 0;
@@ -163,10 +169,13 @@ static void test_long_channel(void **state)
     uint32_t tri_count, from = 2 * N, to = 2 * N + 1;
     mw_segment_insertion net;
     mw_subsegment piece;
-    assert_int_equal(mw__delaunay_triangles(point, 2 * N + 2, MW_ALONE, NULL, NULL, &tri, &tri_count, NULL), MW_OK);
+    assert_int_equal(
+        mw__delaunay_triangles(point, 2 * N + 2, MW_ALONE, NULL, NULL, &tri, &tri_count, NULL),
+        MW_OK);
     assert_true(mw__segment_insertion_create(&net, point, 2 * N + 2, tri, tri_count));
     assert_int_equal(mw__insert_subsegment(&net, &from, &to, &piece), MW_SUBSEGMENT_DONE);
-    assert_true(from == to && piece.from == 2 * N && piece.to == 2 * N + 1 && net.subsegment_count == 1);
+    assert_true(from == to && piece.from == 2 * N && piece.to == 2 * N + 1 &&
+                net.subsegment_count == 1);
     uint32_t crossing = 0, sides = 0;
     for (uint32_t t = 0; t < tri_count; t++)
         for (uint32_t k = 0; k < 3; k++) {

@@ -64,7 +64,8 @@ static void test_expansions(void **unused)
             mpz_sub(y, y, z);
             assert_int_equal(mpz_cmp(x, y), 0);
         }
-        for (int k = 0; k < 2; k++) cross[k] = mw__expansion_cross(&arena, e[k], e[1], e[2 - k], e[3]);
+        for (int k = 0; k < 2; k++)
+            cross[k] = mw__expansion_cross(&arena, e[k], e[1], e[2 - k], e[3]);
         mw_expansion sum = mw__expansion_add(&arena, cross[0], cross[1]);
         mw_expansion difference = mw__expansion_subtract(&arena, cross[0], cross[1]);
         mw_expansion product = mw__expansion_multiply(&arena, e[0], cross[1]);
@@ -117,7 +118,8 @@ static void test_integers(void **unused)
         mw_big a, b, r;
         random_big(&a);
         random_big(&b);
-        if (cases_below(8) == 0) memcpy(&b, &a, sizeof b), b.sign = cases_below(2) ? a.sign : -a.sign;
+        if (cases_below(8) == 0)
+            memcpy(&b, &a, sizeof b), b.sign = cases_below(2) ? a.sign : -a.sign;
         import(x, &a);
         import(y, &b);
         mw__big_multiply(&r, &a, &b);

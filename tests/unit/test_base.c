@@ -31,7 +31,8 @@ static void test_curve(void **state)
             at[rank] = x << 8 | y;
         }
     for (uint32_t i = 1; i < SIDE * SIDE; i++) {
-        int dx = (int)(at[i] >> 8) - (int)(at[i - 1] >> 8), dy = (int)(at[i] & 255) - (int)(at[i - 1] & 255);
+        int dx = (int)(at[i] >> 8) - (int)(at[i - 1] >> 8),
+            dy = (int)(at[i] & 255) - (int)(at[i - 1] & 255);
         assert_int_equal(abs(dx) + abs(dy), 1);
     }
 }
@@ -48,8 +49,8 @@ static void test_odd_extents(void **state)
     const double values[] = {0, 1, -1, 1e308, -1e308, INFINITY, -INFINITY, NAN, 5e-324};
     for (size_t e = 0; e < sizeof extents / sizeof *extents; e++) {
         mw_hilbert hilbert = mw__hilbert(extents[e], extents[e] + 2);
-        for (size_t i = 0; i < 9; i++)
-            for (size_t j = 0; j < 9; j++) (void)mw__hilbert_key(&hilbert, values[i], values[j]); /* UBSan looks on */
+        for (size_t i = 0; i < 9; i++) /* UBSan looks on */
+            for (size_t j = 0; j < 9; j++) (void)mw__hilbert_key(&hilbert, values[i], values[j]);
     }
     const double low[2] = {0, 0}, high[2] = {1, 1};
     mw_hilbert hilbert = mw__hilbert(low, high);
@@ -63,10 +64,12 @@ static void test_sort(void **state)
     uint64_t random = 1;
     for (uint32_t n = 0; n < 5000; n = n * 3 + 1) {
         mw_key *key = malloc((2 * (size_t)n + 1) * sizeof *key);
-        for (uint32_t i = 0; i < n; i++) key[i] = (mw_key){(uint32_t)mw__random(&random) >> (n % 2 ? 0 : 24), i};
+        for (uint32_t i = 0; i < n; i++)
+            key[i] = (mw_key){(uint32_t)mw__random(&random) >> (n % 2 ? 0 : 24), i};
         mw__sort_keys(key, key + n, n);
         for (uint32_t i = 1; i < n; i++)
-            assert_true(key[i - 1].key < key[i].key || (key[i - 1].key == key[i].key && key[i - 1].item < key[i].item));
+            assert_true(key[i - 1].key < key[i].key ||
+                        (key[i - 1].key == key[i].key && key[i - 1].item < key[i].item));
         free(key);
     }
 }
@@ -108,18 +111,21 @@ static void test_errors(void **state)
     assert_int_equal(error.vertex, 4);
     assert_int_equal(error.line, -1);
     assert_int_equal(mw__fail(NULL, MW_ERROR_LIMIT, "nobody listens"), MW_ERROR_LIMIT);
-    for (int status = 0; status <= MW_STATUS_COUNT; status++) assert_non_null(mw_status_text((mw_status)status));
+    for (int status = 0; status <= MW_STATUS_COUNT; status++)
+        assert_non_null(mw_status_text((mw_status)status));
     assert_string_equal(mw_version(), MW_VERSION_STRING);
     char version[32];
-    snprintf(version, sizeof version, "%d.%d.%d", MW_VERSION_MAJOR, MW_VERSION_MINOR, MW_VERSION_PATCH);
+    snprintf(version, sizeof version, "%d.%d.%d", MW_VERSION_MAJOR, MW_VERSION_MINOR,
+             MW_VERSION_PATCH);
     assert_string_equal(version, MW_VERSION_STRING);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_curve),        cmocka_unit_test(test_odd_extents), cmocka_unit_test(test_sort),
-        cmocka_unit_test(test_random_below), cmocka_unit_test(test_allocation),  cmocka_unit_test(test_errors),
+        cmocka_unit_test(test_curve),      cmocka_unit_test(test_odd_extents),
+        cmocka_unit_test(test_sort),       cmocka_unit_test(test_random_below),
+        cmocka_unit_test(test_allocation), cmocka_unit_test(test_errors),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

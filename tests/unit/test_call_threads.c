@@ -20,10 +20,13 @@ enum { POINTS = 20000, THREADS = 3 };
 
 static atomic_int made, allowed; /* threads */
 
-int __real_pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*run)(void *), void *argument);
-int __wrap_pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*run)(void *), void *argument);
+int __real_pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*run)(void *),
+                          void *argument);
+int __wrap_pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*run)(void *),
+                          void *argument);
 
-int __wrap_pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*run)(void *), void *argument)
+int __wrap_pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*run)(void *),
+                          void *argument)
 {
     if (made >= allowed) return EAGAIN;
     made++;
@@ -73,7 +76,8 @@ static void test_threads_end_with_the_call(void **state)
     call_inputs in = call_inputs_make(POINTS, environment_print_seed("threads end", 2));
     (void)state;
     allowed = INT32_MAX;
-    call_sum(&long_calls[0], &in, THREADS); /* a sanitizer makes a thread of its own at the first one */
+    /* a sanitizer makes a thread of its own at the first one */
+    call_sum(&long_calls[0], &in, THREADS);
     usleep(100000);
     int before = threads_now();
     for (size_t i = 0; i < long_call_count; i++) {
@@ -94,7 +98,8 @@ static void test_refused_threads(void **state)
         if (call_sum(&long_calls[i], &in, THREADS) != sum)
             fail_msg("%s: other results without threads", long_calls[i].name);
         allowed = 1;
-        if (call_sum(&long_calls[i], &in, THREADS) != sum) fail_msg("%s: other results with one", long_calls[i].name);
+        if (call_sum(&long_calls[i], &in, THREADS) != sum)
+            fail_msg("%s: other results with one", long_calls[i].name);
     }
     call_inputs_release(&in);
 }

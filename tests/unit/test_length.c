@@ -47,7 +47,8 @@ static int oracle_compare_length(const double p[8])
     return sign;
 }
 
-/* Half of the cases: the second segment is the first one, turned or mirrored, and moved by what rounding may spoil. */
+/* Half of the cases: the second segment is the first one, turned or mirrored, and moved by what
+ * rounding may spoil. */
 static void generate_lengths(double p[8])
 {
     cases_generate(p, 8, 2);
@@ -76,7 +77,8 @@ static void test_compare_length(void **unused)
         assert_int_equal(mw__compare_length_exact(at(p, 3), at(p, 2), at(p, 0), at(p, 1)), -order);
         double s = mw__square_length(at(p, 0), at(p, 1)), t = mw__square_length(at(p, 2), at(p, 3));
         bool shorter = mw__surely_shorter(s, t), longer = mw__surely_shorter(t, s);
-        if ((shorter && order >= 0) || (longer && order <= 0)) fail_case("surely_shorter", p, 8, order);
+        if ((shorter && order >= 0) || (longer && order <= 0))
+            fail_case("surely_shorter", p, 8, order);
         equal += order == 0;
         decided += shorter || longer;
     }

@@ -1,5 +1,6 @@
-/* A line in space against edges and planes, by GMP; and what it touches of a surface, by brute force in integers on lattices,
- * where everything coincides often. MW_TEST_LONG=1 runs a hundred times as many cases, MW_TEST_SEED=n other ones. */
+/* A line in space against edges and planes, by GMP; and what it touches of a surface, by brute
+ * force in integers on lattices, where everything coincides often. MW_TEST_LONG=1 runs a hundred
+ * times as many cases, MW_TEST_SEED=n other ones. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -39,9 +40,10 @@ static mw_line line_of(const double *p)
     return (mw_line){{p[0], p[1], p[2]}, {p[3], p[4], p[5]}};
 }
 
-/* --- sides -------------------------------------------------------------------------------------------------------- */
+/* --- sides ------------------------------------------------------------------------------------ */
 
-/* How much of its bound the error of a rounded side takes: |side - truth| / (bound + u |side|), at most 1. */
+/* How much of its bound the error of a rounded side takes: |side - truth| / (bound + u |side|), at
+ * most 1. */
 static double error_share(double side, double bound, long exponent)
 {
     mpq_t value, exact;
@@ -65,7 +67,8 @@ static void check_side(const double p[12])
     if (sign(mw__side(&line, p + 6, p + 9)) != mpz_sgn(truth.result)) fail_case("side", p, 12, 0);
     double exact = mw__side_exact(&line, p + 6, p + 9);
     if (!predicate_oracle_agrees(&truth, exponent, exact)) fail_case("side_exact", p, 12, exact);
-    if (sign(mw__facing(p + 3, p, p + 6, p + 9)) != mpz_sgn(truth.result)) fail_case("facing", p, 12, 0);
+    if (sign(mw__facing(p + 3, p, p + 6, p + 9)) != mpz_sgn(truth.result))
+        fail_case("facing", p, 12, 0);
 }
 
 static void test_known_sides(void **unused)
@@ -76,9 +79,11 @@ static void test_known_sides(void **unused)
     assert_true(mw__side(&line, a, b) == -2);
     assert_true(mw__side(&line, b, a) == 2);
     assert_true(mw__side(&line, c, a) == 0);
-    assert_true(mw__facing(line.m, a, b, c) < 0); /* counter-clockwise from above, where the line comes from */
+    /* counter-clockwise from above, where the line comes from */
+    assert_true(mw__facing(line.m, a, b, c) < 0);
     const double bad[3] = {0, NAN, 1}, far[3] = {INFINITY, 0, 0};
-    assert_true(mw__side(&line, a, bad) == 0 && mw__side(&line, bad, b) == 0 && mw__side(&line, a, far) == 0);
+    assert_true(mw__side(&line, a, bad) == 0 && mw__side(&line, bad, b) == 0 &&
+                mw__side(&line, a, far) == 0);
     assert_true(mw__facing(line.m, bad, b, c) == 0 && mw__facing(line.m, a, far, c) == 0);
 }
 
@@ -97,8 +102,8 @@ static void test_sides(void **unused)
     assert_true(zeros > 5000);
 }
 
-/* The bound of the filter holds for every side, and the worst case comes near enough to tell if it were too small: differences
- * just above a power of two, all of them rounded. */
+/* The bound of the filter holds for every side, and the worst case comes near enough to tell if it
+ * were too small: differences just above a power of two, all of them rounded. */
 static void test_bound(void **unused)
 {
     (void)unused;
@@ -106,7 +111,8 @@ static void test_bound(void **unused)
     for (long i = cases_count(200000); i > 0; i--) {
         double p[12], bound, noise = ldexp(1, -(int)cases_below(12));
         for (int k = 0; k < 3; k++) p[k] = 0x1p-10 * cases_uniform();
-        for (int k = 3; k < 12; k++) p[k] = ((double)cases_below(3) - 1) * (1 + noise * fabs(cases_uniform()));
+        for (int k = 3; k < 12; k++)
+            p[k] = ((double)cases_below(3) - 1) * (1 + noise * fabs(cases_uniform()));
         mw_line line = line_of(p);
         double side = mw__side_rounded(&line, p + 6, p + 9, &bound);
         worst = fmax(worst, error_share(side, bound, line_oracle_side(&truth, p)));
@@ -115,7 +121,7 @@ static void test_bound(void **unused)
     assert_true(worst <= 1 && worst > 0.6);
 }
 
-/* --- hits --------------------------------------------------------------------------------------------------------- */
+/* --- hits ------------------------------------------------------------------------------------- */
 
 static void corners_at(const double *p, mw_corners c)
 {
@@ -126,7 +132,8 @@ static void corners_at(const double *p, mw_corners c)
 static void generate_tie(double p[LINE_ORACLE_COORDINATES])
 {
     uint32_t size = cases_below(2) ? 8 : 1 << 20;
-    for (int i = 3; i < LINE_ORACLE_COORDINATES; i++) p[i] = 2 * ((double)cases_below(size) - size / 2);
+    for (int i = 3; i < LINE_ORACLE_COORDINATES; i++)
+        p[i] = 2 * ((double)cases_below(size) - size / 2);
     uint32_t a = cases_below(3), b = cases_below(3), along = cases_below(5);
     bool edge = cases_below(2);
     for (uint32_t k = 0; k < 3; k++) {
@@ -176,8 +183,10 @@ static void test_comparisons(void **unused)
         int order = mw__compare_hits(&line, s, t), to = mw__compare_hit_to(&line, s, p[24]);
         if (order != line_oracle_compare_hits(&line_truth))
             fail_case("compare_hits", p, LINE_ORACLE_COORDINATES, order);
-        if (mw__compare_hits(&line, t, s) != -order) fail_case("compare_hits", p, LINE_ORACLE_COORDINATES, -order);
-        if (to != line_oracle_compare_hit_to(&line_truth)) fail_case("compare_hit_to", p, LINE_ORACLE_COORDINATES, to);
+        if (mw__compare_hits(&line, t, s) != -order)
+            fail_case("compare_hits", p, LINE_ORACLE_COORDINATES, -order);
+        if (to != line_oracle_compare_hit_to(&line_truth))
+            fail_case("compare_hit_to", p, LINE_ORACLE_COORDINATES, to);
         assert_int_equal(mw__compare_hit_to(&line, s, INFINITY), -1);
         ties += order == 0;
         reached += to == 0;
@@ -285,10 +294,12 @@ static bool sides_agree(const double told[3], mpz_t side[3], const long exponent
     return right;
 }
 
-/* Let the line go through a vertex, a point of an edge or one inside, as far as rounding lets it. */
+/* Let the line go through a vertex, a point of an edge or one inside, as far as rounding lets it.
+ * */
 static void aim(double p[15])
 {
-    static const double weights[][3] = {{1, 0, 0}, {0.5, 0.5, 0}, {0.75, 0.25, 0}, {0.5, 0.25, 0.25}};
+    static const double weights[][3] = {
+        {1, 0, 0}, {0.5, 0.5, 0}, {0.75, 0.25, 0}, {0.5, 0.25, 0.25}};
     const double *weight = weights[cases_below(4)];
     double along = (double)cases_below(3) - 1;
     uint32_t first = cases_below(3);
@@ -337,7 +348,7 @@ static void test_weights(void **unused)
     assert_true(met > 20000 && zeros > 3000 && plain > 2000);
 }
 
-/* --- touches on small lattices ------------------------------------------------------------------------------------ */
+/* --- touches on small lattices ---------------------------------------------------------------- */
 
 enum { MOST_VERTICES = 14, MOST_TRIANGLES = 40 };
 
@@ -356,15 +367,19 @@ static void generate_surface(lattice *l)
     l->count = 2 + cases_below(MOST_TRIANGLES - 1);
     for (uint32_t i = 0; i < l->vertex_count; i++)
         for (uint32_t k = 0; k < 3; k++)
-            points[3 * i + k] = (double)(l->v[i][k] = 4 * (int64_t)cases_below(k < 2 ? size : depth + 1));
+            points[3 * i + k] =
+                (double)(l->v[i][k] = 4 * (int64_t)cases_below(k < 2 ? size : depth + 1));
     for (uint32_t i = 0; i < 3 * l->count; i++) {
         uint32_t *v = &l->triangles[i];
         *v = cases_below(l->vertex_count);
         if (cases_below(8) == 0) continue; /* a vertex may be repeated */
-        while ((i % 3 > 0 && *v == v[-1]) || (i % 3 > 1 && *v == v[-2])) *v = cases_below(l->vertex_count);
+        while ((i % 3 > 0 && *v == v[-1]) || (i % 3 > 1 && *v == v[-2]))
+            *v = cases_below(l->vertex_count);
     }
-    mw_arrays arrays = {
-        .points = points, .point_count = l->vertex_count, .triangles = l->triangles, .triangle_count = l->count};
+    mw_arrays arrays = {.points = points,
+                        .point_count = l->vertex_count,
+                        .triangles = l->triangles,
+                        .triangle_count = l->count};
     mw_surface_options options = {.tolerant = 1, .weld = (int)cases_below(2)};
     assert_int_equal(mw_surface_create(&arrays, &options, &l->surface, NULL), MW_OK);
 }
@@ -380,7 +395,10 @@ static void generate_line(lattice *l)
     } while (l->m[0] == 0 && l->m[1] == 0 && l->m[2] == 0);
     for (int k = 0; k < 3; k++) {
         int64_t a = l->v[t[0]][k], b = l->v[t[1]][k];
-        l->q[k] = kind == 0 ? a : kind == 1 ? (a + b) / 2 : kind == 2 ? (3 * a + b) / 4 : (int64_t)cases_below(12);
+        l->q[k] = kind == 0   ? a
+                  : kind == 1 ? (a + b) / 2
+                  : kind == 2 ? (3 * a + b) / 4
+                              : (int64_t)cases_below(12);
     }
     int64_t back = (int64_t)cases_below(5) - 2;
     for (int k = 0; k < 3; k++) {
@@ -397,7 +415,8 @@ static int64_t dot(const int64_t a[3], const int64_t b[3])
 
 static void cross(int64_t r[3], const int64_t a[3], const int64_t b[3])
 {
-    for (int k = 0; k < 3; k++) r[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
+    for (int k = 0; k < 3; k++)
+        r[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
 }
 
 static void minus(int64_t r[3], const int64_t a[3], const int64_t b[3])
@@ -405,7 +424,8 @@ static void minus(int64_t r[3], const int64_t a[3], const int64_t b[3])
     for (int k = 0; k < 3; k++) r[k] = a[k] - b[k];
 }
 
-/* Where the line meets a triangle's plane: at n / m along it, which is the point p / m. m is 0 where they are parallel. */
+/* Where the line meets a triangle's plane: at n / m along it, which is the point p / m. m is 0
+ * where they are parallel. */
 typedef struct line_place {
     int64_t n, m, p[3];
 } line_place;
@@ -449,9 +469,12 @@ static bool on_edge(const lattice *l, uint32_t t, uint32_t k, const line_place *
     const int64_t *a = corner(l, t, k), *b = corner(l, t, k + 1);
     for (int i = 0; i < 3; i++) {
         int j = (i + 1) % 3;
-        int64_t low = (a[i] < b[i] ? a[i] : b[i]) * at->m, high = (a[i] < b[i] ? b[i] : a[i]) * at->m;
-        if (at->m < 0 ? at->p[i] > low || at->p[i] < high : at->p[i] < low || at->p[i] > high) return false;
-        if ((b[i] - a[i]) * (at->p[j] - at->m * a[j]) != (b[j] - a[j]) * (at->p[i] - at->m * a[i])) return false;
+        int64_t low = (a[i] < b[i] ? a[i] : b[i]) * at->m,
+                high = (a[i] < b[i] ? b[i] : a[i]) * at->m;
+        if (at->m < 0 ? at->p[i] > low || at->p[i] < high : at->p[i] < low || at->p[i] > high)
+            return false;
+        if ((b[i] - a[i]) * (at->p[j] - at->m * a[j]) != (b[j] - a[j]) * (at->p[i] - at->m * a[i]))
+            return false;
     }
     return true;
 }
@@ -463,7 +486,8 @@ static bool is_flat(const lattice *l, uint32_t t)
     return normal[0] == 0 && normal[1] == 0 && normal[2] == 0;
 }
 
-/* The lowest triangle touched of those linked to t through edges at its place; `through_flat`: also through flat triangles. */
+/* The lowest triangle touched of those linked to t through edges at its place; `through_flat`:
+ * also through flat triangles. */
 static uint32_t brute_lowest(const lattice *l, uint32_t t, bool through_flat)
 {
     int64_t normal[3];
@@ -536,7 +560,8 @@ static void check_reach(const lattice *l, uint32_t t)
         if (brute_touch(l, s) >= 0) continue;
         line_place other = place_of(l, s, normal);
         int64_t nearer = llabs(at.n * other.m) - llabs(other.n * at.m);
-        assert_int_equal(mw__touch_is_better(l->surface, &l->line, t, s), nearer < 0 || (nearer == 0 && t < s));
+        assert_int_equal(mw__touch_is_better(l->surface, &l->line, t, s),
+                         nearer < 0 || (nearer == 0 && t < s));
     }
 }
 
@@ -569,9 +594,11 @@ static void test_touches(void **unused)
         mw_surface_destroy(l.surface);
     }
     fprintf(stderr,
-            "%ld touched, %ld with a lower one, %ld of them behind flat triangles; %ld from behind; %ld again\n",
+            "%ld touched, %ld with a lower one, %ld of them behind flat triangles; %ld from "
+            "behind; %ld again\n",
             touched, lowered, by_flat, backs, again);
-    assert_true(touched > 50000 && lowered > 7000 && by_flat > 500 && backs > 50000 && again > 5000);
+    assert_true(touched > 50000 && lowered > 7000 && by_flat > 500 && backs > 50000 &&
+                again > 5000);
 }
 
 /* A fan of more triangles than anything that is remembered: from each, the first is found. */
@@ -588,11 +615,13 @@ static void test_large_fan(void **unused)
     }
     points[3 * N + 2] = 1;
     mw_surface *surface;
-    mw_arrays arrays = {.points = points, .point_count = N + 1, .triangles = triangles, .triangle_count = N};
+    mw_arrays arrays = {
+        .points = points, .point_count = N + 1, .triangles = triangles, .triangle_count = N};
     assert_int_equal(mw_surface_create(&arrays, NULL, &surface, NULL), MW_OK);
     mw_line line = {{0, 0, 9}, {0, 0, -1}};
     for (uint32_t t = 0; t < N; t++) assert_int_equal(mw__lowest_touched(surface, &line, t), 0);
-    mw_surface_points(surface)[3 * 500] = NAN; /* triangles 499 and 500 are in the way, not in the answer */
+    /* triangles 499 and 500 are in the way, not in the answer */
+    mw_surface_points(surface)[3 * 500] = NAN;
     for (uint32_t t = 0; t < N; t++) {
         bool whole = t != 499 && t != 500;
         assert_int_equal(mw__line_touches(surface, &line, t), whole);
@@ -601,13 +630,15 @@ static void test_large_fan(void **unused)
     mw_surface_destroy(surface);
 }
 
-/* Triangles that a weld joined are neighbours still when their vertices move apart, but no longer at one place. */
+/* Triangles that a weld joined are neighbours still when their vertices move apart, but no longer
+ * at one place. */
 static void test_parted_weld(void **unused)
 {
     (void)unused;
     const double points[] = {2, 0, 0, 0, 0, 0, 1, -2, 0, 0, 0, 0, 2, 0, 0, 1, 2, 0};
     const uint32_t triangles[] = {0, 1, 2, 3, 4, 5};
-    mw_arrays arrays = {.points = points, .point_count = 6, .triangles = triangles, .triangle_count = 2};
+    mw_arrays arrays = {
+        .points = points, .point_count = 6, .triangles = triangles, .triangle_count = 2};
     mw_surface_options options = {.weld = 1};
     mw_surface *surface;
     assert_int_equal(mw_surface_create(&arrays, &options, &surface, NULL), MW_OK);
@@ -627,8 +658,10 @@ static void test_no_touch(void **unused)
 {
     (void)unused;
     mw_touch touch = mw__touch_none(MW_TOUCH_LIMIT);
-    assert_true(touch.state == MW_TOUCH_LIMIT && touch.triangle == MW_NONE && touch.where == MW_BAD);
-    assert_true(touch.local == 255 && isnan(touch.distance) && isnan(touch.weight[0]) && isnan(touch.weight[2]));
+    assert_true(touch.state == MW_TOUCH_LIMIT && touch.triangle == MW_NONE &&
+                touch.where == MW_BAD);
+    assert_true(touch.local == 255 && isnan(touch.distance) && isnan(touch.weight[0]) &&
+                isnan(touch.weight[2]));
 }
 
 static int set_up(void **unused)
@@ -651,10 +684,11 @@ static int tear_down(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_known_sides), cmocka_unit_test(test_sides),     cmocka_unit_test(test_bound),
-        cmocka_unit_test(test_comparisons), cmocka_unit_test(test_distances), cmocka_unit_test(test_weights),
-        cmocka_unit_test(test_touches),     cmocka_unit_test(test_large_fan), cmocka_unit_test(test_parted_weld),
-        cmocka_unit_test(test_no_touch),
+        cmocka_unit_test(test_known_sides), cmocka_unit_test(test_sides),
+        cmocka_unit_test(test_bound),       cmocka_unit_test(test_comparisons),
+        cmocka_unit_test(test_distances),   cmocka_unit_test(test_weights),
+        cmocka_unit_test(test_touches),     cmocka_unit_test(test_large_fan),
+        cmocka_unit_test(test_parted_weld), cmocka_unit_test(test_no_touch),
     };
     return cmocka_run_group_tests_name("line", tests, set_up, tear_down);
 }

@@ -92,7 +92,9 @@ static int sign_of(double x)
 static double draw_number(int kind, uint64_t *random)
 {
     double u = random_unit(random);
-    int exponent = kind < 4 ? 0 : (int)(random_unit(random) * (kind == 4 ? 400 : 2000)) - (kind == 4 ? 200 : 1000);
+    int exponent =
+        kind < 4 ? 0
+                 : (int)(random_unit(random) * (kind == 4 ? 400 : 2000)) - (kind == 4 ? 200 : 1000);
     return kind == 0   ? floor(5 * u)
            : kind == 1 ? u - 0.5
            : kind == 2 ? 1 + 0x1p-52 * floor(8 * u)
@@ -139,7 +141,8 @@ static void equal_weights_are_incircle(void **state)
         mw_weighted_point p[4];
         double weight = draw_number(i % 4, &random);
         for (int k = 0; k < 4; k++)
-            p[k] = (mw_weighted_point){{draw_number(i % 4, &random), draw_number(i % 4, &random)}, weight};
+            p[k] = (mw_weighted_point){{draw_number(i % 4, &random), draw_number(i % 4, &random)},
+                                       weight};
         int want = sign_of(mw__incircle(p[0].at, p[1].at, p[2].at, p[3].at));
         assert_int_equal(sign_of(mw__power(p)), want);
     }
@@ -151,8 +154,8 @@ static void power_on_a_line_is_exact(void **state)
     (void)state;
     for (int i = 0; i < 4000; i++) {
         mw_weighted_point p[3];
-        double size = ldexp(1, (int)(random_unit(&random) * 600) - 300), x = floor(5 * random_unit(&random)),
-               y = floor(5 * random_unit(&random));
+        double size = ldexp(1, (int)(random_unit(&random) * 600) - 300),
+               x = floor(5 * random_unit(&random)), y = floor(5 * random_unit(&random));
         if (x == 0 && y == 0) continue;
         for (int k = 0; k < 3; k++) {
             double t = floor(9 * random_unit(&random)) - 4;

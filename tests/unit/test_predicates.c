@@ -1,5 +1,6 @@
-/* The predicates against GMP: random, nearly degenerate and degenerate input, the ends of the range of expansions, and
- * what lies beyond it. MW_TEST_LONG=1 runs a hundred times as many cases, MW_TEST_SEED=n other ones. */
+/* The predicates against GMP: random, nearly degenerate and degenerate input, the ends of the
+ * range of expansions, and what lies beyond it. MW_TEST_LONG=1 runs a hundred times as many cases,
+ * MW_TEST_SEED=n other ones. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -26,7 +27,8 @@ static void fail_case(const char *what, const double *p, int n, double value)
     fail();
 }
 
-/* One predicate of `dimension` * n coordinates: as users call it, its exact stage alone, and the truth. */
+/* One predicate of `dimension` * n coordinates: as users call it, its exact stage alone, and the
+ * truth. */
 typedef struct predicate {
     const char *name;
     int coordinates, dimension;
@@ -73,10 +75,13 @@ static double exact_incircle(const double *p)
     return mw__incircle_exact(at(p, 0), at(p, 1), at(p, 2), at(p, 3));
 }
 
-static const predicate orient2d = {"orient2d", 6, 2, filtered_orient2d, exact_orient2d, predicate_oracle_orient2d};
+static const predicate orient2d = {
+    "orient2d", 6, 2, filtered_orient2d, exact_orient2d, predicate_oracle_orient2d};
 static const predicate dot2d = {"dot2d", 6, 2, filtered_dot2d, exact_dot2d, predicate_oracle_dot2d};
-static const predicate orient3d = {"orient3d", 12, 3, filtered_orient3d, exact_orient3d, predicate_oracle_orient3d};
-static const predicate incircle = {"incircle", 8, 2, filtered_incircle, exact_incircle, predicate_oracle_incircle};
+static const predicate orient3d = {
+    "orient3d", 12, 3, filtered_orient3d, exact_orient3d, predicate_oracle_orient3d};
+static const predicate incircle = {
+    "incircle", 8, 2, filtered_incircle, exact_incircle, predicate_oracle_incircle};
 
 static int sign(double v)
 {
@@ -89,7 +94,8 @@ static void check(const predicate *t, const double *p)
     double value = t->filtered(p);
     if (sign(value) != mpz_sgn(truth.result)) fail_case(t->name, p, t->coordinates, value);
     value = t->exact(p);
-    if (!predicate_oracle_agrees(&truth, exponent, value)) fail_case(t->name, p, t->coordinates, value);
+    if (!predicate_oracle_agrees(&truth, exponent, value))
+        fail_case(t->name, p, t->coordinates, value);
 }
 
 static void check_random(const predicate *t, long n)
@@ -108,9 +114,12 @@ static void test_environment(void **unused)
     (void)unused;
     assert_int_equal(fegetround(), FE_TONEAREST);
     volatile double one = 1, small = 0x1p-53, third = 3, least = DBL_MIN;
-    assert_true(one + small == 1);                              /* ties to even ...                       */
-    assert_true((one + DBL_EPSILON) + small > 1 + DBL_EPSILON); /* ... in both directions                  */
-    assert_true(one / third * third == 1);                      /* no excess precision: 1/3 rounds down   */
+    /* ties to even ... */
+    assert_true(one + small == 1);
+    /* ... in both directions */
+    assert_true((one + DBL_EPSILON) + small > 1 + DBL_EPSILON);
+    /* no excess precision: 1/3 rounds down */
+    assert_true(one / third * third == 1);
     assert_true(one + small * 1.5 - one == DBL_EPSILON);
     assert_true(least / 2 > 0); /* gradual underflow: no flush to zero */
     volatile double x = 1 + 0x1p-30, y = 1 - 0x1p-30;
@@ -120,7 +129,8 @@ static void test_environment(void **unused)
 static void test_known_signs(void **unused)
 {
     (void)unused;
-    const double a[2] = {0, 0}, b[2] = {4, 0}, c[2] = {0, 3}, inside[2] = {1, 1}, on[2] = {4, 3}, far[2] = {9, 9};
+    const double a[2] = {0, 0}, b[2] = {4, 0}, c[2] = {0, 3}, inside[2] = {1, 1}, on[2] = {4, 3},
+                 far[2] = {9, 9};
     assert_true(mw_orient2d(a, b, c) == 12);
     assert_true(mw_orient2d(b, a, c) == -12);
     assert_true(mw_orient2d(a, b, (const double[2]){7, 0}) == 0);
@@ -128,7 +138,8 @@ static void test_known_signs(void **unused)
     assert_true(mw_incircle(a, b, c, on) == 0);
     assert_true(mw_incircle(a, b, c, far) < 0);
     assert_true(mw_incircle(b, a, c, far) > 0);
-    const double o[3] = {0, 0, 0}, x[3] = {1, 0, 0}, y[3] = {0, 1, 0}, above[3] = {.3, .3, 2}, under[3] = {5, 5, -1};
+    const double o[3] = {0, 0, 0}, x[3] = {1, 0, 0}, y[3] = {0, 1, 0}, above[3] = {.3, .3, 2},
+                 under[3] = {5, 5, -1};
     assert_true(mw_orient3d(o, x, y, above) == 2);
     assert_true(mw_orient3d(o, x, y, under) == -1);
     assert_true(mw_orient3d(o, x, y, (const double[3]){5, 5, 0}) == 0);
@@ -148,8 +159,8 @@ static void test_dot2d(void **unused)
     check_random(&dot2d, 300000);
     /* right angles, exact and nearly so */
     for (long i = cases_count(200000); i > 0; i--) {
-        double x = (double)cases_below(1 << 22), y = (double)cases_below(1 << 22), s = cases_below(2) ? 3 : -7,
-               u = cases_uniform(), v = cases_uniform();
+        double x = (double)cases_below(1 << 22), y = (double)cases_below(1 << 22),
+               s = cases_below(2) ? 3 : -7, u = cases_uniform(), v = cases_uniform();
         double p[6] = {u, v, u + x, v + y, u - s * y, v + s * x};
         if (cases_below(2)) p[0] = p[1] = 0, p[2] = x, p[3] = y, p[4] = -s * y, p[5] = s * x;
         if (cases_below(2)) cases_perturb(p, 6);
@@ -169,7 +180,8 @@ static void test_incircle(void **unused)
     check_random(&incircle, 400000);
 }
 
-/* How much of its bound the error of a rounded determinant takes: |det - truth| / (bound + u |det|), at most 1. */
+/* How much of its bound the error of a rounded determinant takes: |det - truth| / (bound + u
+ * |det|), at most 1. */
 static double error_share(double det, double bound, long exponent)
 {
     mpq_t value, exact;
@@ -186,8 +198,9 @@ static double error_share(double det, double bound, long exponent)
     return error / (bound + 0x1p-53 * fabs(det));
 }
 
-/* The bounds of the filters hold for every determinant, not only where a sign is at stake; and the worst case tried
- * here, differences and products just above a power of two, comes near enough to tell if one were too small. */
+/* The bounds of the filters hold for every determinant, not only where a sign is at stake; and the
+ * worst case tried here, differences and products just above a power of two, comes near enough to
+ * tell if one were too small. */
 static void test_bounds(void **unused)
 {
     (void)unused;
@@ -210,8 +223,8 @@ static void test_bounds(void **unused)
     for (int i = 0; i < 3; i++) assert_true(worst[i] > enough[i] && worst[i] <= 1);
 }
 
-/* All 256 x 256 points near (0.5, 0.5) against the line through (12, 12) and (24, 24), and the same near (1, 1) and far
- * from the origin. */
+/* All 256 x 256 points near (0.5, 0.5) against the line through (12, 12) and (24, 24), and the
+ * same near (1, 1) and far from the origin. */
 static void test_classic_picture(void **unused)
 {
     (void)unused;
@@ -225,8 +238,8 @@ static void test_classic_picture(void **unused)
     }
 }
 
-/* The ends of the ranges in which expansions are used: both just inside and just outside, all bits of the mantissa set
- * or few of them. */
+/* The ends of the ranges in which expansions are used: both just inside and just outside, all bits
+ * of the mantissa set or few of them. */
 static void check_range_ends(const predicate *t, int low, int high)
 {
     double p[12];
@@ -236,7 +249,8 @@ static void check_range_ends(const predicate *t, int low, int high)
         for (int k = 0; k < t->coordinates; k++) {
             double unit = ldexp(1, cases_below(2) ? low : top), up = nextafter(unit, DBL_MAX),
                    down = nextafter(unit, 0);
-            const double choice[] = {unit, up, down, 0, unit * 1.5, unit * (2 - DBL_EPSILON), unit / 2};
+            const double choice[] = {unit,    up, down, 0, unit * 1.5, unit * (2 - DBL_EPSILON),
+                                     unit / 2};
             p[k] = choice[cases_below(kinds)] * (kinds == 7 && cases_below(2) ? -1 : 1);
         }
         check(t, p);
@@ -256,16 +270,21 @@ static void test_beyond_range(void **unused)
 {
     (void)unused;
     const double big = 1.7e308, tiny = DBL_TRUE_MIN;
-    assert_true(mw_orient2d((double[]){-big, -big}, (double[]){big, -big}, (double[]){0, big}) == DBL_MAX);
-    assert_true(mw_orient2d((double[]){big, -big}, (double[]){-big, -big}, (double[]){0, big}) == -DBL_MAX);
+    assert_true(mw_orient2d((double[]){-big, -big}, (double[]){big, -big}, (double[]){0, big}) ==
+                DBL_MAX);
+    assert_true(mw_orient2d((double[]){big, -big}, (double[]){-big, -big}, (double[]){0, big}) ==
+                -DBL_MAX);
     assert_true(mw_orient2d((double[]){-big, -big}, (double[]){big, big}, (double[]){0, 0}) == 0);
     assert_true(mw_orient2d((double[]){-big, -big}, (double[]){big, big}, (double[]){0, tiny}) > 0);
     assert_true(mw_orient2d((double[]){0, 0}, (double[]){tiny, 0}, (double[]){0, tiny}) == DBL_MIN);
-    assert_true(mw_incircle((double[]){-big, 0}, (double[]){big, 0}, (double[]){0, big}, (double[]){0, -big}) == 0);
-    assert_true(mw_incircle((double[]){-big, 0}, (double[]){big, 0}, (double[]){0, big}, (double[]){tiny, -big}) < 0);
-    assert_true(mw_incircle((double[]){-tiny, 0}, (double[]){tiny, 0}, (double[]){0, tiny}, (double[]){0, 0}) > 0);
-    assert_true(
-        mw_orient3d((double[]){-big, 0, 0}, (double[]){big, 0, 0}, (double[]){0, big, 0}, (double[]){0, 0, tiny}) > 0);
+    assert_true(mw_incircle((double[]){-big, 0}, (double[]){big, 0}, (double[]){0, big},
+                            (double[]){0, -big}) == 0);
+    assert_true(mw_incircle((double[]){-big, 0}, (double[]){big, 0}, (double[]){0, big},
+                            (double[]){tiny, -big}) < 0);
+    assert_true(mw_incircle((double[]){-tiny, 0}, (double[]){tiny, 0}, (double[]){0, tiny},
+                            (double[]){0, 0}) > 0);
+    assert_true(mw_orient3d((double[]){-big, 0, 0}, (double[]){big, 0, 0}, (double[]){0, big, 0},
+                            (double[]){0, 0, tiny}) > 0);
 }
 
 /* Exchanging two points changes the sign and nothing else; -0.0 is 0. */
@@ -283,7 +302,8 @@ static void test_antisymmetry(void **unused)
         memcpy(swapped, p, sizeof p);
         memcpy(swapped + j * t->dimension, p + k * t->dimension, size);
         memcpy(swapped + k * t->dimension, p + j * t->dimension, size);
-        for (int c = 0; c < t->coordinates; c++) swapped[c] = swapped[c] == 0 ? -swapped[c] : swapped[c];
+        for (int c = 0; c < t->coordinates; c++)
+            swapped[c] = swapped[c] == 0 ? -swapped[c] : swapped[c];
         int expected = sign(t->filtered(p));
         if (j != k) expected = -expected;
         if (sign(t->filtered(swapped)) != expected) fail_case(t->name, p, t->coordinates, expected);
@@ -311,7 +331,8 @@ static void test_not_finite(void **unused)
 
 /* ---- distances ---- */
 
-static mw_point reflected(mw_point p, int how) /* symmetries of the square: distances from the origin stay */
+static mw_point reflected(mw_point p,
+                          int how) /* symmetries of the square: distances from the origin stay */
 {
     if (how & 1) p = (mw_point){p.y, p.x};
     if (how & 2) p.x = -p.x;
@@ -319,8 +340,8 @@ static mw_point reflected(mw_point p, int how) /* symmetries of the square: dist
     return p;
 }
 
-/* p: q, a, b, c, d. Half of the cases: cd is ab, mirrored in q, or has the same nearest vertex, or lies on the same
- * line. */
+/* p: q, a, b, c, d. Half of the cases: cd is ab, mirrored in q, or has the same nearest vertex, or
+ * lies on the same line. */
 static void generate_distances(double p[10])
 {
     cases_generate(p, 10, 2);
@@ -345,7 +366,8 @@ static void test_compare_distance(void **unused)
     for (long i = cases_count(300000); i > 0; i--) {
         generate_distances(p);
         int order = mw__compare_distance(at(p, 0), at(p, 1), at(p, 2), at(p, 3), at(p, 4));
-        if (order != predicate_oracle_compare_distance(&truth, p)) fail_case("compare_distance", p, 10, order);
+        if (order != predicate_oracle_compare_distance(&truth, p))
+            fail_case("compare_distance", p, 10, order);
         int other = mw__compare_distance(at(p, 0), at(p, 4), at(p, 3), at(p, 2), at(p, 1));
         if (other != -order) fail_case("compare_distance, exchanged", p, 10, order);
     }
@@ -359,7 +381,8 @@ static void generate_length(double p[7])
     p[6] = cases_below(2) ? cases_finite() : cases_extreme();
     if (cases_below(2)) p[6] = cases_clamped(hypot(a.x - q.x, a.y - q.y));
     if (cases_below(4) == 0)
-        p[6] = cases_clamped(fabs((a.x - q.x) * (b.y - q.y) - (a.y - q.y) * (b.x - q.x)) / hypot(b.x - a.x, b.y - a.y));
+        p[6] = cases_clamped(fabs((a.x - q.x) * (b.y - q.y) - (a.y - q.y) * (b.x - q.x)) /
+                             hypot(b.x - a.x, b.y - a.y));
     if (!isfinite(p[6])) p[6] = 0;
     if (cases_below(4) == 0) { /* the foot is q + k (-4, 3), the direction (3, 4): distance 5 k */
         double k = (double)cases_below(1000), s = 1 + (double)cases_below(100);
@@ -379,7 +402,8 @@ static void test_compare_distance_to(void **unused)
     for (long i = cases_count(200000); i > 0; i--) {
         generate_length(p);
         int order = mw__compare_distance_to(at(p, 0), at(p, 1), at(p, 2), p[6]);
-        if (order != predicate_oracle_compare_distance_to(&truth, p)) fail_case("compare_distance_to", p, 7, order);
+        if (order != predicate_oracle_compare_distance_to(&truth, p))
+            fail_case("compare_distance_to", p, 7, order);
     }
 }
 

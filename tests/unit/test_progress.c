@@ -27,7 +27,8 @@ static int watcher_report(void *context, const char *stage, double fraction)
     return w->reports++ == w->stop_at;
 }
 
-static watcher watch(const long_call *call, const call_inputs *in, uint32_t threads, int stop_at, mw_status *status)
+static watcher watch(const long_call *call, const call_inputs *in, uint32_t threads, int stop_at,
+                     mw_status *status)
 {
     watcher w = {.stop_at = stop_at, .in_order = true, .has_stages = true};
     mw_progress progress = {watcher_report, &w};
@@ -53,7 +54,8 @@ static void test_reports(void **state)
         watcher w = watch(&long_calls[i], &in, 2, -1, &status);
         if (status) fail_msg("%s: %s", long_calls[i].name, mw_status_text(status));
         if (!w.has_stages || w.last != 1) fail_msg("%s ends at %g", long_calls[i].name, w.last);
-        if (!is_several(&long_calls[i]) && !w.in_order) fail_msg("%s: fractions go back", long_calls[i].name);
+        if (!is_several(&long_calls[i]) && !w.in_order)
+            fail_msg("%s: fractions go back", long_calls[i].name);
         if (w.reports > MOST_REPORTS * (is_several(&long_calls[i]) ? 5 : 1))
             fail_msg("%s: %d reports", long_calls[i].name, w.reports);
     }
@@ -70,7 +72,8 @@ static void test_same_results(void **state)
         watcher w = {.stop_at = -1};
         mw_progress progress = {watcher_report, &w}, silent = {0};
         const call_setting how[3] = {{1, NULL}, {3, &progress}, {2, &silent}};
-        for (int k = 0; k < 3; k++) assert_int_equal(long_calls[i].run(&in, &how[k], &sum[k], NULL), MW_OK);
+        for (int k = 0; k < 3; k++)
+            assert_int_equal(long_calls[i].run(&in, &how[k], &sum[k], NULL), MW_OK);
         if (sum[0] != sum[1] || sum[0] != sum[2]) fail_msg("%s: other results", long_calls[i].name);
     }
     call_inputs_release(&in);
@@ -90,7 +93,8 @@ static void test_cancel_at_each_report(void **state)
             if (is_several(&long_calls[i]) && status == MW_OK) continue;
             if (status != MW_CANCELLED)
                 fail_msg("%s at report %d: %s", long_calls[i].name, stop, mw_status_text(status));
-            if (w.reports != stop + 1) fail_msg("%s: reports after it was cancelled", long_calls[i].name);
+            if (w.reports != stop + 1)
+                fail_msg("%s: reports after it was cancelled", long_calls[i].name);
         }
     }
     call_inputs_release(&in);
@@ -114,7 +118,7 @@ static void test_cancel_large(void **state)
     call_inputs_release(&in);
 }
 
-/* --- jobs ---------------------------------------------------------------------------------------- */
+/* --- jobs ------------------------------------------------------------------------------------- */
 
 static void test_parts(void **state)
 {

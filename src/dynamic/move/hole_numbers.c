@@ -1,5 +1,5 @@
-/* hole_numbers.c - which hole each ghost lies in, after a move that may have led parts of the mesh from
- * one hole into another.
+/* hole_numbers.c - which hole each ghost lies in, after a move that may have led parts of the mesh
+ * from one hole into another.
  *
  * That takes a vertex where triangles meet that are not beside one another, with different holes,
  * or a hole and the outside, in the gaps between them. The border is the same before and after, and
@@ -72,7 +72,8 @@ static bool witnesses_call(hole_numbering *n)
         if (tile->v[0] == MW_NONE || !(tile->user & MW_GHOST)) continue;
         for (uint32_t k = 0; k < 3; k++)
             if (first[i].mark >> k & 1)
-                n->witness[n->witnesses++] = (border_witness){border_ends_of(tile, k), tile->user & MW_USER_MASK};
+                n->witness[n->witnesses++] =
+                    (border_witness){border_ends_of(tile, k), tile->user & MW_USER_MASK};
     }
     qsort(n->witness, n->witnesses, sizeof *n->witness, witnesses_compare);
     return true;
@@ -89,7 +90,8 @@ static uint32_t border_hole_before(const hole_numbering *n, uint32_t t, uint32_t
 {
     const mw_triangle *tile = &n->dynamic->tiling->tri[t];
     const border_witness key = {.ends = border_ends_of(tile, k)};
-    const border_witness *found = bsearch(&key, n->witness, n->witnesses, sizeof key, witnesses_compare);
+    const border_witness *found =
+        bsearch(&key, n->witness, n->witnesses, sizeof key, witnesses_compare);
     if (found) return found->hole;
     return tile_is_changed(n->dynamic, t) ? MW_POCKET : tile->user & MW_USER_MASK;
 }
@@ -109,8 +111,8 @@ static void region_look_across(hole_numbering *n, ghost_region *r, uint32_t t, u
     const mw_dynamic_tiling *dynamic = n->dynamic;
     const mw_triangle *tile = &dynamic->tiling->tri[t];
     if (dynamic->mark[t] >> k & 1) {
-        const uint64_t edge =
-            (uint64_t)dynamic->vertex_number[tile->v[k]] << 32 | dynamic->vertex_number[tile->v[k + 1]];
+        const uint64_t edge = (uint64_t)dynamic->vertex_number[tile->v[k]] << 32 |
+                              dynamic->vertex_number[tile->v[k + 1]];
         if (edge < r->lowest) r->lowest = edge;
     } else if (tile->link[k] == MW_NONE) {
         r->open = true;
@@ -142,7 +144,8 @@ static bool regions_find(hole_numbering *n)
     if (!n->tile || !n->region) return false;
     for (size_t i = 0; i < count; i++)
         if (first[i].slot < dynamic->tiling->tri_count) ghost_region_flood(n, first[i].slot);
-    for (uint32_t t = dynamic->step[dynamic->step_count - 1].tiles; t < dynamic->tiling->tri_count; t++)
+    for (uint32_t t = dynamic->step[dynamic->step_count - 1].tiles; t < dynamic->tiling->tri_count;
+         t++)
         ghost_region_flood(n, t);
     for (size_t i = 0; i < n->tiles; i++) dynamic->mark[n->tile[i]] &= (uint8_t)~MW_REACHED;
     return true;
@@ -167,7 +170,8 @@ static bool votes_count(hole_numbering *n)
         for (size_t i = 0; i < n->region[r].count && !n->region[r].open; i++) {
             const uint32_t t = n->tile[n->region[r].first + i];
             for (uint32_t k = 0; k < 3; k++)
-                if (n->dynamic->mark[t] >> k & 1) n->vote[cast++] = (hole_vote){border_hole_before(n, t, k), r, 1};
+                if (n->dynamic->mark[t] >> k & 1)
+                    n->vote[cast++] = (hole_vote){border_hole_before(n, t, k), r, 1};
         }
     qsort(n->vote, cast, sizeof *n->vote, votes_compare);
     for (size_t i = 0; i < cast; i++) {

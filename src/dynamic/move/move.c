@@ -12,7 +12,8 @@
 #include <inttypes.h>
 
 /* Does the hull stay convex if its vertex, between boundary vertices n and 0, moves to q? */
-static bool move_keeps_hull(const mw_dynamic_tiling *dynamic, const mw_vertex_star *star, mw_point q)
+static bool move_keeps_hull(const mw_dynamic_tiling *dynamic, const mw_vertex_star *star,
+                            mw_point q)
 {
     const mw_point *p = dynamic->tiling->point;
     uint32_t after = dynamic->boundary[0].vertex, before = dynamic->boundary[star->n].vertex;
@@ -26,7 +27,8 @@ static bool move_keeps_hull(const mw_dynamic_tiling *dynamic, const mw_vertex_st
            mw__orient2d(p[mw__corner(dynamic, in)], p[before], q) >= 0;
 }
 
-static bool move_keeps_star(const mw_dynamic_tiling *dynamic, const mw_vertex_star *star, mw_point q)
+static bool move_keeps_star(const mw_dynamic_tiling *dynamic, const mw_vertex_star *star,
+                            mw_point q)
 {
     const mw_point *p = dynamic->tiling->point;
     for (size_t i = 0; i < star->n; i++) {
@@ -37,18 +39,20 @@ static bool move_keeps_star(const mw_dynamic_tiling *dynamic, const mw_vertex_st
 }
 
 /* Move the vertex within its star. All edges of the star may have to be flipped. */
-static mw_status vertex_shift(mw_dynamic_tiling *dynamic, const mw_vertex_star *star, uint32_t v, mw_point q,
-                              mw_error *error)
+static mw_status vertex_shift(mw_dynamic_tiling *dynamic, const mw_vertex_star *star, uint32_t v,
+                              mw_point q, mw_error *error)
 {
     dynamic->tiling->point[v] = q;
     dynamic->last = dynamic->pool[0];
     if (!dynamic->delaunay) return MW_OK;
-    return mw__vertex_star_push(dynamic, star) && mw__legalise(dynamic) ? MW_OK : mw__fail_memory(error);
+    return mw__vertex_star_push(dynamic, star) && mw__legalise(dynamic) ? MW_OK
+                                                                        : mw__fail_memory(error);
 }
 
 /* Of the triangles in the star, the lowest one that would turn over or lose its area with the
  * vertex at q; MW_NONE if none would. */
-static uint32_t turned_triangle(const mw_dynamic_tiling *dynamic, const mw_vertex_star *star, mw_point q)
+static uint32_t turned_triangle(const mw_dynamic_tiling *dynamic, const mw_vertex_star *star,
+                                mw_point q)
 {
     const mw_point *p = dynamic->tiling->point;
     uint32_t lowest = MW_NONE;
@@ -56,24 +60,27 @@ static uint32_t turned_triangle(const mw_dynamic_tiling *dynamic, const mw_verte
         const uint32_t half = dynamic->boundary[i].half,
                        number = dynamic->tiling->tri[dynamic->pool[i]].user & MW_USER_MASK;
         const uint32_t to = mw__corner(dynamic, mw__half_next(half));
-        if (!mw__is_users_tile(dynamic, dynamic->pool[i]) || mw__orient2d(p[dynamic->boundary[i].vertex], p[to], q) > 0)
+        if (!mw__is_users_tile(dynamic, dynamic->pool[i]) ||
+            mw__orient2d(p[dynamic->boundary[i].vertex], p[to], q) > 0)
             continue;
         if (number < lowest) lowest = number;
     }
     return lowest;
 }
 
-static mw_status refuse_turned(const mw_dynamic_tiling *dynamic, uint32_t v, uint32_t triangle, mw_error *error)
+static mw_status refuse_turned(const mw_dynamic_tiling *dynamic, uint32_t v, uint32_t triangle,
+                               mw_error *error)
 {
     return mw__fail_at(error, triangle, dynamic->vertex_number[v],
-                       "vertex %" PRIu32 " cannot move there: triangle %" PRIu32 " would turn over or be flat",
+                       "vertex %" PRIu32 " cannot move there: triangle %" PRIu32
+                       " would turn over or be flat",
                        dynamic->vertex_number[v], triangle);
 }
 
 /* Move v, which has fixed edges, or without which no triangle is left: it cannot be taken out and
  * inserted just anywhere. */
-static mw_status move_with_triangles(mw_dynamic_tiling *dynamic, const mw_vertex_star *star, uint32_t v, mw_point q,
-                                     uint32_t t, mw_error *error)
+static mw_status move_with_triangles(mw_dynamic_tiling *dynamic, const mw_vertex_star *star,
+                                     uint32_t v, mw_point q, uint32_t t, mw_error *error)
 {
     const uint32_t turned = turned_triangle(dynamic, star, q);
     return turned == MW_NONE ? mw__border_move(dynamic, star, v, q, t, error)
@@ -87,11 +94,13 @@ static bool star_is_whole_mesh(const mw_dynamic_tiling *dynamic, const mw_vertex
     const mw_boundary_step *step = dynamic->boundary;
     if (!star->open || star->n < dynamic->tiling->tri_count) return false;
     for (size_t i = 2; i <= star->n; i++)
-        if (mw__orient2d(p[step[0].vertex], p[step[1].vertex], p[step[i].vertex]) != 0) return false;
+        if (mw__orient2d(p[step[0].vertex], p[step[1].vertex], p[step[i].vertex]) != 0)
+            return false;
     return true;
 }
 
-mw_status mw__dynamic_move(mw_dynamic_tiling *dynamic, uint32_t vertex, mw_point q, uint32_t t, mw_error *error)
+mw_status mw__dynamic_move(mw_dynamic_tiling *dynamic, uint32_t vertex, mw_point q, uint32_t t,
+                           mw_error *error)
 {
     mw_journal_step *step = &dynamic->step[dynamic->step_count - 1];
     mw_vertex_star star;
@@ -105,9 +114,10 @@ mw_status mw__dynamic_move(mw_dynamic_tiling *dynamic, uint32_t vertex, mw_point
     if (status) return status;
     dynamic->tiling->point[vertex] = q;
     uint32_t at = vertex;
-    status = mw__dynamic_insert(dynamic, q, t < dynamic->tiling->tri_count ? t : dynamic->last, &at, error);
+    status = mw__dynamic_insert(dynamic, q, t < dynamic->tiling->tri_count ? t : dynamic->last, &at,
+                                error);
     if (!status && at != vertex)
-        status = mw__fail_at(error, -1, dynamic->vertex_number[at], "vertex %" PRIu32 " lies there already",
-                             dynamic->vertex_number[at]);
+        status = mw__fail_at(error, -1, dynamic->vertex_number[at],
+                             "vertex %" PRIu32 " lies there already", dynamic->vertex_number[at]);
     return status;
 }

@@ -6,6 +6,7 @@
 
 /* `t`: the tile where the search for q begins if the vertex leaves its star. MW_NONE: at its
  * star. */
-mw_status mw__dynamic_move(mw_dynamic_tiling *dynamic, uint32_t vertex, mw_point q, uint32_t t, mw_error *error);
+mw_status mw__dynamic_move(mw_dynamic_tiling *dynamic, uint32_t vertex, mw_point q, uint32_t t,
+                           mw_error *error);
 
 #endif

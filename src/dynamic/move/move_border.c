@@ -65,7 +65,8 @@ static uint32_t mover_number_of(const border_mover *m, uint32_t vertex)
 static mw_status move_refuse_vertex(const border_mover *m, uint32_t there)
 {
     return mw__fail_at(m->error, -1, mover_number_of(m, there),
-                       "vertex %" PRIu32 " cannot move there: vertex %" PRIu32 " lies there already",
+                       "vertex %" PRIu32 " cannot move there: vertex %" PRIu32
+                       " lies there already",
                        mover_number_of(m, m->v), mover_number_of(m, there));
 }
 
@@ -94,7 +95,8 @@ static mw_status move_refuse_on_edge(const border_mover *m, uint32_t half)
 {
     const named_edge edge = edge_name(m, half);
     return mw__fail_at(m->error, -1, mover_number_of(m, m->v),
-                       "vertex %" PRIu32 " cannot move there: it would lie on the edge from vertex %" PRIu32
+                       "vertex %" PRIu32
+                       " cannot move there: it would lie on the edge from vertex %" PRIu32
                        " to %" PRIu32,
                        mover_number_of(m, m->v), edge.from, edge.to);
 }
@@ -113,14 +115,16 @@ static mw_status move_refuse_way(const border_mover *m, uint32_t to, uint32_t on
     return mw__fail_at(m->error, -1, mover_number_of(m, on_way),
                        "vertex %" PRIu32 " cannot move there: vertex %" PRIu32
                        " would lie on its edge to vertex %" PRIu32,
-                       mover_number_of(m, m->v), mover_number_of(m, on_way), mover_number_of(m, to));
+                       mover_number_of(m, m->v), mover_number_of(m, on_way),
+                       mover_number_of(m, to));
 }
 
 static mw_status move_refuse_cover(const border_mover *m, const triangle_aside *a, uint32_t covered)
 {
     const uint32_t number = a->user & MW_USER_MASK;
     return mw__fail_at(m->error, number, mover_number_of(m, covered),
-                       "vertex %" PRIu32 " cannot move there: triangle %" PRIu32 " would cover vertex %" PRIu32,
+                       "vertex %" PRIu32 " cannot move there: triangle %" PRIu32
+                       " would cover vertex %" PRIu32,
                        mover_number_of(m, m->v), number, mover_number_of(m, covered));
 }
 
@@ -165,7 +169,8 @@ static bool star_set_aside(border_mover *m, const mw_vertex_star *star)
     m->aside = mw__alloc(star->n, sizeof *m->aside);
     if (!m->aside) return false;
     for (size_t i = 0; i < star->n; i++) {
-        const uint32_t t = dynamic->pool[i], across = dynamic->boundary[i].half, bit = 1u << mw__link_edge(across);
+        const uint32_t t = dynamic->pool[i], across = dynamic->boundary[i].half,
+                       bit = 1u << mw__link_edge(across);
         mw_triangle *tile = &dynamic->tiling->tri[t];
         const uint32_t fixed = dynamic->mark[t] & MW_FIXED_EDGES;
         if (!mw__journal_tile(dynamic, t)) return false;
@@ -173,8 +178,8 @@ static bool star_set_aside(border_mover *m, const mw_vertex_star *star)
             mw__set_fixed(dynamic, t, fixed & bit);
             continue;
         }
-        m->aside[m->count++] =
-            (triangle_aside){{tile->v[0], tile->v[1], tile->v[2]}, tile->user, fixed, mw__corner_of(tile, m->v)};
+        m->aside[m->count++] = (triangle_aside){
+            {tile->v[0], tile->v[1], tile->v[2]}, tile->user, fixed, mw__corner_of(tile, m->v)};
         tile->user = m->ghost;
         dynamic->tiling->ghost_count++;
         mw__set_fixed(dynamic, t, bit);
@@ -186,7 +191,8 @@ static bool star_set_aside(border_mover *m, const mw_vertex_star *star)
 static mw_status vertex_take_away(border_mover *m, const mw_vertex_star *star)
 {
     mw_vertex_star empty;
-    if (!star_set_aside(m, star) || !mw__vertex_star_collect(m->dynamic, m->v, &empty)) return mover_fail_memory(m);
+    if (!star_set_aside(m, star) || !mw__vertex_star_collect(m->dynamic, m->v, &empty))
+        return mover_fail_memory(m);
     return mw__dynamic_take_out(m->dynamic, &empty, m->v, m->error);
 }
 
@@ -241,13 +247,18 @@ static mw_status site_dig_outside(border_mover *m, uint32_t t, vertex_site *s)
     mw_dynamic_tiling *dynamic = m->dynamic;
     uint32_t half = mw__link(t, 0);
     s->open = true;
-    while (mw__beyond(dynamic, half) != MW_NONE || !mw__sees_hull_edge(dynamic, m->q, half)) half = mw__half_next(half);
-    while (mw__sees_hull_edge(dynamic, m->q, mw__hull_after(dynamic, half))) half = mw__hull_after(dynamic, half);
+    while (mw__beyond(dynamic, half) != MW_NONE || !mw__sees_hull_edge(dynamic, m->q, half))
+        half = mw__half_next(half);
+    while (mw__sees_hull_edge(dynamic, m->q, mw__hull_after(dynamic, half)))
+        half = mw__hull_after(dynamic, half);
     for (; mw__sees_hull_edge(dynamic, m->q, half); half = mw__hull_before(dynamic, half)) {
-        if (!mw__journal_tile(dynamic, mw__link_triangle(half)) || !mw__boundary_room(dynamic, s->steps + 2))
+        if (!mw__journal_tile(dynamic, mw__link_triangle(half)) ||
+            !mw__boundary_room(dynamic, s->steps + 2))
             return mover_fail_memory(m);
-        dynamic->boundary[s->steps++] = (mw_boundary_step){
-            .vertex = mw__corner(dynamic, mw__half_next(half)), .beyond = half, .fixed = mw__is_fixed(dynamic, half)};
+        dynamic->boundary[s->steps++] =
+            (mw_boundary_step){.vertex = mw__corner(dynamic, mw__half_next(half)),
+                               .beyond = half,
+                               .fixed = mw__is_fixed(dynamic, half)};
         dynamic->boundary[s->steps].vertex = mw__corner(dynamic, half);
     }
     return MW_OK;
@@ -266,7 +277,8 @@ static mw_status site_dig(border_mover *m, uint32_t from, vertex_site *s)
     for (uint32_t k = 0; k < 3; k++)
         if (p[v[k]].x == m->q.x && p[v[k]].y == m->q.y) return move_refuse_vertex(m, v[k]);
     for (uint32_t k = 0; k < 3; k++)
-        if (mw__orient2d(p[v[k]], p[v[k + 1]], m->q) == 0) return site_dig_edge(m, mw__link(t, k), s);
+        if (mw__orient2d(p[v[k]], p[v[k + 1]], m->q) == 0)
+            return site_dig_edge(m, mw__link(t, k), s);
     return site_dig_tile(m, t, s);
 }
 
@@ -285,12 +297,14 @@ static mw_status site_fill(border_mover *m, const vertex_site *s)
     dynamic->tiling->point[m->v] = m->q;
     for (size_t i = 0; i < s->steps; i++) {
         const uint32_t t = dynamic->pool[i];
-        mw__set_corners(dynamic, t, dynamic->boundary[i].vertex, dynamic->boundary[i + 1].vertex, m->v);
+        mw__set_corners(dynamic, t, dynamic->boundary[i].vertex, dynamic->boundary[i + 1].vertex,
+                        m->v);
         mw__set_fixed(dynamic, t, dynamic->boundary[i].fixed);
         mw__attach(dynamic, mw__link(t, 0), dynamic->boundary[i].beyond);
         if (i > 0) mw__attach(dynamic, mw__link(t, 2), mw__link(dynamic->pool[i - 1], 1));
     }
-    mw__attach(dynamic, mw__link(dynamic->pool[0], 2), s->open ? MW_NONE : mw__link(dynamic->pool[s->steps - 1], 1));
+    mw__attach(dynamic, mw__link(dynamic->pool[0], 2),
+               s->open ? MW_NONE : mw__link(dynamic->pool[s->steps - 1], 1));
     if (s->open) mw__attach(dynamic, mw__link(dynamic->pool[s->steps - 1], 1), MW_NONE);
     return MW_OK;
 }
@@ -319,8 +333,8 @@ static mw_status edge_join(border_mover *m, uint32_t to)
     if (!mw__edge_force(dynamic, edge_of_mover(m), to, &forced)) return mover_fail_memory(m);
     if (forced.half == MW_NONE) return move_refuse_crossing(m, to, forced.blocked);
     if (forced.end != to) return move_refuse_way(m, to, forced.end);
-    bool done = half_set_fixed(dynamic, forced.half, true) && beyond_set_fixed(dynamic, forced.half, true) &&
-                mw__legalise(dynamic);
+    bool done = half_set_fixed(dynamic, forced.half, true) &&
+                beyond_set_fixed(dynamic, forced.half, true) && mw__legalise(dynamic);
     return done ? MW_OK : mover_fail_memory(m);
 }
 
@@ -332,7 +346,9 @@ static uint32_t edge_turn_to(const mw_dynamic_tiling *dynamic, uint32_t half, ui
     bool open;
     while (mw__corner(dynamic, mw__half_next(half)) != to) {
         uint32_t after = mw__beyond(dynamic, mw__half_prev(half));
-        half = after != MW_NONE ? after : mw__vertex_star_first_from(dynamic, v, mw__link_triangle(half), &open);
+        half = after != MW_NONE
+                   ? after
+                   : mw__vertex_star_first_from(dynamic, v, mw__link_triangle(half), &open);
     }
     return half;
 }
@@ -347,7 +363,8 @@ static bool triangle_give_tile(border_mover *m, uint32_t half, const triangle_as
     const mw_triangle was = *tile;
     *tile = (mw_triangle){.v = {a->v[0], a->v[1], a->v[2], a->v[0]}, .user = a->user};
     for (uint32_t k = 0; k < 3; k++)
-        mw__attach(dynamic, mw__link(t, k), was.link[(k + 3 - a->corner + mw__link_edge(half)) % 3]);
+        mw__attach(dynamic, mw__link(t, k),
+                   was.link[(k + 3 - a->corner + mw__link_edge(half)) % 3]);
     dynamic->tiling->tile_of[a->user & MW_USER_MASK] = t;
     dynamic->tiling->ghost_count--;
     mw__set_fixed(dynamic, t, a->fixed);
@@ -411,9 +428,11 @@ static named_ghost *ghosts_list(const mw_dynamic_tiling *dynamic)
     size_t n = 0;
     if (!list) return NULL;
     for (size_t i = 0; i < journaled; i++)
-        if (first[i].slot < dynamic->tiling->tri_count && !mw__is_users_tile(dynamic, first[i].slot))
+        if (first[i].slot < dynamic->tiling->tri_count &&
+            !mw__is_users_tile(dynamic, first[i].slot))
             list[n++] = ghost_name(dynamic, first[i].slot);
-    for (uint32_t t = dynamic->step[dynamic->step_count - 1].tiles; t < dynamic->tiling->tri_count; t++)
+    for (uint32_t t = dynamic->step[dynamic->step_count - 1].tiles; t < dynamic->tiling->tri_count;
+         t++)
         if (!mw__is_users_tile(dynamic, t)) list[n++] = ghost_name(dynamic, t);
     qsort(list, n, sizeof *list, ghosts_compare);
     return list;
@@ -439,7 +458,8 @@ static mw_status ghosts_adopt(border_mover *m)
     for (uint32_t i = 0; i < n && done; i++) done = ghost_adopt(m->dynamic, list[i].tile);
     free(list);
     if (done) tiling->ghost_count = 0;
-    if (done || n <= MW_USER_MASK - tiling->number_count) return done ? MW_OK : mover_fail_memory(m);
+    if (done || n <= MW_USER_MASK - tiling->number_count)
+        return done ? MW_OK : mover_fail_memory(m);
     return mw__fail(m->error, MW_ERROR_LIMIT, "no more numbers for triangles");
 }
 
@@ -469,11 +489,12 @@ static mw_status mover_settle(border_mover *m, bool delaunay)
     dynamic->delaunay = delaunay;
     if (!delaunay) dynamic->stack_count = 0;
     if (status || !delaunay) return status;
-    return mw__vertex_star_push(dynamic, &star) && mw__legalise(dynamic) ? MW_OK : mover_fail_memory(m);
+    return mw__vertex_star_push(dynamic, &star) && mw__legalise(dynamic) ? MW_OK
+                                                                         : mover_fail_memory(m);
 }
 
-mw_status mw__border_move(mw_dynamic_tiling *dynamic, const mw_vertex_star *star, uint32_t v, mw_point q, uint32_t t,
-                          mw_error *error)
+mw_status mw__border_move(mw_dynamic_tiling *dynamic, const mw_vertex_star *star, uint32_t v,
+                          mw_point q, uint32_t t, mw_error *error)
 {
     border_mover m = {.dynamic = dynamic, .v = v, .q = q, .error = error};
     const bool delaunay = dynamic->delaunay;

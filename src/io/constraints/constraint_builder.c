@@ -14,19 +14,21 @@ static void *array_grow(void *array, size_t count, size_t *room, size_t size)
     return larger;
 }
 
-static mw_status constraint_too_many(const mw_constraint_builder *builder, uint32_t limit, const char *what,
-                                     mw_error *error)
+static mw_status constraint_too_many(const mw_constraint_builder *builder, uint32_t limit,
+                                     const char *what, mw_error *error)
 {
-    return mw__fail(error, MW_ERROR_LIMIT, "%.240s: more than %" PRIu32 " %s", mw__source_name(builder->source), limit,
-                    what);
+    return mw__fail(error, MW_ERROR_LIMIT, "%.240s: more than %" PRIu32 " %s",
+                    mw__source_name(builder->source), limit, what);
 }
 
 mw_status mw__constraint_point(mw_constraint_builder *builder, const double xyz[3], mw_error *error)
 {
     mw_constraint_file *file = builder->file;
-    if (file->point_count >= MW_MAX_VERTICES) return constraint_too_many(builder, MW_MAX_VERTICES, "points", error);
+    if (file->point_count >= MW_MAX_VERTICES)
+        return constraint_too_many(builder, MW_MAX_VERTICES, "points", error);
     if (file->point_count == builder->point_room) {
-        double *points = array_grow(file->points, file->point_count, &builder->point_room, 3 * sizeof *points);
+        double *points =
+            array_grow(file->points, file->point_count, &builder->point_room, 3 * sizeof *points);
         if (!points) return mw__fail_memory(error);
         file->points = points;
     }
@@ -50,8 +52,8 @@ static bool segments_grow(mw_constraint_builder *builder)
     return true;
 }
 
-mw_status mw__constraint_segment(mw_constraint_builder *builder, uint32_t a, uint32_t b, uint32_t polygon,
-                                 uint64_t record, mw_error *error)
+mw_status mw__constraint_segment(mw_constraint_builder *builder, uint32_t a, uint32_t b,
+                                 uint32_t polygon, uint64_t record, mw_error *error)
 {
     mw_constraint_file *file = builder->file;
     size_t i = file->segment_count;
@@ -69,7 +71,8 @@ mw_status mw__constraint_hole(mw_constraint_builder *builder, double x, double y
 {
     mw_constraint_file *file = builder->file;
     if (file->hole_seed_count == builder->hole_room) {
-        double *holes = array_grow(file->hole_seeds, file->hole_seed_count, &builder->hole_room, 2 * sizeof *holes);
+        double *holes = array_grow(file->hole_seeds, file->hole_seed_count, &builder->hole_room,
+                                   2 * sizeof *holes);
         if (!holes) return mw__fail_memory(error);
         file->hole_seeds = holes;
     }
@@ -83,7 +86,8 @@ mw_status mw__constraint_skip(mw_constraint_builder *builder, mw_skipped_ring ri
 {
     mw_constraint_file *file = builder->file;
     if (file->skipped_count == builder->skipped_room) {
-        mw_skipped_ring *rings = array_grow(file->skipped, file->skipped_count, &builder->skipped_room, sizeof *rings);
+        mw_skipped_ring *rings =
+            array_grow(file->skipped, file->skipped_count, &builder->skipped_room, sizeof *rings);
         if (!rings) return mw__fail_memory(error);
         file->skipped = rings;
     }

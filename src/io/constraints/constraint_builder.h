@@ -13,10 +13,12 @@ typedef struct mw_constraint_builder {
     size_t point_room, segment_room, hole_room, skipped_room;
 } mw_constraint_builder;
 
-mw_status mw__constraint_point(mw_constraint_builder *builder, const double xyz[3], mw_error *error);
-mw_status mw__constraint_segment(mw_constraint_builder *builder, uint32_t a, uint32_t b, uint32_t polygon,
-                                 uint64_t record, mw_error *error);
+mw_status mw__constraint_point(mw_constraint_builder *builder, const double xyz[3],
+                               mw_error *error);
+mw_status mw__constraint_segment(mw_constraint_builder *builder, uint32_t a, uint32_t b,
+                                 uint32_t polygon, uint64_t record, mw_error *error);
 mw_status mw__constraint_hole(mw_constraint_builder *builder, double x, double y, mw_error *error);
-mw_status mw__constraint_skip(mw_constraint_builder *builder, mw_skipped_ring ring, mw_error *error);
+mw_status mw__constraint_skip(mw_constraint_builder *builder, mw_skipped_ring ring,
+                              mw_error *error);
 
 #endif

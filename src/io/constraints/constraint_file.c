@@ -9,7 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-typedef mw_status constraint_reader(mw_source *source, mw_constraint_builder *builder, mw_error *error);
+typedef mw_status constraint_reader(mw_source *source, mw_constraint_builder *builder,
+                                    mw_error *error);
 
 /* Is the first line, comments passed over, the header of a .poly: a count, the dimension 2, and
  * up to two further integers? */
@@ -35,7 +36,8 @@ static bool head_is_poly(const char *p, const char *end)
 }
 
 /* The reader that the contents call for, or else the name; NULL if none does. */
-static mw_status constraint_reader_find(mw_source *source, constraint_reader **reader, mw_error *error)
+static mw_status constraint_reader_find(mw_source *source, constraint_reader **reader,
+                                        mw_error *error)
 {
     const char *head;
     size_t size;
@@ -52,7 +54,8 @@ static mw_status constraint_reader_find(mw_source *source, constraint_reader **r
     return MW_OK;
 }
 
-static mw_status constraint_read_path(const char *path, mw_job *job, mw_constraint_file *file, mw_error *error)
+static mw_status constraint_read_path(const char *path, mw_job *job, mw_constraint_file *file,
+                                      mw_error *error)
 {
     mw_source source;
     constraint_reader *reader;
@@ -64,14 +67,15 @@ static mw_status constraint_read_path(const char *path, mw_job *job, mw_constrai
     status = constraint_reader_find(&source, &reader, error);
     if (!status)
         status = reader ? reader(&source, &builder, error)
-                        : mw__fail(error, MW_ERROR_INPUT, "%.240s: constraints are read from GeoJSON and .poly files",
+                        : mw__fail(error, MW_ERROR_INPUT,
+                                   "%.240s: constraints are read from GeoJSON and .poly files",
                                    mw__source_name(&source));
     mw__source_close(&source);
     return status;
 }
 
-mw_status mw_read_constraints(const char *path, const mw_file_options *options, mw_constraint_file *file,
-                              mw_error *error)
+mw_status mw_read_constraints(const char *path, const mw_file_options *options,
+                              mw_constraint_file *file, mw_error *error)
 {
     static const mw_file_options defaults;
     if (file) *file = (mw_constraint_file){0};

@@ -23,7 +23,8 @@ typedef struct geojson_reader {
 } geojson_reader;
 
 /* Something is wrong with the present feature. */
-__attribute__((format(printf, 2, 3))) static mw_status geojson_fail(const geojson_reader *g, const char *format, ...)
+__attribute__((format(printf, 2, 3))) static mw_status geojson_fail(const geojson_reader *g,
+                                                                    const char *format, ...)
 {
     char message[256];
     va_list arguments;
@@ -31,12 +32,13 @@ __attribute__((format(printf, 2, 3))) static mw_status geojson_fail(const geojso
     vsnprintf(message, sizeof message, format, arguments);
     va_end(arguments);
     mw__message_clean(message);
-    return mw__fail(g->error, MW_ERROR_INPUT, "%.200s: feature %" PRIu32 ": %s", mw__source_name(g->builder->source),
-                    g->feature, message);
+    return mw__fail(g->error, MW_ERROR_INPUT, "%.200s: feature %" PRIu32 ": %s",
+                    mw__source_name(g->builder->source), g->feature, message);
 }
 
 /* x, y, and z where there is one. */
-static mw_status geojson_read_position(const geojson_reader *g, const json_t *position, double xyz[3])
+static mw_status geojson_read_position(const geojson_reader *g, const json_t *position,
+                                       double xyz[3])
 {
     size_t size = json_array_size(position); /* 0 of what is no array */
     if (size < 2) return geojson_fail(g, "a position is not two or three numbers");
@@ -65,7 +67,8 @@ static mw_status geojson_read_point(geojson_reader *g, const json_t *coordinates
 }
 
 /* Points 0 ... count - 1 of an array of positions, and the segments between them. */
-static mw_status geojson_read_chain(geojson_reader *g, const json_t *positions, size_t count, uint32_t polygon)
+static mw_status geojson_read_chain(geojson_reader *g, const json_t *positions, size_t count,
+                                    uint32_t polygon)
 {
     mw_constraint_file *file = g->builder->file;
     mw_status status = MW_OK;
@@ -73,7 +76,8 @@ static mw_status geojson_read_chain(geojson_reader *g, const json_t *positions, 
         status = geojson_add_position(g, json_array_get(positions, i));
         uint32_t last = (uint32_t)file->point_count - 1;
         if (!status && i > 0)
-            status = mw__constraint_segment(g->builder, last - 1, last, polygon, g->feature, g->error);
+            status =
+                mw__constraint_segment(g->builder, last - 1, last, polygon, g->feature, g->error);
     }
     return status;
 }
@@ -113,7 +117,8 @@ static mw_status ring_count_open(const geojson_reader *g, const json_t *ring, si
 }
 
 /* The first `count` positions of a ring, 3 at least, closed. */
-static mw_status geojson_add_ring(geojson_reader *g, const json_t *ring, size_t count, uint32_t polygon)
+static mw_status geojson_add_ring(geojson_reader *g, const json_t *ring, size_t count,
+                                  uint32_t polygon)
 {
     mw_constraint_file *file = g->builder->file;
     mw_status status = geojson_read_chain(g, ring, count, polygon);
@@ -133,7 +138,8 @@ static mw_status geojson_read_polygon(geojson_reader *g, const json_t *coordinat
         status = ring_count_open(g, ring, &positions);
         if (!status && positions == 0) {
             skipped = skipped || i == 0;
-            status = mw__constraint_skip(g->builder, (mw_skipped_ring){g->feature, g->polygons, (uint32_t)i}, g->error);
+            status = mw__constraint_skip(
+                g->builder, (mw_skipped_ring){g->feature, g->polygons, (uint32_t)i}, g->error);
         } else if (!status && !skipped) {
             status = geojson_add_ring(g, ring, positions, (uint32_t)file->polygon_count);
         }
@@ -154,17 +160,20 @@ static const struct {
 };
 enum { SHAPE_COUNT = sizeof shapes / sizeof *shapes };
 
-static mw_status geojson_read_coordinates(geojson_reader *g, size_t shape, const json_t *coordinates)
+static mw_status geojson_read_coordinates(geojson_reader *g, size_t shape,
+                                          const json_t *coordinates)
 {
-    if (!json_is_array(coordinates)) return geojson_fail(g, "a %s has no array of coordinates", shapes[shape].type);
+    if (!json_is_array(coordinates))
+        return geojson_fail(g, "a %s has no array of coordinates", shapes[shape].type);
     size_t count = json_array_size(coordinates);
     mw_status status = MW_OK;
     if (count == 0) return MW_OK;
     if (!shapes[shape].many) return shapes[shape].read(g, coordinates);
     for (size_t i = 0; !status && i < count; i++) {
         const json_t *part = json_array_get(coordinates, i);
-        status = json_is_array(part) ? shapes[shape].read(g, part)
-                                     : geojson_fail(g, "a part of a %s is no array", shapes[shape].type);
+        status = json_is_array(part)
+                     ? shapes[shape].read(g, part)
+                     : geojson_fail(g, "a part of a %s is no array", shapes[shape].type);
     }
     return status;
 }
@@ -177,9 +186,11 @@ static mw_status geojson_read_geometry(geojson_reader *g, const json_t *geometry
     for (size_t i = 0; i < SHAPE_COUNT; i++)
         if (strcmp(type, shapes[i].type) == 0)
             return geojson_read_coordinates(g, i, json_object_get(geometry, "coordinates"));
-    if (strcmp(type, "GeometryCollection") != 0) return geojson_fail(g, "'%.40s' is no type of geometry", type);
+    if (strcmp(type, "GeometryCollection") != 0)
+        return geojson_fail(g, "'%.40s' is no type of geometry", type);
     const json_t *parts = json_object_get(geometry, "geometries");
-    if (!json_is_array(parts)) return geojson_fail(g, "a GeometryCollection has no array of geometries");
+    if (!json_is_array(parts))
+        return geojson_fail(g, "a GeometryCollection has no array of geometries");
     mw_status status = MW_OK;
     for (size_t i = 0; !status && i < json_array_size(parts); i++) /* Jansson bounds the depth */
         status = geojson_read_geometry(g, json_array_get(parts, i));
@@ -202,13 +213,15 @@ static mw_status geojson_read_root(geojson_reader *g, const json_t *root)
 {
     const char *type = json_string_value(json_object_get(root, "type"));
     if (!type)
-        return mw__fail(g->error, MW_ERROR_INPUT, "%.240s: this is JSON, but no GeoJSON: it has no type",
+        return mw__fail(g->error, MW_ERROR_INPUT,
+                        "%.240s: this is JSON, but no GeoJSON: it has no type",
                         mw__source_name(g->builder->source));
     if (object_is_feature(root)) return geojson_read_feature(g, root);
     if (strcmp(type, "FeatureCollection") != 0) return geojson_read_geometry(g, root);
     const json_t *features = json_object_get(root, "features");
     if (!json_is_array(features))
-        return mw__fail(g->error, MW_ERROR_INPUT, "%.240s: the FeatureCollection has no array of features",
+        return mw__fail(g->error, MW_ERROR_INPUT,
+                        "%.240s: the FeatureCollection has no array of features",
                         mw__source_name(g->builder->source));
     mw_status status = MW_OK;
     for (size_t i = 0; !status && i < json_array_size(features); i++) {
@@ -223,17 +236,19 @@ static mw_status geojson_read_root(geojson_reader *g, const json_t *root)
 static bool points_are_lonlat(const mw_constraint_file *file)
 {
     for (size_t i = 0; i < file->point_count; i++)
-        if (!(fabs(file->points[3 * i]) <= 360) || !(fabs(file->points[3 * i + 1]) <= 90)) return false;
+        if (!(fabs(file->points[3 * i]) <= 360) || !(fabs(file->points[3 * i + 1]) <= 90))
+            return false;
     return file->point_count > 0;
 }
 
-/* The coordinate system: that of the member `crs` [GeoJSON 2008], where one of null says that it is not
- * known; else longitudes and latitudes [RFC 7946, 4], if the numbers can be such. */
+/* The coordinate system: that of the member `crs` [GeoJSON 2008], where one of null says that it
+ * is not known; else longitudes and latitudes [RFC 7946, 4], if the numbers can be such. */
 static mw_status geojson_read_crs(geojson_reader *g, const json_t *root)
 {
     mw_constraint_file *file = g->builder->file;
     const json_t *crs = json_object_get(root, "crs");
-    const char *name = json_string_value(json_object_get(json_object_get(crs, "properties"), "name"));
+    const char *name =
+        json_string_value(json_object_get(json_object_get(crs, "properties"), "name"));
     if (!crs && points_are_lonlat(file)) name = "EPSG:4326";
     return name ? mw__crs_copy(name, strlen(name), &file->crs, g->error) : MW_OK;
 }
@@ -275,9 +290,11 @@ static mw_status geojson_parse(mw_source *source, json_t **root, mw_error *error
     *root = NULL;
     mw_status status = geojson_skip_byte_order_mark(source, error);
     if (status) return status;
-    *root = json_load_callback(geojson_next_bytes, &in, JSON_DECODE_INT_AS_REAL | JSON_ALLOW_NUL, &wrong);
+    *root = json_load_callback(geojson_next_bytes, &in, JSON_DECODE_INT_AS_REAL | JSON_ALLOW_NUL,
+                               &wrong);
     if (in.status) return in.status;
-    if (!*root && json_error_code(&wrong) == json_error_out_of_memory) return mw__fail_memory(error);
+    if (!*root && json_error_code(&wrong) == json_error_out_of_memory)
+        return mw__fail_memory(error);
     uint64_t line = wrong.line > 0 ? (uint64_t)wrong.line : 1;
     if (source->damage) return mw__source_fail_at(source, line, error, "%s", source->damage);
     return *root ? MW_OK : mw__source_fail_at(source, line, error, "%s", wrong.text);
@@ -305,7 +322,8 @@ bool mw__geojson_known(void)
 mw_status mw__read_geojson(mw_source *source, mw_constraint_builder *builder, mw_error *error)
 {
     (void)builder;
-    return mw__fail(error, MW_ERROR_INPUT, "%.240s: GeoJSON is not read here: meshwalk was built without Jansson",
+    return mw__fail(error, MW_ERROR_INPUT,
+                    "%.240s: GeoJSON is not read here: meshwalk was built without Jansson",
                     mw__source_name(source));
 }
 

@@ -27,7 +27,8 @@ static mw_status poly_read_node_file(mw_source *source, mw_mesh_builder *builder
 {
     mw_mesh_file *mesh = builder->file;
     if (strcmp(source->path, "-") == 0)
-        return mw__source_fail(source, error, "the vertices stand in a .node file, which standard input cannot name");
+        return mw__source_fail(
+            source, error, "the vertices stand in a .node file, which standard input cannot name");
     mw_mesh_file_release(mesh);
     mw__build_start(builder, mesh, source);
     char *stem = poly_stem(source->path);
@@ -44,7 +45,8 @@ static mw_status poly_read_vertices(mw_source *source, mw_mesh_builder *builder,
     mw_status status = mw__read_node_rows(source, builder, &dimension, error);
     if (status) return status;
     if (dimension != 2)
-        return mw__source_fail(source, error, "vertices of 3 coordinates: this is a .poly of TetGen, not of Triangle");
+        return mw__source_fail(
+            source, error, "vertices of 3 coordinates: this is a .poly of TetGen, not of Triangle");
     return builder->file->point_count > 0 ? MW_OK : poly_read_node_file(source, builder, error);
 }
 
@@ -61,8 +63,8 @@ static void poly_take_vertices(mw_mesh_file *mesh, mw_constraint_file *file)
     *mesh = (mw_mesh_file){.triangles = mesh->triangles};
 }
 
-static mw_status poly_read_segment(mw_constraint_builder *builder, mw_mesh_builder *vertices, mw_number_row *row,
-                                   mw_error *error)
+static mw_status poly_read_segment(mw_constraint_builder *builder, mw_mesh_builder *vertices,
+                                   mw_number_row *row, mw_error *error)
 {
     int64_t number;
     uint32_t end[2] = {0};
@@ -72,7 +74,8 @@ static mw_status poly_read_segment(mw_constraint_builder *builder, mw_mesh_build
         if (!status) status = mw__build_vertex(vertices, number, &end[k], error);
     }
     if (status) return status;
-    return mw__constraint_segment(builder, end[0], end[1], MW_NONE, mw__source_position(row->source), error);
+    return mw__constraint_segment(builder, end[0], end[1], MW_NONE,
+                                  mw__source_position(row->source), error);
 }
 
 static mw_status poly_read_hole(mw_constraint_builder *builder, mw_number_row *row, mw_error *error)
@@ -80,7 +83,8 @@ static mw_status poly_read_hole(mw_constraint_builder *builder, mw_number_row *r
     int64_t number;
     double xy[2] = {0};
     mw_status status = mw__row_integer(row, "number of the hole", &number, error);
-    for (int k = 0; !status && k < 2; k++) status = mw__row_double(row, "place of the hole", &xy[k], error);
+    for (int k = 0; !status && k < 2; k++)
+        status = mw__row_double(row, "place of the hole", &xy[k], error);
     if (!status && (!isfinite(xy[0]) || !isfinite(xy[1])))
         status = mw__source_fail(row->source, error, "the place of the hole is not finite");
     return status ? status : mw__constraint_hole(builder, xy[0], xy[1], error);
@@ -88,22 +92,24 @@ static mw_status poly_read_hole(mw_constraint_builder *builder, mw_number_row *r
 
 /* A header and its rows: segments where `vertices` are given, else holes, which a file may leave
  * out. */
-static mw_status poly_read_rows(mw_source *source, mw_constraint_builder *builder, mw_mesh_builder *vertices,
-                                mw_error *error)
+static mw_status poly_read_rows(mw_source *source, mw_constraint_builder *builder,
+                                mw_mesh_builder *vertices, mw_error *error)
 {
     const char *what = vertices ? "segments" : "holes";
     char *line;
     int64_t values[2] = {0};
     mw_status status = mw__source_content_line(source, &line, error);
     if (!status && !line && !vertices) return MW_OK;
-    if (!status && !line) status = mw__source_fail(source, error, "the file ends before the segments");
+    if (!status && !line)
+        status = mw__source_fail(source, error, "the file ends before the segments");
     if (!status) status = mw__rows_header(source, line, values, 2, error);
     for (int64_t i = 0; !status && i < values[0]; i++) {
         status = mw__source_content_line(source, &line, error);
         if (!status && !line) status = mw__rows_end_early(source, what, i, values[0], error);
         if (status) break;
         mw_number_row row = {source, line};
-        status = vertices ? poly_read_segment(builder, vertices, &row, error) : poly_read_hole(builder, &row, error);
+        status = vertices ? poly_read_segment(builder, vertices, &row, error)
+                          : poly_read_hole(builder, &row, error);
     }
     return status;
 }

@@ -25,18 +25,24 @@ typedef struct edit_form {
 } edit_form;
 
 static const edit_form forms[] = {
-    {"insert", "po", MW_EDIT_LINE_EDIT, MW_EDIT_INSERT},       {"remove", "v", MW_EDIT_LINE_EDIT, MW_EDIT_REMOVE},
-    {"move", "vp", MW_EDIT_LINE_EDIT, MW_EDIT_MOVE},           {"flip", "vw", MW_EDIT_LINE_EDIT, MW_EDIT_FLIP},
-    {"constrain", "vw", MW_EDIT_LINE_EDIT, MW_EDIT_CONSTRAIN}, {"release", "vw", MW_EDIT_LINE_EDIT, MW_EDIT_RELEASE},
-    {"value", "vn", MW_EDIT_LINE_EDIT, MW_EDIT_VALUE},         {"locate", "p", MW_EDIT_LINE_LOCATE, MW_EDIT_INSERT},
-    {"undo", "", MW_EDIT_LINE_UNDO, MW_EDIT_INSERT},           {"compact", "", MW_EDIT_LINE_COMPACT, MW_EDIT_INSERT},
+    {"insert", "po", MW_EDIT_LINE_EDIT, MW_EDIT_INSERT},
+    {"remove", "v", MW_EDIT_LINE_EDIT, MW_EDIT_REMOVE},
+    {"move", "vp", MW_EDIT_LINE_EDIT, MW_EDIT_MOVE},
+    {"flip", "vw", MW_EDIT_LINE_EDIT, MW_EDIT_FLIP},
+    {"constrain", "vw", MW_EDIT_LINE_EDIT, MW_EDIT_CONSTRAIN},
+    {"release", "vw", MW_EDIT_LINE_EDIT, MW_EDIT_RELEASE},
+    {"value", "vn", MW_EDIT_LINE_EDIT, MW_EDIT_VALUE},
+    {"locate", "p", MW_EDIT_LINE_LOCATE, MW_EDIT_INSERT},
+    {"undo", "", MW_EDIT_LINE_UNDO, MW_EDIT_INSERT},
+    {"compact", "", MW_EDIT_LINE_COMPACT, MW_EDIT_INSERT},
 };
 enum { FORM_COUNT = sizeof forms / sizeof *forms };
 
 static const edit_form *edit_form_of(mw_edit_line_kind line, mw_edit_kind edit)
 {
     for (size_t i = 0; i < FORM_COUNT; i++)
-        if (forms[i].line == line && (line != MW_EDIT_LINE_EDIT || forms[i].edit == edit)) return &forms[i];
+        if (forms[i].line == line && (line != MW_EDIT_LINE_EDIT || forms[i].edit == edit))
+            return &forms[i];
     return NULL;
 }
 
@@ -54,7 +60,8 @@ typedef struct edit_scan {
     mw_error *error;
 } edit_scan;
 
-static mw_status edit_fail(const edit_scan *s, const char *format, ...) __attribute__((format(printf, 2, 3)));
+static mw_status edit_fail(const edit_scan *s, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
 static mw_status edit_fail(const edit_scan *s, const char *format, ...)
 {
     char text[256];
@@ -100,7 +107,8 @@ static mw_status edit_wanted_word(edit_scan *s, const char *what, mw_text_cell *
 
 static mw_status edit_no_number(const edit_scan *s, const char *what, mw_text_cell word)
 {
-    return edit_fail(s, "%s: '%s' is not a number", what, mw__excerpt_of(word.text, word.length).text);
+    return edit_fail(s, "%s: '%s' is not a number", what,
+                     mw__excerpt_of(word.text, word.length).text);
 }
 
 static mw_status edit_read_double(edit_scan *s, const char *what, double *value)
@@ -108,7 +116,9 @@ static mw_status edit_read_double(edit_scan *s, const char *what, double *value)
     mw_text_cell word;
     mw_status status = edit_wanted_word(s, what, &word);
     if (status) return status;
-    return mw__read_double(word.text, value) == word.text + word.length ? MW_OK : edit_no_number(s, what, word);
+    return mw__read_double(word.text, value) == word.text + word.length
+               ? MW_OK
+               : edit_no_number(s, what, word);
 }
 
 /* Tables that were kept as numbers with a point have 17.0 for 17. */
@@ -129,7 +139,8 @@ static mw_status edit_read_vertex(edit_scan *s, const char *what, uint32_t *vert
     mw_status status = edit_wanted_word(s, what, &word);
     if (status) return status;
     if (!word_is_whole_number(word, &number) || number < 0 || number > MW_MAX_VERTICES)
-        return edit_fail(s, "%s: '%s' is no number of a vertex", what, mw__excerpt_of(word.text, word.length).text);
+        return edit_fail(s, "%s: '%s' is no number of a vertex", what,
+                         mw__excerpt_of(word.text, word.length).text);
     *vertex = (uint32_t)number;
     return MW_OK;
 }
@@ -145,7 +156,8 @@ static bool is_digits(const char *text, size_t length)
 static size_t edit_find_field(const mw_edit_text_options *options, const char *name, size_t length)
 {
     for (size_t f = 0; f < options->field_count; f++)
-        if (strlen(options->fields[f]) == length && memcmp(options->fields[f], name, length) == 0) return f;
+        if (strlen(options->fields[f]) == length && memcmp(options->fields[f], name, length) == 0)
+            return f;
     return options->field_count;
 }
 
@@ -163,7 +175,8 @@ static mw_status edit_read_field(edit_scan *s, uint32_t *field)
     const mw_edit_text_options *options = s->options;
     if (!edit_next_word(s, &word) || word.length == 0) {
         *field = edit_usual_field(options);
-        return *field != MW_NONE ? MW_OK : edit_fail(s, "the mesh has no z; name a field behind the value");
+        return *field != MW_NONE ? MW_OK
+                                 : edit_fail(s, "the mesh has no z; name a field behind the value");
     }
     int64_t number = -1;
     size_t count = options->fields ? options->field_count : MW_NONE;
@@ -212,7 +225,8 @@ static mw_status edit_expect_end(edit_scan *s)
     mw_text_cell word;
     while (edit_next_word(s, &word))
         if (word.length > 0)
-            return edit_fail(s, "'%s' is more than it takes", mw__excerpt_of(word.text, word.length).text);
+            return edit_fail(s, "'%s' is more than it takes",
+                             mw__excerpt_of(word.text, word.length).text);
     return MW_OK;
 }
 
@@ -221,23 +235,28 @@ static mw_status edit_unknown_word(const edit_scan *s, mw_text_cell word)
     char known[160] = "";
     size_t used = 0;
     for (size_t i = 0; i < FORM_COUNT; i++)
-        used += (size_t)snprintf(known + used, sizeof known - used, "%s%s", i ? ", " : "", forms[i].word);
-    return edit_fail(s, "unknown edit '%s'; there are %s", mw__excerpt_of(word.text, word.length).text, known);
+        used += (size_t)snprintf(known + used, sizeof known - used, "%s%s", i ? ", " : "",
+                                 forms[i].word);
+    return edit_fail(s, "unknown edit '%s'; there are %s",
+                     mw__excerpt_of(word.text, word.length).text, known);
 }
 
-static mw_status edit_parse(const char *text, const mw_edit_text_options *options, mw_edit_line *line, mw_error *error)
+static mw_status edit_parse(const char *text, const mw_edit_text_options *options,
+                            mw_edit_line *line, mw_error *error)
 {
     edit_scan s = {.p = text, .options = options, .error = error};
     mw_text_cell word;
     if (!edit_next_word(&s, &word)) return MW_OK;
     if (word.length == 0) return edit_expect_end(&s); /* a row of a table without anything in it */
     for (size_t i = 0; i < FORM_COUNT && !s.form; i++)
-        if (strlen(forms[i].word) == word.length && strncasecmp(forms[i].word, word.text, word.length) == 0)
+        if (strlen(forms[i].word) == word.length &&
+            strncasecmp(forms[i].word, word.text, word.length) == 0)
             s.form = &forms[i];
     if (!s.form) return edit_unknown_word(&s, word);
     line->edit.kind = s.form->edit;
     mw_status status = MW_OK;
-    for (const char *a = s.form->arguments; *a && !status; a++) status = edit_read_argument(&s, *a, &line->edit);
+    for (const char *a = s.form->arguments; *a && !status; a++)
+        status = edit_read_argument(&s, *a, &line->edit);
     if (!status) status = edit_expect_end(&s);
     if (!status) line->kind = s.form->line;
     return status;
@@ -245,7 +264,8 @@ static mw_status edit_parse(const char *text, const mw_edit_text_options *option
 
 static const mw_edit_text_options by_number;
 
-mw_status mw_edit_parse(const char *text, const mw_edit_text_options *options, mw_edit_line *line, mw_error *error)
+mw_status mw_edit_parse(const char *text, const mw_edit_text_options *options, mw_edit_line *line,
+                        mw_error *error)
 {
     if (!text || !line) return mw__fail(error, MW_ERROR_ARGUMENT, "mw_edit_parse: NULL");
     *line = (mw_edit_line){0};
@@ -287,11 +307,13 @@ static char *edit_put_value(char *p, const mw_edit *edit, const mw_edit_text_opt
     bool quotes;
     p = edit_put_number(p, edit->value);
     if (edit->field == edit_usual_field(options)) return p;
-    if (!field_name_is_word(options, edit->field, &quotes)) return p + sprintf(p, " %" PRIu32, edit->field);
+    if (!field_name_is_word(options, edit->field, &quotes))
+        return p + sprintf(p, " %" PRIu32, edit->field);
     return p + sprintf(p, quotes ? " \"%s\"" : " %s", options->fields[edit->field]);
 }
 
-static char *edit_put_argument(char *p, char argument, const mw_edit *edit, const mw_edit_text_options *options)
+static char *edit_put_argument(char *p, char argument, const mw_edit *edit,
+                               const mw_edit_text_options *options)
 {
     switch (argument) {
     case 'p': return edit_put_number(edit_put_number(p, edit->x), edit->y);
@@ -302,7 +324,8 @@ static char *edit_put_argument(char *p, char argument, const mw_edit *edit, cons
     }
 }
 
-size_t mw_edit_format(const mw_edit_line *line, const mw_edit_text_options *options, char text[MW_EDIT_TEXT_SIZE])
+size_t mw_edit_format(const mw_edit_line *line, const mw_edit_text_options *options,
+                      char text[MW_EDIT_TEXT_SIZE])
 {
     char *p = text;
     const edit_form *form = edit_form_of(line->kind, line->edit.kind);
@@ -321,8 +344,8 @@ struct mw_edit_reader {
     bool broken;
 };
 
-mw_status mw__edit_reader_start(mw_source source, const mw_edit_text_options *options, mw_edit_reader **out,
-                                mw_error *error)
+mw_status mw__edit_reader_start(mw_source source, const mw_edit_text_options *options,
+                                mw_edit_reader **out, mw_error *error)
 {
     mw_edit_reader *reader = mw__calloc(1, sizeof *reader);
     if (!reader) {
@@ -335,8 +358,8 @@ mw_status mw__edit_reader_start(mw_source source, const mw_edit_text_options *op
     return MW_OK;
 }
 
-mw_status mw_edit_reader_open(const char *path, const mw_edit_text_options *options, mw_edit_reader **out,
-                              mw_error *error)
+mw_status mw_edit_reader_open(const char *path, const mw_edit_text_options *options,
+                              mw_edit_reader **out, mw_error *error)
 {
     if (out) *out = NULL;
     if (!path || !out) return mw__fail(error, MW_ERROR_ARGUMENT, "mw_edit_reader_open: NULL");

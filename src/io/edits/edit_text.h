@@ -7,7 +7,7 @@
 #include <meshwalk/io.h>
 
 /* Make a reader of a source, which it takes over (it is closed also on failure). */
-mw_status mw__edit_reader_start(mw_source source, const mw_edit_text_options *options, mw_edit_reader **out,
-                                mw_error *error);
+mw_status mw__edit_reader_start(mw_source source, const mw_edit_text_options *options,
+                                mw_edit_reader **out, mw_error *error);
 
 #endif

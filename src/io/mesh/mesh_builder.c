@@ -15,7 +15,8 @@ mw_status mw__build_field(mw_mesh_builder *builder, const char *name, mw_error *
 {
     mw_mesh_file *file = builder->file;
     if (file->field_count == MW_COLUMN_LIMIT)
-        return mw__source_fail(builder->source, error, "more than %d values per vertex", MW_COLUMN_LIMIT);
+        return mw__source_fail(builder->source, error, "more than %d values per vertex",
+                               MW_COLUMN_LIMIT);
     size_t count = file->field_count + 1;
     char **names = mw__realloc(file->field_names, count, sizeof *names);
     if (!names) return mw__fail_memory(error);
@@ -59,7 +60,8 @@ mw_status mw__build_point(mw_mesh_builder *builder, double x, double y, double z
             return mw__fail(error, MW_ERROR_LIMIT, "%.240s: more than %" PRIu32 " vertices",
                             mw__source_name(builder->source), MW_MAX_VERTICES);
         size_t room = room_after(file->point_count);
-        if (!points_resize(builder, room < MW_MAX_VERTICES ? room : MW_MAX_VERTICES)) return mw__fail_memory(error);
+        if (!points_resize(builder, room < MW_MAX_VERTICES ? room : MW_MAX_VERTICES))
+            return mw__fail_memory(error);
     }
     double *point = file->points + 3 * file->point_count++;
     point[0] = x;
@@ -73,7 +75,8 @@ mw_status mw__read_xyz(const mw_source *source, const char *text, double xyz[3],
     for (int k = 0; k < 3; k++) {
         text = mw__skip_blanks(text);
         const char *end = mw__read_double(text, &xyz[k]);
-        if (!*text) return mw__source_fail(source, error, "a vertex with %d coordinates; 3 are needed", k);
+        if (!*text)
+            return mw__source_fail(source, error, "a vertex with %d coordinates; 3 are needed", k);
         if (!end || !mw__at_gap(end))
             return mw__source_fail(source, error, "'%s' is not a number", mw__excerpt(text).text);
         text = end;
@@ -93,7 +96,8 @@ void mw__build_value(mw_mesh_builder *builder, size_t field, double value)
     builder->file->fields[field][builder->file->point_count - 1] = value;
 }
 
-mw_status mw__build_triangle(mw_mesh_builder *builder, uint32_t a, uint32_t b, uint32_t c, mw_error *error)
+mw_status mw__build_triangle(mw_mesh_builder *builder, uint32_t a, uint32_t b, uint32_t c,
+                             mw_error *error)
 {
     mw_mesh_file *file = builder->file;
     if (file->triangle_count == builder->triangle_room) {
@@ -118,20 +122,25 @@ void mw__build_face(mw_mesh_builder *builder)
     builder->corners = 0;
 }
 
-static mw_status no_such_vertex(const mw_mesh_builder *builder, uint64_t position, int64_t number, mw_error *error)
+static mw_status no_such_vertex(const mw_mesh_builder *builder, uint64_t position, int64_t number,
+                                mw_error *error)
 {
     return mw__source_fail_at(builder->source, position, error,
-                              "vertex %" PRId64 " does not exist: there are %zu, numbered from %" PRId64, number,
-                              builder->file->point_count, builder->first_number);
+                              "vertex %" PRId64
+                              " does not exist: there are %zu, numbered from %" PRId64,
+                              number, builder->file->point_count, builder->first_number);
 }
 
-mw_status mw__build_vertex(mw_mesh_builder *builder, int64_t number, uint32_t *vertex, mw_error *error)
+mw_status mw__build_vertex(mw_mesh_builder *builder, int64_t number, uint32_t *vertex,
+                           mw_error *error)
 {
     uint64_t position = mw__source_position(builder->source);
-    int64_t limit = builder->points_complete ? (int64_t)builder->file->point_count : (int64_t)MW_MAX_VERTICES;
+    int64_t limit =
+        builder->points_complete ? (int64_t)builder->file->point_count : (int64_t)MW_MAX_VERTICES;
     if (number < builder->first_number || number - builder->first_number >= limit) {
         if (builder->points_complete) return no_such_vertex(builder, position, number, error);
-        return mw__source_fail(builder->source, error, "%" PRId64 " is no number of a vertex", number);
+        return mw__source_fail(builder->source, error, "%" PRId64 " is no number of a vertex",
+                               number);
     }
     *vertex = (uint32_t)(number - builder->first_number);
     if (*vertex > builder->highest) {
@@ -146,7 +155,8 @@ mw_status mw__build_corner(mw_mesh_builder *builder, int64_t number, mw_error *e
     uint32_t vertex = 0;
     mw_status status = mw__build_vertex(builder, number, &vertex, error);
     if (status) return status;
-    if (builder->corners >= 2) status = mw__build_triangle(builder, builder->first, builder->last, vertex, error);
+    if (builder->corners >= 2)
+        status = mw__build_triangle(builder, builder->first, builder->last, vertex, error);
     if (builder->corners == 0) builder->first = vertex;
     builder->last = vertex;
     builder->corners += builder->corners < UINT32_MAX;
@@ -156,7 +166,8 @@ mw_status mw__build_corner(mw_mesh_builder *builder, int64_t number, mw_error *e
 mw_status mw__build_face_end(mw_mesh_builder *builder, mw_error *error)
 {
     if (builder->corners >= 3) return MW_OK;
-    return mw__source_fail(builder->source, error, "a face of %" PRIu32 " corners; at least 3 are needed",
+    return mw__source_fail(builder->source, error,
+                           "a face of %" PRIu32 " corners; at least 3 are needed",
                            builder->corners);
 }
 
@@ -164,7 +175,8 @@ mw_status mw__build_finish(mw_mesh_builder *builder, mw_error *error)
 {
     mw_mesh_file *file = builder->file;
     if (builder->highest >= (int64_t)file->point_count)
-        return no_such_vertex(builder, builder->highest_position, builder->highest + builder->first_number, error);
+        return no_such_vertex(builder, builder->highest_position,
+                              builder->highest + builder->first_number, error);
     if (file->point_count < builder->point_room && !points_resize(builder, file->point_count))
         return mw__fail_memory(error);
     uint32_t *triangles = mw__realloc(file->triangles, file->triangle_count, 3 * sizeof *triangles);

@@ -41,9 +41,11 @@ void mw__build_face(mw_mesh_builder *builder);
 mw_status mw__build_corner(mw_mesh_builder *builder, int64_t number, mw_error *error);
 mw_status mw__build_face_end(mw_mesh_builder *builder, mw_error *error);
 /* Check a number of a vertex and count it from 0. */
-mw_status mw__build_vertex(mw_mesh_builder *builder, int64_t number, uint32_t *vertex, mw_error *error);
+mw_status mw__build_vertex(mw_mesh_builder *builder, int64_t number, uint32_t *vertex,
+                           mw_error *error);
 /* One triangle of vertices counted from 0 that exist. */
-mw_status mw__build_triangle(mw_mesh_builder *builder, uint32_t a, uint32_t b, uint32_t c, mw_error *error);
+mw_status mw__build_triangle(mw_mesh_builder *builder, uint32_t a, uint32_t b, uint32_t c,
+                             mw_error *error);
 
 /* Release the fields of a file, names and values. */
 void mw__fields_release(char **names, double **fields, size_t count);

@@ -39,7 +39,8 @@ static mw_status mesh_read_path(const char *path, mw_job *job, mw_mesh_file *fil
     mw_source source;
     mw_status status = mw__source_open(&source, path, error);
     bool pair = false;
-    if (status == MW_ERROR_SYSTEM && mw__node_ele_exists(path, &pair, error) != MW_OK) return MW_ERROR_MEMORY;
+    if (status == MW_ERROR_SYSTEM && mw__node_ele_exists(path, &pair, error) != MW_OK)
+        return MW_ERROR_MEMORY;
     if (pair) return mw__read_node_ele(path, &builder, error);
     if (status) return status;
     builder.source = &source;
@@ -50,7 +51,8 @@ static mw_status mesh_read_path(const char *path, mw_job *job, mw_mesh_file *fil
     return status;
 }
 
-mw_status mw_read_mesh(const char *path, const mw_file_options *options, mw_mesh_file *file, mw_error *error)
+mw_status mw_read_mesh(const char *path, const mw_file_options *options, mw_mesh_file *file,
+                       mw_error *error)
 {
     static const mw_file_options defaults;
     if (file) *file = (mw_mesh_file){0};
@@ -85,17 +87,21 @@ mw_arrays mw_mesh_file_arrays(const mw_mesh_file *file)
                        .integer_type = MW_UINT32};
 }
 
-static mw_status mesh_writer_find(const char *path, const char *name, const mw_mesh_format **found, mw_error *error)
+static mw_status mesh_writer_find(const char *path, const char *name, const mw_mesh_format **found,
+                                  mw_error *error)
 {
-    const mw_mesh_format *format = name ? mw__mesh_format_by_name(name) : mw__mesh_format_by_path(path);
+    const mw_mesh_format *format =
+        name ? mw__mesh_format_by_name(name) : mw__mesh_format_by_path(path);
     *found = format;
     size_t length = strlen(path);
     char names[128];
     if (!format || !format->write) {
         mw__mesh_format_list(true, names, sizeof names);
-        if (name) return mw__fail(error, MW_ERROR_ARGUMENT, "no format '%.40s' for meshes (there are %s)", name, names);
-        return mw__fail(error, MW_ERROR_ARGUMENT, "%.240s: the name tells no format for meshes (there are %s)", path,
-                        names);
+        if (name)
+            return mw__fail(error, MW_ERROR_ARGUMENT, "no format '%.40s' for meshes (there are %s)",
+                            name, names);
+        return mw__fail(error, MW_ERROR_ARGUMENT,
+                        "%.240s: the name tells no format for meshes (there are %s)", path, names);
     }
     if (length > 3 && strcasecmp(path + length - 3, ".gz") == 0)
         return mw__fail(error, MW_ERROR_ARGUMENT, "%.240s: gzip is read, but not written", path);
@@ -113,8 +119,8 @@ static mw_status mesh_check_vertices(const mw_mesh_file *file, mw_error *error)
     return MW_OK;
 }
 
-mw_status mw_write_mesh(const char *path, const mw_mesh_file *file, const char *name, const mw_file_options *options,
-                        mw_error *error)
+mw_status mw_write_mesh(const char *path, const mw_mesh_file *file, const char *name,
+                        const mw_file_options *options, mw_error *error)
 {
     static const mw_file_options defaults;
     const mw_mesh_format *format;

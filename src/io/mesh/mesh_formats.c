@@ -31,7 +31,8 @@ static bool is_solid(const char *word)
 
 static bool is_obj(const char *word)
 {
-    static const char *const words[] = {"v", "vt", "vn", "vp", "f", "o", "g", "s", "mtllib", "usemtl"};
+    static const char *const words[] = {"v", "vt", "vn", "vp",     "f",
+                                        "o", "g",  "s",  "mtllib", "usemtl"};
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
         if (strcmp(word, words[i]) == 0) return true;
     return false;
@@ -43,16 +44,27 @@ static const mw_mesh_format formats[] = {
      .first_word = is_off,
      .read = mw__read_off,
      .write = mw__write_off},
-    {.name = "ply", .endings = ".ply\0", .first_word = is_ply, .read = mw__read_ply, .write = mw__write_ply},
+    {.name = "ply",
+     .endings = ".ply\0",
+     .first_word = is_ply,
+     .read = mw__read_ply,
+     .write = mw__write_ply},
     {.name = "ply-ascii", .endings = "", .write = mw__write_ply_ascii},
-    {.name = "node", .endings = ".node\0.ele\0", .read_path = mw__read_node_ele, .write = mw__write_node_ele},
+    {.name = "node",
+     .endings = ".node\0.ele\0",
+     .read_path = mw__read_node_ele,
+     .write = mw__write_node_ele},
     {.name = "obj",
      .endings = ".obj\0",
      .first_word = is_obj,
      .common_words = true,
      .read = mw__read_obj,
      .write = mw__write_obj},
-    {.name = "stl", .endings = ".stl\0", .first_word = is_solid, .read = mw__read_stl, .write = mw__write_stl},
+    {.name = "stl",
+     .endings = ".stl\0",
+     .first_word = is_solid,
+     .read = mw__read_stl,
+     .write = mw__write_stl},
     {.name = "csv", .endings = ".csv\0", .write = mw__write_csv},
     {.name = "vtk", .endings = ".vtk\0", .write = mw__write_vtk},
 };
@@ -107,6 +119,7 @@ void mw__mesh_format_list(bool writers, char *text, size_t size)
     for (size_t i = 0; i < FORMAT_COUNT; i++) {
         bool listed = writers ? formats[i].write != NULL : formats[i].read || formats[i].read_path;
         if (listed && used < size)
-            used += (size_t)snprintf(text + used, size - used, "%s%s", used ? ", " : "", formats[i].name);
+            used += (size_t)snprintf(text + used, size - used, "%s%s", used ? ", " : "",
+                                     formats[i].name);
     }
 }

@@ -4,10 +4,12 @@
 uint64_t mw__expected_bytes(const mw_mesh_file *file)
 {
     enum { A_NUMBER = 19, A_TRIANGLE = 27 };
-    return (3 + (uint64_t)file->field_count) * A_NUMBER * file->point_count + A_TRIANGLE * file->triangle_count;
+    return (3 + (uint64_t)file->field_count) * A_NUMBER * file->point_count +
+           A_TRIANGLE * file->triangle_count;
 }
 
-mw_status mw__write_file(const char *path, const mw_mesh_file *file, mw_write_body *body, mw_job *job, mw_error *error)
+mw_status mw__write_file(const char *path, const mw_mesh_file *file, mw_write_body *body,
+                         mw_job *job, mw_error *error)
 {
     mw_output *output;
     mw_status status = mw_output_open(path, &output, error);
@@ -53,7 +55,8 @@ static bool words_equal(const char *a, const char *b)
 void mw__output_field_name(mw_output *output, const mw_mesh_file *file, size_t field)
 {
     const char *name = file->field_names[field];
-    bool taken = !*name || words_equal(name, "x") || words_equal(name, "y") || words_equal(name, "z");
+    bool taken =
+        !*name || words_equal(name, "x") || words_equal(name, "y") || words_equal(name, "z");
     for (size_t f = 0; f < field && !taken; f++) taken = words_equal(name, file->field_names[f]);
     for (const char *p = name; *p; p++) mw__output_char(output, word_char(*p));
     if (taken) {

@@ -8,15 +8,18 @@
 mw_status mw__write_off(const char *path, const mw_mesh_file *file, mw_job *job, mw_error *error);
 mw_status mw__write_obj(const char *path, const mw_mesh_file *file, mw_job *job, mw_error *error);
 mw_status mw__write_ply(const char *path, const mw_mesh_file *file, mw_job *job, mw_error *error);
-mw_status mw__write_ply_ascii(const char *path, const mw_mesh_file *file, mw_job *job, mw_error *error);
+mw_status mw__write_ply_ascii(const char *path, const mw_mesh_file *file, mw_job *job,
+                              mw_error *error);
 mw_status mw__write_stl(const char *path, const mw_mesh_file *file, mw_job *job, mw_error *error);
-mw_status mw__write_node_ele(const char *path, const mw_mesh_file *file, mw_job *job, mw_error *error);
+mw_status mw__write_node_ele(const char *path, const mw_mesh_file *file, mw_job *job,
+                             mw_error *error);
 mw_status mw__write_vtk(const char *path, const mw_mesh_file *file, mw_job *job, mw_error *error);
 mw_status mw__write_csv(const char *path, const mw_mesh_file *file, mw_job *job, mw_error *error);
 
 /* Write one file: open it, let `body` fill it, close it. */
 typedef void mw_write_body(mw_output *output, const mw_mesh_file *file);
-mw_status mw__write_file(const char *path, const mw_mesh_file *file, mw_write_body *body, mw_job *job, mw_error *error);
+mw_status mw__write_file(const char *path, const mw_mesh_file *file, mw_write_body *body,
+                         mw_job *job, mw_error *error);
 
 /* What several formats share: lines "x y z" of the vertices, and lines "3 a b c" of the
  * triangles, numbered from 0. */

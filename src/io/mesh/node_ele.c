@@ -58,7 +58,8 @@ static char *attribute_names_next(char **rest)
 
 /* Add the fields. *z is the position of the attribute that is the height, `attributes` if there
  * is none. */
-static mw_status node_add_fields(mw_mesh_builder *builder, size_t attributes, char *names, size_t *z, mw_error *error)
+static mw_status node_add_fields(mw_mesh_builder *builder, size_t attributes, char *names,
+                                 size_t *z, mw_error *error)
 {
     *z = attributes;
     bool named = names && attribute_names_count(names) == attributes;
@@ -82,8 +83,9 @@ typedef struct node_header {
     size_t z; /* attribute that is the height */
 } node_header;
 
-static mw_status node_read_vertex(mw_source *source, const char *line, int64_t v, const node_header *header,
-                                  mw_mesh_builder *builder, mw_error *error)
+static mw_status node_read_vertex(mw_source *source, const char *line, int64_t v,
+                                  const node_header *header, mw_mesh_builder *builder,
+                                  mw_error *error)
 {
     mw_number_row r = {source, line};
     int64_t number;
@@ -91,13 +93,14 @@ static mw_status node_read_vertex(mw_source *source, const char *line, int64_t v
     mw_status status = mw__row_integer(&r, "number of the vertex", &number, error);
     if (!status && v == 0) {
         if (number != 0 && number != 1)
-            return mw__source_fail(source, error, "the first vertex has the number %" PRId64 " instead of 0 or 1",
+            return mw__source_fail(source, error,
+                                   "the first vertex has the number %" PRId64 " instead of 0 or 1",
                                    number);
         builder->first_number = number;
     }
     if (!status && number != v + builder->first_number)
-        return mw__source_fail(source, error, "vertex %" PRId64 " where %" PRId64 " was expected", number,
-                               v + builder->first_number);
+        return mw__source_fail(source, error, "vertex %" PRId64 " where %" PRId64 " was expected",
+                               number, v + builder->first_number);
     for (int64_t k = 0; !status && k < header->dimension; k++)
         status = mw__row_double(&r, "coordinate", &xyz[k], error);
     if (!status) status = mw__build_point(builder, xyz[0], xyz[1], xyz[2], error);
@@ -113,7 +116,8 @@ static mw_status node_read_vertex(mw_source *source, const char *line, int64_t v
     return status;
 }
 
-mw_status mw__read_node_rows(mw_source *node, mw_mesh_builder *builder, int64_t *dimension, mw_error *error)
+mw_status mw__read_node_rows(mw_source *node, mw_mesh_builder *builder, int64_t *dimension,
+                             mw_error *error)
 {
     char *line, *names = NULL;
     int64_t values[4] = {0, 2, 0, 0};
@@ -122,7 +126,8 @@ mw_status mw__read_node_rows(mw_source *node, mw_mesh_builder *builder, int64_t 
     mw_status status = node_read_top(node, &line, &names, error);
     if (!status) status = mw__rows_header(node, line, values, 4, error);
     if (!status && values[1] != 2 && values[1] != 3)
-        status = mw__source_fail(node, error, "vertices of %" PRId64 " coordinates; 2 or 3 are read", values[1]);
+        status = mw__source_fail(node, error,
+                                 "vertices of %" PRId64 " coordinates; 2 or 3 are read", values[1]);
     if (!status && values[2] > MW_COLUMN_LIMIT)
         status = mw__source_fail(node, error, "more than %d attributes", MW_COLUMN_LIMIT);
     if (!status) {
@@ -145,7 +150,9 @@ mw_status mw__read_node(mw_source *node, mw_mesh_builder *builder, mw_error *err
 {
     int64_t dimension;
     mw_status status = mw__read_node_rows(node, builder, &dimension, error);
-    return status ? status : mw__rows_check_end(node, "vertices", (int64_t)builder->file->point_count, error);
+    return status
+               ? status
+               : mw__rows_check_end(node, "vertices", (int64_t)builder->file->point_count, error);
 }
 
 mw_status mw__read_ele(mw_source *ele, mw_mesh_builder *builder, mw_error *error)
@@ -156,7 +163,8 @@ mw_status mw__read_ele(mw_source *ele, mw_mesh_builder *builder, mw_error *error
     mw_status status = mw__source_content_line(ele, &line, error);
     if (!status) status = mw__rows_header(ele, line, values, 3, error);
     if (!status && values[1] != 3 && values[1] != 6)
-        status = mw__source_fail(ele, error, "elements of %" PRId64 " corners; triangles have 3 (or 6)", values[1]);
+        status = mw__source_fail(
+            ele, error, "elements of %" PRId64 " corners; triangles have 3 (or 6)", values[1]);
     for (int64_t t = 0; !status && t < values[0]; t++) {
         int64_t number = 0;
         status = mw__source_content_line(ele, &line, error);
@@ -167,7 +175,8 @@ mw_status mw__read_ele(mw_source *ele, mw_mesh_builder *builder, mw_error *error
         if (t == 0) first = number == 1;
         if (!status && number != t + first)
             status =
-                mw__source_fail(ele, error, "triangle %" PRId64 " where %" PRId64 " was expected", number, t + first);
+                mw__source_fail(ele, error, "triangle %" PRId64 " where %" PRId64 " was expected",
+                                number, t + first);
         mw__build_face(builder);
         for (int64_t k = 0; !status && k < values[1]; k++) {
             status = mw__row_integer(&r, "corner", &number, error);
@@ -213,7 +222,8 @@ mw_status mw__node_ele_exists(const char *path, bool *exists, mw_error *error)
 }
 
 static mw_status node_ele_read_file(const char *path, const char *ending, mw_mesh_builder *builder,
-                                    mw_status (*read)(mw_source *, mw_mesh_builder *, mw_error *), mw_error *error)
+                                    mw_status (*read)(mw_source *, mw_mesh_builder *, mw_error *),
+                                    mw_error *error)
 {
     mw_source source;
     char *found = node_ele_find_file(path, ending);
@@ -255,7 +265,8 @@ static void node_write(mw_output *output, const mw_mesh_file *file)
         mw__output_field_name(output, file, f);
         if (f + 1 < file->field_count) mw__output_char(output, ',');
     }
-    mw_output_printf(output, "%s%zu 2 %zu 0\n", attributes > 0 ? "\n" : "", file->point_count, attributes);
+    mw_output_printf(output, "%s%zu 2 %zu 0\n", attributes > 0 ? "\n" : "", file->point_count,
+                     attributes);
     for (size_t v = 0; v < file->point_count && !mw_output_failed(output); v++) {
         mw__output_integer(output, v);
         for (size_t k = 0; k < (file->has_z ? 3 : 2); k++) {
@@ -284,10 +295,12 @@ static void ele_write(mw_output *output, const mw_mesh_file *file)
 }
 
 /* Both files are complete before the first of them gets its name. */
-mw_status mw__write_node_ele(const char *path, const mw_mesh_file *file, mw_job *job, mw_error *error)
+mw_status mw__write_node_ele(const char *path, const mw_mesh_file *file, mw_job *job,
+                             mw_error *error)
 {
     if (strcmp(path, "-") == 0)
-        return mw__fail(error, MW_ERROR_ARGUMENT, "the format 'node' writes two files: it needs a name for them");
+        return mw__fail(error, MW_ERROR_ARGUMENT,
+                        "the format 'node' writes two files: it needs a name for them");
     int stem = (int)node_ele_stem_length(path);
     size_t size = strlen(path) + 16;
     char *node_path = mw__alloc(2, size);

@@ -8,7 +8,8 @@
 /* The vertices. */
 mw_status mw__read_node(mw_source *node, mw_mesh_builder *builder, mw_error *error);
 /* The same where more may follow them; tells how many coordinates they have: 2 or 3. */
-mw_status mw__read_node_rows(mw_source *node, mw_mesh_builder *builder, int64_t *dimension, mw_error *error);
+mw_status mw__read_node_rows(mw_source *node, mw_mesh_builder *builder, int64_t *dimension,
+                             mw_error *error);
 /* The .node of that name. */
 mw_status mw__read_node_file(const char *path, mw_mesh_builder *builder, mw_error *error);
 /* The triangles, after the vertices. */

@@ -32,7 +32,8 @@ static bool statement_append(obj_statement *all, const char *text, size_t length
 }
 
 /* The next line with what continues it, up to its comment; NULL at the end. */
-static mw_status statement_read(mw_source *source, obj_statement *all, char **statement, mw_error *error)
+static mw_status statement_read(mw_source *source, obj_statement *all, char **statement,
+                                mw_error *error)
 {
     all->used = 0;
     for (;;) {
@@ -51,7 +52,8 @@ static mw_status statement_read(mw_source *source, obj_statement *all, char **st
         *statement = line;
         if (!continued && !all->used) return MW_OK;
         if (all->used + length > MW_LINE_LIMIT)
-            return mw__source_fail(source, error, "continued lines of more than %zu bytes", MW_LINE_LIMIT);
+            return mw__source_fail(source, error, "continued lines of more than %zu bytes",
+                                   MW_LINE_LIMIT);
         if (!statement_append(all, line, length + continued)) return mw__fail_memory(error);
         *statement = all->text;
         if (!continued) return MW_OK;
@@ -69,7 +71,8 @@ static const char *corner_skip_references(const char *p)
     return mw__at_gap(p) ? p : NULL;
 }
 
-static mw_status obj_read_face(mw_source *source, const char *p, mw_mesh_builder *builder, mw_error *error)
+static mw_status obj_read_face(mw_source *source, const char *p, mw_mesh_builder *builder,
+                               mw_error *error)
 {
     mw__build_face(builder);
     for (p = mw__skip_blanks(p); *p; p = mw__skip_blanks(p)) {
@@ -78,14 +81,16 @@ static mw_status obj_read_face(mw_source *source, const char *p, mw_mesh_builder
         if (end && !mw__integer_fits(number)) return mw__source_fail_large(source, p, end, error);
         if (end) end = corner_skip_references(end);
         if (!end || number == 0)
-            return mw__source_fail(source, error, "'%s' is no number of a vertex", mw__excerpt(p).text);
+            return mw__source_fail(source, error, "'%s' is no number of a vertex",
+                                   mw__excerpt(p).text);
         if (number < 0) {
             int64_t back = number;
             int64_t count = (int64_t)builder->file->point_count;
             number = back < -count ? 0 : count + 1 + back;
             if (number == 0)
                 return mw__source_fail(source, error,
-                                       "vertex %" PRId64 " does not exist: there are %" PRId64 " before this line",
+                                       "vertex %" PRId64 " does not exist: there are %" PRId64
+                                       " before this line",
                                        back, count);
         }
         mw_status status = mw__build_corner(builder, number, error);

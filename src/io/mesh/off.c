@@ -20,13 +20,16 @@ static mw_status off_read_keyword(mw_source *source, char **rest, mw_error *erro
     if (length < 3 || strncmp(line + length - 3, "OFF", 3) != 0)
         return mw__source_fail(source, error, "an OFF file begins with OFF");
     if (length > 3 && (line[length - 4] == 'n' || line[length - 4] == '4'))
-        return mw__source_fail(source, error, "'%s' has vertices that are not x, y, z", mw__excerpt(line).text);
+        return mw__source_fail(source, error, "'%s' has vertices that are not x, y, z",
+                               mw__excerpt(line).text);
     *rest = mw__skip_blanks(line + length);
-    if (strncmp(*rest, "BINARY", 6) == 0) return mw__source_fail(source, error, "binary OFF is not read");
+    if (strncmp(*rest, "BINARY", 6) == 0)
+        return mw__source_fail(source, error, "binary OFF is not read");
     return MW_OK;
 }
 
-static mw_status off_read_counts(mw_source *source, char *line, int64_t *vertices, int64_t *faces, mw_error *error)
+static mw_status off_read_counts(mw_source *source, char *line, int64_t *vertices, int64_t *faces,
+                                 mw_error *error)
 {
     if (!*line) {
         mw_status status = mw__source_content_line(source, &line, error);
@@ -35,19 +38,22 @@ static mw_status off_read_counts(mw_source *source, char *line, int64_t *vertice
     const char *p = line, *first_end = p ? mw__read_integer(p, vertices) : NULL;
     const char *second = first_end ? mw__skip_blanks(first_end) : NULL;
     const char *end = second ? mw__read_integer(second, faces) : NULL;
-    if (!end || !mw__at_gap(end)) return mw__source_fail(source, error, "expected the numbers of vertices and faces");
+    if (!end || !mw__at_gap(end))
+        return mw__source_fail(source, error, "expected the numbers of vertices and faces");
     if (!mw__integer_fits(*vertices)) return mw__source_fail_large(source, p, first_end, error);
     if (!mw__integer_fits(*faces)) return mw__source_fail_large(source, second, end, error);
     if (*vertices < 0 || *faces < 0) return mw__source_fail(source, error, "a negative count");
     return MW_OK;
 }
 
-static mw_status off_read_face(mw_source *source, const char *line, mw_mesh_builder *builder, mw_error *error)
+static mw_status off_read_face(mw_source *source, const char *line, mw_mesh_builder *builder,
+                               mw_error *error)
 {
     int64_t corners, number;
     const char *p = mw__read_integer(line, &corners);
     if (!p || !mw__at_gap(p) || corners < 0)
-        return mw__source_fail(source, error, "'%s' is no number of corners", mw__excerpt(line).text);
+        return mw__source_fail(source, error, "'%s' is no number of corners",
+                               mw__excerpt(line).text);
     if (!mw__integer_fits(corners)) return mw__source_fail_large(source, line, p, error);
     mw__build_face(builder);
     for (int64_t k = 0; k < corners; k++) {
@@ -55,9 +61,11 @@ static mw_status off_read_face(mw_source *source, const char *line, mw_mesh_buil
         const char *end = mw__read_integer(p, &number);
         if (!end || !mw__at_gap(end)) {
             if (!*p)
-                return mw__source_fail(source, error, "a face of %" PRId64 " corners with %" PRId64 " of them", corners,
-                                       k);
-            return mw__source_fail(source, error, "'%s' is no number of a vertex", mw__excerpt(p).text);
+                return mw__source_fail(source, error,
+                                       "a face of %" PRId64 " corners with %" PRId64 " of them",
+                                       corners, k);
+            return mw__source_fail(source, error, "'%s' is no number of a vertex",
+                                   mw__excerpt(p).text);
         }
         if (!mw__integer_fits(number)) return mw__source_fail_large(source, p, end, error);
         mw_status status = mw__build_corner(builder, number, error);

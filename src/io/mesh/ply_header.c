@@ -12,12 +12,15 @@ static const struct {
     const char *name;
     mw_ply_number number;
 } types[] = {
-    {"char", {MW_PLY_SIGNED, 1}},     {"int8", {MW_PLY_SIGNED, 1}},     {"uchar", {MW_PLY_UNSIGNED, 1}},
-    {"uint8", {MW_PLY_UNSIGNED, 1}},  {"short", {MW_PLY_SIGNED, 2}},    {"int16", {MW_PLY_SIGNED, 2}},
-    {"ushort", {MW_PLY_UNSIGNED, 2}}, {"uint16", {MW_PLY_UNSIGNED, 2}}, {"int", {MW_PLY_SIGNED, 4}},
-    {"int32", {MW_PLY_SIGNED, 4}},    {"uint", {MW_PLY_UNSIGNED, 4}},   {"uint32", {MW_PLY_UNSIGNED, 4}},
-    {"float", {MW_PLY_FLOAT, 4}},     {"float32", {MW_PLY_FLOAT, 4}},   {"double", {MW_PLY_FLOAT, 8}},
-    {"float64", {MW_PLY_FLOAT, 8}},   {"int64", {MW_PLY_SIGNED, 8}},    {"uint64", {MW_PLY_UNSIGNED, 8}},
+    {"char", {MW_PLY_SIGNED, 1}},     {"int8", {MW_PLY_SIGNED, 1}},
+    {"uchar", {MW_PLY_UNSIGNED, 1}},  {"uint8", {MW_PLY_UNSIGNED, 1}},
+    {"short", {MW_PLY_SIGNED, 2}},    {"int16", {MW_PLY_SIGNED, 2}},
+    {"ushort", {MW_PLY_UNSIGNED, 2}}, {"uint16", {MW_PLY_UNSIGNED, 2}},
+    {"int", {MW_PLY_SIGNED, 4}},      {"int32", {MW_PLY_SIGNED, 4}},
+    {"uint", {MW_PLY_UNSIGNED, 4}},   {"uint32", {MW_PLY_UNSIGNED, 4}},
+    {"float", {MW_PLY_FLOAT, 4}},     {"float32", {MW_PLY_FLOAT, 4}},
+    {"double", {MW_PLY_FLOAT, 8}},    {"float64", {MW_PLY_FLOAT, 8}},
+    {"int64", {MW_PLY_SIGNED, 8}},    {"uint64", {MW_PLY_UNSIGNED, 8}},
 };
 
 /* Cut the next word off *rest; "" at the end. */
@@ -30,7 +33,8 @@ static char *ply_next_word(char **rest)
     return word;
 }
 
-static mw_status ply_read_type(const mw_source *source, const char *word, mw_ply_number *number, mw_error *error)
+static mw_status ply_read_type(const mw_source *source, const char *word, mw_ply_number *number,
+                               mw_error *error)
 {
     for (size_t i = 0; i < sizeof types / sizeof *types; i++)
         if (strcmp(word, types[i].name) == 0) {
@@ -40,7 +44,8 @@ static mw_status ply_read_type(const mw_source *source, const char *word, mw_ply
     return mw__source_fail(source, error, "'%s' is no type of a property", mw__excerpt(word).text);
 }
 
-static mw_status ply_read_format(const mw_source *source, char *rest, mw_ply_kind *kind, mw_error *error)
+static mw_status ply_read_format(const mw_source *source, char *rest, mw_ply_kind *kind,
+                                 mw_error *error)
 {
     static const char *const kinds[] = {"ascii", "binary_little_endian", "binary_big_endian"};
     const char *word = ply_next_word(&rest), *version = ply_next_word(&rest);
@@ -49,11 +54,13 @@ static mw_status ply_read_format(const mw_source *source, char *rest, mw_ply_kin
             *kind = (mw_ply_kind)i;
             return MW_OK;
         }
-    return mw__source_fail(source, error,
-                           "the format has to be 'ascii 1.0', 'binary_little_endian 1.0' or 'binary_big_endian 1.0'");
+    return mw__source_fail(
+        source, error,
+        "the format has to be 'ascii 1.0', 'binary_little_endian 1.0' or 'binary_big_endian 1.0'");
 }
 
-static mw_status ply_add_element(const mw_source *source, char *rest, mw_ply_header *header, mw_error *error)
+static mw_status ply_add_element(const mw_source *source, char *rest, mw_ply_header *header,
+                                 mw_error *error)
 {
     const char *name = ply_next_word(&rest), *text = ply_next_word(&rest);
     int64_t count;
@@ -66,7 +73,8 @@ static mw_status ply_add_element(const mw_source *source, char *rest, mw_ply_hea
     for (size_t e = 0; e < header->element_count; e++)
         if (strcmp(header->elements[e].name, name) == 0)
             return mw__source_fail(source, error, "a second element '%s'", mw__excerpt(name).text);
-    mw_ply_element *elements = mw__realloc(header->elements, header->element_count + 1, sizeof *elements);
+    mw_ply_element *elements =
+        mw__realloc(header->elements, header->element_count + 1, sizeof *elements);
     if (!elements) return mw__fail_memory(error);
     header->elements = elements;
     mw_ply_element *element = &elements[header->element_count];
@@ -76,9 +84,11 @@ static mw_status ply_add_element(const mw_source *source, char *rest, mw_ply_hea
     return MW_OK;
 }
 
-static mw_status ply_add_property(const mw_source *source, char *rest, mw_ply_header *header, mw_error *error)
+static mw_status ply_add_property(const mw_source *source, char *rest, mw_ply_header *header,
+                                  mw_error *error)
 {
-    if (header->element_count == 0) return mw__source_fail(source, error, "a property before the first element");
+    if (header->element_count == 0)
+        return mw__source_fail(source, error, "a property before the first element");
     mw_ply_element *element = &header->elements[header->element_count - 1];
     mw_ply_property property = {0};
     const char *word = ply_next_word(&rest);
@@ -98,7 +108,8 @@ static mw_status ply_add_property(const mw_source *source, char *rest, mw_ply_he
         return mw__source_fail(source, error, "a second property '%s'", mw__excerpt(name).text);
     if (element->property_count == PROPERTY_LIMIT)
         return mw__source_fail(source, error, "more than %d properties", PROPERTY_LIMIT);
-    mw_ply_property *properties = mw__realloc(element->properties, element->property_count + 1, sizeof *properties);
+    mw_ply_property *properties =
+        mw__realloc(element->properties, element->property_count + 1, sizeof *properties);
     if (!properties) return mw__fail_memory(error);
     element->properties = properties;
     property.name = strdup(name);
@@ -125,7 +136,8 @@ mw_status mw__ply_read_header(mw_source *source, mw_ply_header *header, mw_error
         if (!line) return mw__source_fail(source, error, "the file ends before 'end_header'");
         const char *word = ply_next_word(&line);
         if (source->line == 1) {
-            if (strcmp(word, "ply") != 0) return mw__source_fail(source, error, "a PLY file begins with 'ply'");
+            if (strcmp(word, "ply") != 0)
+                return mw__source_fail(source, error, "a PLY file begins with 'ply'");
         } else if (strcmp(word, "format") == 0) {
             status = ply_read_format(source, line, &header->kind, error);
             have_format = true;
@@ -138,7 +150,8 @@ mw_status mw__ply_read_header(mw_source *source, mw_ply_header *header, mw_error
         } else if (strcmp(word, "end_header") == 0) {
             return have_format ? MW_OK : mw__source_fail(source, error, "no line with the format");
         } else if (*word && strcmp(word, "obj_info") != 0) {
-            return mw__source_fail(source, error, "'%s' was not expected in the header", mw__excerpt(word).text);
+            return mw__source_fail(source, error, "'%s' was not expected in the header",
+                                   mw__excerpt(word).text);
         }
         if (status) return status;
     }

@@ -39,7 +39,8 @@ static int64_t sign_extend(uint64_t bits, size_t size)
 }
 
 /* An integer; a number of the type float is none. */
-static mw_status ply_read_integer(ply_reader *r, mw_ply_number number, int64_t *value, mw_error *error)
+static mw_status ply_read_integer(ply_reader *r, mw_ply_number number, int64_t *value,
+                                  mw_error *error)
 {
     if (r->kind == MW_PLY_ASCII) {
         r->p = mw__skip_blanks(r->p);
@@ -62,14 +63,16 @@ static mw_status ply_read_integer(ply_reader *r, mw_ply_number number, int64_t *
     return MW_OK;
 }
 
-static mw_status ply_read_number(ply_reader *r, mw_ply_number number, double *value, mw_error *error)
+static mw_status ply_read_number(ply_reader *r, mw_ply_number number, double *value,
+                                 mw_error *error)
 {
     if (r->kind == MW_PLY_ASCII) {
         r->p = mw__skip_blanks(r->p);
         const char *end = mw__read_double(r->p, value);
         if (!*r->p) return mw__source_fail(r->source, error, "the line ends before its last value");
         if (!end || !mw__at_gap(end))
-            return mw__source_fail(r->source, error, "'%s' is not a number", mw__excerpt(r->p).text);
+            return mw__source_fail(r->source, error, "'%s' is not a number",
+                                   mw__excerpt(r->p).text);
         r->p = end;
         return MW_OK;
     }
@@ -82,7 +85,8 @@ static mw_status ply_read_number(ply_reader *r, mw_ply_number number, double *va
     else if (number.type == MW_PLY_UNSIGNED)
         *value = (double)bits;
     else
-        *value = number.size == 4 ? (double)mw__float_of_bits((uint32_t)bits) : mw__double_of_bits(bits);
+        *value =
+            number.size == 4 ? (double)mw__float_of_bits((uint32_t)bits) : mw__double_of_bits(bits);
     return MW_OK;
 }
 
@@ -106,13 +110,15 @@ static mw_status ply_read_strip_item(ply_reader *r, ply_strip *s, int64_t number
     return status;
 }
 
-static mw_status ply_read_list(ply_reader *r, const mw_ply_property *property, ply_use what, mw_error *error)
+static mw_status ply_read_list(ply_reader *r, const mw_ply_property *property, ply_use what,
+                               mw_error *error)
 {
     int64_t count, number;
     double ignored;
     ply_strip s = {0};
     mw_status status = ply_read_integer(r, property->count, &count, error);
-    if (!status && count < 0) status = mw__source_fail(r->source, error, "a list of %" PRId64 " values", count);
+    if (!status && count < 0)
+        status = mw__source_fail(r->source, error, "a list of %" PRId64 " values", count);
     if (what == CORNERS) mw__build_face(r->builder);
     for (int64_t i = 0; !status && i < count; i++) {
         if (what == SKIP) {
@@ -121,13 +127,14 @@ static mw_status ply_read_list(ply_reader *r, const mw_ply_property *property, p
         }
         status = ply_read_integer(r, property->number, &number, error);
         if (status) break;
-        status =
-            what == STRIP ? ply_read_strip_item(r, &s, number, error) : mw__build_corner(r->builder, number, error);
+        status = what == STRIP ? ply_read_strip_item(r, &s, number, error)
+                               : mw__build_corner(r->builder, number, error);
     }
     return !status && what == CORNERS ? mw__build_face_end(r->builder, error) : status;
 }
 
-static mw_status ply_read_instance(ply_reader *r, const mw_ply_element *element, const ply_plan *plans, mw_error *error)
+static mw_status ply_read_instance(ply_reader *r, const mw_ply_element *element,
+                                   const ply_plan *plans, mw_error *error)
 {
     mw_mesh_file *file = r->builder->file;
     for (size_t i = 0; i < element->property_count; i++) {
@@ -139,21 +146,24 @@ static mw_status ply_read_instance(ply_reader *r, const mw_ply_element *element,
         else
             status = ply_read_number(r, property->number, &value, error);
         if (status) return status;
-        if (plans[i].use == COORDINATE) file->points[3 * (file->point_count - 1) + plans[i].index] = value;
+        if (plans[i].use == COORDINATE)
+            file->points[3 * (file->point_count - 1) + plans[i].index] = value;
         if (plans[i].use == FIELD) mw__build_value(r->builder, plans[i].index, value);
     }
     return MW_OK;
 }
 
 /* Text: go to the next line that is not blank. */
-static mw_status ply_next_line(ply_reader *r, const mw_ply_element *element, uint64_t have, mw_error *error)
+static mw_status ply_next_line(ply_reader *r, const mw_ply_element *element, uint64_t have,
+                               mw_error *error)
 {
     char *line;
     do {
         mw_status status = mw__source_line(r->source, &line, error);
         if (status) return status;
         if (!line)
-            return mw__source_fail(r->source, error, "the file ends after %" PRIu64 " of %" PRIu64 " elements '%s'",
+            return mw__source_fail(r->source, error,
+                                   "the file ends after %" PRIu64 " of %" PRIu64 " elements '%s'",
                                    have, element->count, mw__excerpt(element->name).text);
         r->p = mw__skip_blanks(line);
     } while (!*r->p);
@@ -161,8 +171,8 @@ static mw_status ply_next_line(ply_reader *r, const mw_ply_element *element, uin
 }
 
 /* All instances of one element. One without properties has no data, whatever its count. */
-static mw_status ply_read_element(ply_reader *r, const mw_ply_element *element, const ply_plan *plans, bool vertices,
-                                  mw_error *error)
+static mw_status ply_read_element(ply_reader *r, const mw_ply_element *element,
+                                  const ply_plan *plans, bool vertices, mw_error *error)
 {
     if (element->property_count == 0) return MW_OK;
     for (uint64_t i = 0; i < element->count; i++) {
@@ -177,7 +187,8 @@ static mw_status ply_read_element(ply_reader *r, const mw_ply_element *element, 
     return MW_OK;
 }
 
-static mw_status ply_plan_vertex(ply_reader *r, const mw_ply_element *element, ply_plan *plans, mw_error *error)
+static mw_status ply_plan_vertex(ply_reader *r, const mw_ply_element *element, ply_plan *plans,
+                                 mw_error *error)
 {
     static const char *const names[] = {"x", "y", "z"};
     for (size_t i = 0; i < element->property_count; i++) {
@@ -186,7 +197,8 @@ static mw_status ply_plan_vertex(ply_reader *r, const mw_ply_element *element, p
         plans[i] = (ply_plan){FIELD, r->builder->file->field_count};
         for (size_t k = 0; k < 3; k++)
             if (strcmp(property->name, names[k]) == 0) plans[i] = (ply_plan){COORDINATE, k};
-        mw_status status = plans[i].use == FIELD ? mw__build_field(r->builder, property->name, error) : MW_OK;
+        mw_status status =
+            plans[i].use == FIELD ? mw__build_field(r->builder, property->name, error) : MW_OK;
         if (status) return status;
     }
     for (size_t k = 0; k < 3; k++) {
@@ -195,13 +207,14 @@ static mw_status ply_plan_vertex(ply_reader *r, const mw_ply_element *element, p
         if (k == 2)
             r->builder->file->has_z = found;
         else if (!found)
-            return mw__source_fail(r->source, error, "the vertices have no property '%s'", names[k]);
+            return mw__source_fail(r->source, error, "the vertices have no property '%s'",
+                                   names[k]);
     }
     return MW_OK;
 }
 
-static mw_status ply_plan_faces(ply_reader *r, const mw_ply_element *element, ply_use what, ply_plan *plans,
-                                mw_error *error)
+static mw_status ply_plan_faces(ply_reader *r, const mw_ply_element *element, ply_use what,
+                                ply_plan *plans, mw_error *error)
 {
     size_t i = mw__ply_property(element, "vertex_indices");
     if (i == element->property_count) i = mw__ply_property(element, "vertex_index");
@@ -209,7 +222,8 @@ static mw_status ply_plan_faces(ply_reader *r, const mw_ply_element *element, pl
         element->properties[i].number.type != MW_PLY_FLOAT)
         plans[i].use = what;
     else if (element->count > 0)
-        return mw__source_fail(r->source, error, "element '%s' has no list of integers 'vertex_indices'",
+        return mw__source_fail(r->source, error,
+                               "element '%s' has no list of integers 'vertex_indices'",
                                mw__excerpt(element->name).text);
     return MW_OK;
 }
@@ -240,7 +254,8 @@ static mw_status ply_read_elements(ply_reader *r, const mw_ply_header *header, m
 
 static mw_status ply_check_end(ply_reader *r, const mw_ply_header *header, mw_error *error)
 {
-    if (r->kind != MW_PLY_ASCII) return mw__source_check_end(r->source, header->element_count, "elements", error);
+    if (r->kind != MW_PLY_ASCII)
+        return mw__source_check_end(r->source, header->element_count, "elements", error);
     char *line;
     do {
         mw_status status = mw__source_line(r->source, &line, error);

@@ -25,7 +25,8 @@ static void ply_write_header(mw_output *output, const mw_mesh_file *file, const 
         mw__output_char(output, '\n');
     }
     /* "int" is what most programs expect */
-    mw_output_printf(output, "element face %zu\nproperty list uchar %s vertex_indices\nend_header\n",
+    mw_output_printf(output,
+                     "element face %zu\nproperty list uchar %s vertex_indices\nend_header\n",
                      file->triangle_count, file->point_count <= INT_MAX ? "int" : "uint");
 }
 
@@ -45,7 +46,8 @@ static void ply_write_binary(mw_output *output, const mw_mesh_file *file)
     }
     for (size_t t = 0; t < file->triangle_count && !mw_output_failed(output); t++) {
         unsigned char bytes[13] = {3};
-        for (size_t k = 0; k < 3; k++) mw__put_bytes(bytes + 1 + 4 * k, 4, file->triangles[3 * t + k]);
+        for (size_t k = 0; k < 3; k++)
+            mw__put_bytes(bytes + 1 + 4 * k, 4, file->triangles[3 * t + k]);
         mw_output_write(output, bytes, sizeof bytes);
     }
 }
@@ -72,7 +74,8 @@ mw_status mw__write_ply(const char *path, const mw_mesh_file *file, mw_job *job,
     return mw__write_file(path, file, ply_write_binary, job, error);
 }
 
-mw_status mw__write_ply_ascii(const char *path, const mw_mesh_file *file, mw_job *job, mw_error *error)
+mw_status mw__write_ply_ascii(const char *path, const mw_mesh_file *file, mw_job *job,
+                              mw_error *error)
 {
     return mw__write_file(path, file, ply_write_ascii, job, error);
 }

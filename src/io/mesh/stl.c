@@ -15,7 +15,8 @@
 
 enum { HEADER = 80, FACET = 50, HEAD = 1024 };
 
-static mw_status stl_add_facet(mw_weld *weld, mw_mesh_builder *builder, double corners[3][3], mw_error *error)
+static mw_status stl_add_facet(mw_weld *weld, mw_mesh_builder *builder, double corners[3][3],
+                               mw_error *error)
 {
     uint32_t v[3] = {0};
     for (int k = 0; k < 3; k++) {
@@ -25,7 +26,8 @@ static mw_status stl_add_facet(mw_weld *weld, mw_mesh_builder *builder, double c
     return mw__build_triangle(builder, v[0], v[1], v[2], error);
 }
 
-static mw_status stl_read_binary(mw_source *source, mw_mesh_builder *builder, mw_weld *weld, mw_error *error)
+static mw_status stl_read_binary(mw_source *source, mw_mesh_builder *builder, mw_weld *weld,
+                                 mw_error *error)
 {
     source->binary = true;
     const unsigned char *bytes;
@@ -38,7 +40,8 @@ static mw_status stl_read_binary(mw_source *source, mw_mesh_builder *builder, mw
         status = mw__source_peek(source, FACET, &next, &have, error);
         if (status) return status;
         if (have < FACET && !source->damage)
-            return mw__source_fail(source, error, "the data end after %" PRIu32 " of %" PRIu32 " triangles", t, count);
+            return mw__source_fail(
+                source, error, "the data end after %" PRIu32 " of %" PRIu32 " triangles", t, count);
         status = mw__source_bytes(source, FACET, &bytes, error);
         if (status) return status;
         double corners[3][3];
@@ -63,8 +66,8 @@ typedef struct stl_text_state {
     double corner[3][3];
 } stl_text_state;
 
-static mw_status stl_read_text_line(mw_source *source, const char *p, stl_text_state *state, mw_mesh_builder *builder,
-                                    mw_weld *weld, mw_error *error)
+static mw_status stl_read_text_line(mw_source *source, const char *p, stl_text_state *state,
+                                    mw_mesh_builder *builder, mw_weld *weld, mw_error *error)
 {
     const char *rest;
     if (!state->in_solid) {
@@ -74,10 +77,12 @@ static mw_status stl_read_text_line(mw_source *source, const char *p, stl_text_s
         state->in_facet = true;
         state->corners = 0;
     } else if (state->in_facet && (rest = stl_keyword(p, "vertex"))) {
-        if (state->corners == 3) return mw__source_fail(source, error, "a fourth vertex in a facet");
+        if (state->corners == 3)
+            return mw__source_fail(source, error, "a fourth vertex in a facet");
         return mw__read_xyz(source, rest, state->corner[state->corners++], error);
     } else if (state->in_facet && stl_keyword(p, "endfacet")) {
-        if (state->corners < 3) return mw__source_fail(source, error, "a facet of %d vertices", state->corners);
+        if (state->corners < 3)
+            return mw__source_fail(source, error, "a facet of %d vertices", state->corners);
         state->in_facet = false;
         return stl_add_facet(weld, builder, state->corner, error);
     } else if (!state->in_facet && stl_keyword(p, "endsolid")) {
@@ -88,7 +93,8 @@ static mw_status stl_read_text_line(mw_source *source, const char *p, stl_text_s
     return MW_OK;
 }
 
-static mw_status stl_read_text(mw_source *source, mw_mesh_builder *builder, mw_weld *weld, mw_error *error)
+static mw_status stl_read_text(mw_source *source, mw_mesh_builder *builder, mw_weld *weld,
+                               mw_error *error)
 {
     stl_text_state state = {0};
     for (;;) {
@@ -126,7 +132,8 @@ mw_status mw__read_stl(mw_source *source, mw_mesh_builder *builder, mw_error *er
     bool text = stl_is_text(head, size);
     status = mw__weld_start(&weld, error);
     if (status) return status;
-    status = text ? stl_read_text(source, builder, &weld, error) : stl_read_binary(source, builder, &weld, error);
+    status = text ? stl_read_text(source, builder, &weld, error)
+                  : stl_read_binary(source, builder, &weld, error);
     mw__weld_release(&weld);
     return status;
 }
@@ -139,7 +146,8 @@ static void facet_normal(const double *a, const double *b, const double *c, doub
         u[k] = b[k] - a[k];
         v[k] = c[k] - a[k];
     }
-    for (int k = 0; k < 3; k++) n[k] = u[(k + 1) % 3] * v[(k + 2) % 3] - u[(k + 2) % 3] * v[(k + 1) % 3];
+    for (int k = 0; k < 3; k++)
+        n[k] = u[(k + 1) % 3] * v[(k + 2) % 3] - u[(k + 2) % 3] * v[(k + 1) % 3];
     double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
     for (int k = 0; k < 3; k++) n[k] = length > 0 && isfinite(length) ? n[k] / length : 0;
 }
@@ -160,7 +168,8 @@ static void stl_write(mw_output *output, const mw_mesh_file *file)
     for (size_t t = 0; t < file->triangle_count && !mw_output_failed(output); t++) {
         const double *corner[3];
         double normal[3];
-        for (size_t k = 0; k < 3; k++) corner[k] = file->points + 3 * (size_t)file->triangles[3 * t + k];
+        for (size_t k = 0; k < 3; k++)
+            corner[k] = file->points + 3 * (size_t)file->triangles[3 * t + k];
         facet_normal(corner[0], corner[1], corner[2], normal);
         stl_write_triple(output, "facet normal", normal);
         mw__output_text(output, "outer loop\n");

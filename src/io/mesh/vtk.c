@@ -14,13 +14,15 @@ static void vtk_write_values(mw_output *output, const double *values, size_t cou
 static void vtk_write(mw_output *output, const mw_mesh_file *file)
 {
     mw_output_printf(output,
-                     "# vtk DataFile Version 3.0\nmeshwalk\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS %zu double\n",
+                     "# vtk DataFile Version 3.0\nmeshwalk\nASCII\nDATASET "
+                     "UNSTRUCTURED_GRID\nPOINTS %zu double\n",
                      file->point_count);
     mw__output_points(output, file);
     mw_output_printf(output, "CELLS %zu %zu\n", file->triangle_count, 4 * file->triangle_count);
     mw__output_triangles(output, file);
     mw_output_printf(output, "CELL_TYPES %zu\n", file->triangle_count);
-    for (size_t t = 0; t < file->triangle_count && !mw_output_failed(output); t++) mw__output_text(output, "5\n");
+    for (size_t t = 0; t < file->triangle_count && !mw_output_failed(output); t++)
+        mw__output_text(output, "5\n");
     if (file->field_count > 0) mw_output_printf(output, "POINT_DATA %zu\n", file->point_count);
     for (size_t f = 0; f < file->field_count; f++) {
         mw__output_text(output, "SCALARS ");

@@ -31,7 +31,8 @@ void mw__weld_release(mw_weld *weld)
 static size_t weld_find_slot(const mw_weld *weld, const double *points, const double xyz[3])
 {
     size_t mask = weld->slot_count - 1, slot = mw__coordinates_hash(weld->seed, xyz) & mask;
-    while (weld->slots[slot] != MW_NONE && !corners_equal(points + 3 * (size_t)weld->slots[slot], xyz))
+    while (weld->slots[slot] != MW_NONE &&
+           !corners_equal(points + 3 * (size_t)weld->slots[slot], xyz))
         slot = (slot + 1) & mask;
     return slot;
 }
@@ -44,14 +45,15 @@ static mw_status weld_grow(mw_weld *weld, const double *points, mw_error *error)
     memset(larger.slots, 0xff, larger.slot_count * sizeof *larger.slots);
     for (size_t s = 0; s < weld->slot_count; s++)
         if (weld->slots[s] != MW_NONE)
-            larger.slots[weld_find_slot(&larger, points, points + 3 * (size_t)weld->slots[s])] = weld->slots[s];
+            larger.slots[weld_find_slot(&larger, points, points + 3 * (size_t)weld->slots[s])] =
+                weld->slots[s];
     free(weld->slots);
     *weld = larger;
     return MW_OK;
 }
 
-mw_status mw__weld_vertex(mw_weld *weld, mw_mesh_builder *builder, const double xyz[3], uint32_t *vertex,
-                          mw_error *error)
+mw_status mw__weld_vertex(mw_weld *weld, mw_mesh_builder *builder, const double xyz[3],
+                          uint32_t *vertex, mw_error *error)
 {
     size_t count = builder->file->point_count;
     mw_status status = MW_OK;

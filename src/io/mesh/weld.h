@@ -18,7 +18,7 @@ mw_status mw__weld_start(mw_weld *weld, mw_error *error);
 void mw__weld_release(mw_weld *weld);
 
 /* The vertex at x, y, z, which is added where there is none yet. */
-mw_status mw__weld_vertex(mw_weld *weld, mw_mesh_builder *builder, const double xyz[3], uint32_t *vertex,
-                          mw_error *error);
+mw_status mw__weld_vertex(mw_weld *weld, mw_mesh_builder *builder, const double xyz[3],
+                          uint32_t *vertex, mw_error *error);
 
 #endif

@@ -1,5 +1,5 @@
-/* The names by which tables call coordinates. The order is that of mw_axis_names_at; where a table has
- * several, mw_point_reader_open takes the first. */
+/* The names by which tables call coordinates. The order is that of mw_axis_names_at; where a table
+ * has several, mw_point_reader_open takes the first. */
 #include "io/points/axis_names.h"
 
 #include <string.h>

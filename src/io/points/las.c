@@ -23,8 +23,9 @@ enum { WKT_RECORD = 2112, GEO_KEYS_RECORD = 34735 };
 typedef struct las_layout {
     uint8_t size, time, colour;
 } las_layout;
-static const las_layout layouts[] = {{20, 0, 0},  {28, 20, 0},  {26, 0, 20},  {34, 20, 28}, {57, 20, 0}, {63, 20, 28},
-                                     {30, 22, 0}, {36, 22, 30}, {38, 22, 30}, {59, 22, 0},  {67, 22, 30}};
+static const las_layout layouts[] = {{20, 0, 0},   {28, 20, 0},  {26, 0, 20}, {34, 20, 28},
+                                     {57, 20, 0},  {63, 20, 28}, {30, 22, 0}, {36, 22, 30},
+                                     {38, 22, 30}, {59, 22, 0},  {67, 22, 30}};
 enum { FORMATS = sizeof layouts / sizeof *layouts, OLD_FORMATS = 6 };
 
 typedef enum las_column {
@@ -115,8 +116,8 @@ static mw_status las_keep_row(mw_point_reader *reader, const unsigned char *reco
     return mw__row_texts_add(&reader->rows, row, size, ',', error);
 }
 
-static mw_status las_read_points(mw_point_reader *reader, double *values, size_t capacity, size_t *count,
-                                 mw_error *error)
+static mw_status las_read_points(mw_point_reader *reader, double *values, size_t capacity,
+                                 size_t *count, mw_error *error)
 {
     las_reader *l = reader->state;
     while (*count < capacity && l->done < l->count && reader->rows.size < MW_ROW_TEXTS_LIMIT) {
@@ -126,8 +127,9 @@ static mw_status las_read_points(mw_point_reader *reader, double *values, size_t
         mw_status status = mw__source_peek(&reader->source, l->record_size, &next, &have, error);
         if (status) return status;
         if (have < l->record_size && !reader->source.damage)
-            return mw__source_fail(&reader->source, error, "the data end after %" PRIu64 " of %" PRIu64 " points",
-                                   l->done, l->count);
+            return mw__source_fail(&reader->source, error,
+                                   "the data end after %" PRIu64 " of %" PRIu64 " points", l->done,
+                                   l->count);
         status = mw__source_bytes(&reader->source, l->record_size, &record, error);
         if (status) return status;
         l->done++;
@@ -135,7 +137,8 @@ static mw_status las_read_points(mw_point_reader *reader, double *values, size_t
         status = las_keep_row(reader, record, error);
         if (status) return status;
         double *point = values + *count * reader->width;
-        for (size_t i = 0; i < reader->width; i++) point[i] = las_value(l, record, (las_column)l->columns[i]);
+        for (size_t i = 0; i < reader->width; i++)
+            point[i] = las_value(l, record, (las_column)l->columns[i]);
         ++*count;
     }
     return MW_OK;
@@ -145,7 +148,8 @@ static mw_status las_refuse_laz(const mw_source *source, mw_error *error)
 {
     const char *name = mw__source_name(source);
     return mw__fail(error, MW_ERROR_INPUT,
-                    "%.240s: this is LAZ, compressed LAS, which is not read: unpack it first, for instance with "
+                    "%.240s: this is LAZ, compressed LAS, which is not read: unpack it first, for "
+                    "instance with "
                     "'las2las -i FILE.laz -o FILE.las' or 'pdal translate FILE.laz FILE.las'",
                     name);
 }
@@ -157,11 +161,17 @@ typedef struct las_records {
     unsigned epsg; /* 0: none */
 } las_records;
 
-/* The EPSG code of a directory of GeoTIFF keys: that of the projected system (key 3072), or else of the
- * geographic one (key 2048); 0 if it has none, as a system that its other keys define. */
+/* The EPSG code of a directory of GeoTIFF keys: that of the projected system (key 3072), or else
+ * of the geographic one (key 2048); 0 if it has none, as a system that its other keys define. */
 static unsigned las_epsg_of_keys(const unsigned char *bytes, size_t size)
 {
-    enum { MODEL = 1024, GEOGRAPHIC = 2048, PROJECTED = 3072, IS_GEOGRAPHIC = 2, USER_DEFINED = 32767 };
+    enum {
+        MODEL = 1024,
+        GEOGRAPHIC = 2048,
+        PROJECTED = 3072,
+        IS_GEOGRAPHIC = 2,
+        USER_DEFINED = 32767
+    };
     unsigned model = 0, geographic = 0, projected = 0;
     for (size_t at = 8; at + 8 <= size; at += 8) {
         unsigned key = mw__get_u16(bytes + at), place = mw__get_u16(bytes + at + 2),
@@ -171,12 +181,14 @@ static unsigned las_epsg_of_keys(const unsigned char *bytes, size_t size)
         if (key == GEOGRAPHIC) geographic = value;
         if (key == PROJECTED) projected = value;
     }
-    return projected && model != IS_GEOGRAPHIC ? projected : model == 0 || model == IS_GEOGRAPHIC ? geographic : 0;
+    return projected && model != IS_GEOGRAPHIC    ? projected
+           : model == 0 || model == IS_GEOGRAPHIC ? geographic
+                                                  : 0;
 }
 
 /* Read a record of those that are about the projection; of several of a kind the first counts. */
-static mw_status las_read_record(mw_source *source, size_t length, unsigned number, las_records *records,
-                                 mw_error *error)
+static mw_status las_read_record(mw_source *source, size_t length, unsigned number,
+                                 las_records *records, mw_error *error)
 {
     const unsigned char *bytes;
     bool wkt = number == WKT_RECORD && !records->wkt;
@@ -188,16 +200,18 @@ static mw_status las_read_record(mw_source *source, size_t length, unsigned numb
     return wkt ? mw__crs_copy((const char *)bytes, length, &records->wkt, error) : MW_OK;
 }
 
-/* Go through what stands between the header and the points, as far as it consists of records. The number
- * of records is not trusted. */
-static mw_status las_read_records(mw_source *source, uint64_t end, las_records *records, mw_error *error)
+/* Go through what stands between the header and the points, as far as it consists of records. The
+ * number of records is not trusted. */
+static mw_status las_read_records(mw_source *source, uint64_t end, las_records *records,
+                                  mw_error *error)
 {
     while (end - source->offset >= VLR_HEADER) {
         const unsigned char *bytes;
         mw_status status = mw__source_bytes(source, VLR_HEADER, &bytes, error);
         if (status) return status;
         unsigned number = mw__get_u16(bytes + 18);
-        bool projection = memcmp(bytes + 2, "LASF_Projection", 16) == 0 || memcmp(bytes + 2, "liblas", 7) == 0;
+        bool projection =
+            memcmp(bytes + 2, "LASF_Projection", 16) == 0 || memcmp(bytes + 2, "liblas", 7) == 0;
         records->compressed |= memcmp(bytes + 2, "laszip", 6) == 0 && number == LASZIP_RECORD;
         uint64_t length = mw__get_u16(bytes + 20), left = end - source->offset;
         if (length > left) length = left;
@@ -229,13 +243,15 @@ static mw_status las_read_header(mw_point_reader *reader, las_reader *l, mw_erro
     mw_status status = mw__source_peek(source, HEADER_1_4, &head, &have, error);
     if (status) return status;
     const unsigned char *h = (const unsigned char *)head;
-    if (have < HEADER) return mw__source_fail_at(source, have, error, "the data end within the header");
+    if (have < HEADER)
+        return mw__source_fail_at(source, have, error, "the data end within the header");
     unsigned minor = h[25], header_size = mw__get_u16(h + 94), format = h[104];
     uint64_t points_at = mw__get_u32(h + 96);
     l->record_size = mw__get_u16(h + 105);
     l->count = mw__get_u32(h + 107);
     if (h[24] != 1 || minor > 4)
-        return mw__source_fail_at(source, 24, error, "version %u.%u; 1.0 to 1.4 are read", h[24], minor);
+        return mw__source_fail_at(source, 24, error, "version %u.%u; 1.0 to 1.4 are read", h[24],
+                                  minor);
     if (minor == 4 && header_size >= HEADER_1_4 && have == HEADER_1_4 && mw__get_u64(h + 247) > 0)
         l->count = mw__get_u64(h + 247);
     for (int k = 0; k < 3; k++) {
@@ -244,13 +260,16 @@ static mw_status las_read_header(mw_point_reader *reader, las_reader *l, mw_erro
     }
     if (format & 0xc0) return las_refuse_laz(source, error);
     if (format >= FORMATS)
-        return mw__source_fail_at(source, 104, error, "point format %u; 0 to %d are read", format, FORMATS - 1);
+        return mw__source_fail_at(source, 104, error, "point format %u; 0 to %d are read", format,
+                                  FORMATS - 1);
     l->format = format;
     if (l->record_size < layouts[format].size)
-        return mw__source_fail_at(source, 105, error, "point records of %zu bytes; format %u has %u at least",
+        return mw__source_fail_at(source, 105, error,
+                                  "point records of %zu bytes; format %u has %u at least",
                                   l->record_size, format, layouts[format].size);
     if (header_size < HEADER || points_at < header_size)
-        return mw__source_fail_at(source, 94, error, "a header of %u bytes, and points at byte %" PRIu64, header_size,
+        return mw__source_fail_at(source, 94, error,
+                                  "a header of %u bytes, and points at byte %" PRIu64, header_size,
                                   points_at);
     status = mw__source_skip(source, header_size, error);
     las_records records = {0};
@@ -264,7 +283,8 @@ static mw_status las_read_header(mw_point_reader *reader, las_reader *l, mw_erro
 static size_t las_find_column(const char *item, size_t length)
 {
     for (size_t c = 0; c < COLUMN_COUNT; c++)
-        if (strlen(column_names[c]) == length && strncasecmp(column_names[c], item, length) == 0) return c;
+        if (strlen(column_names[c]) == length && strncasecmp(column_names[c], item, length) == 0)
+            return c;
     size_t number = 0;
     for (size_t i = 0; i < length; i++) {
         if (item[i] < '0' || item[i] > '9' || number > COLUMN_COUNT) return COLUMN_COUNT;
@@ -273,7 +293,8 @@ static size_t las_find_column(const char *item, size_t length)
     return number >= 1 && number <= COLUMN_COUNT ? number - 1 : COLUMN_COUNT;
 }
 
-static mw_status las_select_columns(mw_point_reader *reader, las_reader *l, const char *selection, mw_error *error)
+static mw_status las_select_columns(mw_point_reader *reader, las_reader *l, const char *selection,
+                                    mw_error *error)
 {
     size_t length;
     bool taken[COLUMN_COUNT] = {false};
@@ -287,8 +308,8 @@ static mw_status las_select_columns(mw_point_reader *reader, las_reader *l, cons
                             "returns, classification, ...)",
                             mw__source_name(&reader->source), shown, item);
         if (taken[found])
-            return mw__fail(error, MW_ERROR_ARGUMENT, "columns '%.60s': '%.*s' is selected twice", selection, shown,
-                            item);
+            return mw__fail(error, MW_ERROR_ARGUMENT, "columns '%.60s': '%.*s' is selected twice",
+                            selection, shown, item);
         taken[found] = true;
         l->columns[reader->width] = (uint8_t)found;
         size_t place = mw__table_header_find(&reader->header, item, length);
@@ -312,7 +333,8 @@ static mw_status las_name_table(mw_point_reader *reader, const las_reader *l, mw
     return mw__table_header_commas(header, ' ', error);
 }
 
-static mw_status las_select(mw_point_reader *reader, const size_t *columns, size_t count, mw_error *error)
+static mw_status las_select(mw_point_reader *reader, const size_t *columns, size_t count,
+                            mw_error *error)
 {
     las_reader *l = reader->state;
     for (size_t k = 0; k < count; k++) {
@@ -324,7 +346,8 @@ static mw_status las_select(mw_point_reader *reader, const size_t *columns, size
     return MW_OK;
 }
 
-mw_status mw__las_start(mw_point_reader *reader, const mw_point_reader_options *options, mw_error *error)
+mw_status mw__las_start(mw_point_reader *reader, const mw_point_reader_options *options,
+                        mw_error *error)
 {
     reader->source.binary = true;
     las_reader *l = mw__calloc(1, sizeof *l);

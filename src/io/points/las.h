@@ -5,6 +5,7 @@
 #include "io/points/point_reader.h"
 
 /* Looks at the beginning, and sets width, names, read and state. */
-mw_status mw__las_start(mw_point_reader *reader, const mw_point_reader_options *options, mw_error *error);
+mw_status mw__las_start(mw_point_reader *reader, const mw_point_reader_options *options,
+                        mw_error *error);
 
 #endif

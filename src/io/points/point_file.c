@@ -14,23 +14,27 @@ static mw_status selection_check(const char *columns, mw_error *error)
 {
     size_t count = 0, length;
     for (const char *rest = columns; mw__selection_item(&rest, &length); count++)
-        if (length == 0) return mw__fail(error, MW_ERROR_ARGUMENT, "columns '%.60s': an empty name", columns);
+        if (length == 0)
+            return mw__fail(error, MW_ERROR_ARGUMENT, "columns '%.60s': an empty name", columns);
     if (count < 2 || count > MW_COLUMN_LIMIT)
-        return mw__fail(error, MW_ERROR_ARGUMENT, "columns '%.60s': two are needed at least, x and y", columns);
+        return mw__fail(error, MW_ERROR_ARGUMENT,
+                        "columns '%.60s': two are needed at least, x and y", columns);
     return MW_OK;
 }
 
 /* GeoJSON, GPX, KML and so on hold points, but no table of them. */
-static mw_status text_refuse_markup(const mw_source *source, const char *head, size_t size, mw_error *error)
+static mw_status text_refuse_markup(const mw_source *source, const char *head, size_t size,
+                                    mw_error *error)
 {
     if (size >= 3 && memcmp(head, "\xef\xbb\xbf", 3) == 0) head += 3, size -= 3;
     while (size > 0 && strchr(" \t\r\n", *head)) head++, size--;
     if (size == 0 || (*head != '{' && *head != '<')) return MW_OK;
-    return mw__fail(error, MW_ERROR_INPUT, "%.240s: this is %s, not a table of points", mw__source_name(source),
-                    *head == '{' ? "JSON" : "XML");
+    return mw__fail(error, MW_ERROR_INPUT, "%.240s: this is %s, not a table of points",
+                    mw__source_name(source), *head == '{' ? "JSON" : "XML");
 }
 
-static mw_status point_reader_start(mw_point_reader *reader, const mw_point_reader_options *options, mw_error *error)
+static mw_status point_reader_start(mw_point_reader *reader, const mw_point_reader_options *options,
+                                    mw_error *error)
 {
     const char *head;
     size_t size;
@@ -40,14 +44,15 @@ static mw_status point_reader_start(mw_point_reader *reader, const mw_point_read
     if (size >= 4 && memcmp(head, "LASF", 4) == 0) return mw__las_start(reader, options, error);
     const mw_mesh_format *format = mw__mesh_format_by_content(head, size);
     if (format && (!format->common_words || mw__mesh_format_by_path(reader->source.path) == format))
-        return mw__fail(error, MW_ERROR_INPUT, "%.240s: this is a mesh ('%s'), not a table of points",
+        return mw__fail(error, MW_ERROR_INPUT,
+                        "%.240s: this is a mesh ('%s'), not a table of points",
                         mw__source_name(&reader->source), format->name);
     status = text_refuse_markup(&reader->source, head, size, error);
     return status ? status : mw__point_table_start(reader, options, error);
 }
 
-mw_status mw__point_reader_start(mw_source source, const mw_point_reader_options *options, mw_point_reader **out,
-                                 mw_error *error)
+mw_status mw__point_reader_start(mw_source source, const mw_point_reader_options *options,
+                                 mw_point_reader **out, mw_error *error)
 {
     static const mw_point_reader_options none;
     mw_point_reader *reader = mw__calloc(1, sizeof *reader);
@@ -68,8 +73,8 @@ mw_status mw__point_reader_start(mw_source source, const mw_point_reader_options
     return status;
 }
 
-mw_status mw_point_reader_open(const char *path, const mw_point_reader_options *options, mw_point_reader **out,
-                               mw_error *error)
+mw_status mw_point_reader_open(const char *path, const mw_point_reader_options *options,
+                               mw_point_reader **out, mw_error *error)
 {
     if (out) *out = NULL;
     if (!path || !out) return mw__fail(error, MW_ERROR_ARGUMENT, "mw_point_reader_open: NULL");
@@ -102,7 +107,8 @@ size_t mw_point_reader_place(const mw_point_reader *reader, size_t column)
     return column < reader->width ? reader->places[column] : SIZE_MAX;
 }
 
-mw_status mw_point_reader_read(mw_point_reader *reader, double *values, size_t capacity, size_t *count, mw_error *error)
+mw_status mw_point_reader_read(mw_point_reader *reader, double *values, size_t capacity,
+                               size_t *count, mw_error *error)
 {
     *count = 0;
     reader->begun = true;
@@ -115,7 +121,8 @@ double mw_point_reader_fraction(const mw_point_reader *reader)
     return mw__source_fraction(&reader->source);
 }
 
-mw_status mw_point_reader_table(const mw_point_reader *reader, mw_point_table *table, mw_error *error)
+mw_status mw_point_reader_table(const mw_point_reader *reader, mw_point_table *table,
+                                mw_error *error)
 {
     if (!reader || !table) return mw__fail(error, MW_ERROR_ARGUMENT, "mw_point_reader_table: NULL");
     const mw_table_header *header = &reader->header;
@@ -127,9 +134,11 @@ mw_status mw_point_reader_table(const mw_point_reader *reader, mw_point_table *t
     return MW_OK;
 }
 
-mw_status mw_point_reader_select(mw_point_reader *reader, const size_t *columns, size_t count, mw_error *error)
+mw_status mw_point_reader_select(mw_point_reader *reader, const size_t *columns, size_t count,
+                                 mw_error *error)
 {
-    if (!reader || !columns) return mw__fail(error, MW_ERROR_ARGUMENT, "mw_point_reader_select: NULL");
+    if (!reader || !columns)
+        return mw__fail(error, MW_ERROR_ARGUMENT, "mw_point_reader_select: NULL");
     if (!reader->table || reader->begun || count < 2)
         return mw__fail(error, MW_ERROR_ARGUMENT, "mw_point_reader_select: %s",
                         !reader->table  ? "the reader does not keep its table"
@@ -137,10 +146,12 @@ mw_status mw_point_reader_select(mw_point_reader *reader, const size_t *columns,
                                         : "two columns are needed at least");
     for (size_t k = 0; k < count; k++) {
         if (columns[k] >= reader->header.count)
-            return mw__fail(error, MW_ERROR_ARGUMENT, "mw_point_reader_select: no column %zu", columns[k]);
+            return mw__fail(error, MW_ERROR_ARGUMENT, "mw_point_reader_select: no column %zu",
+                            columns[k]);
         for (size_t i = 0; i < k; i++)
             if (columns[i] == columns[k])
-                return mw__fail(error, MW_ERROR_ARGUMENT, "mw_point_reader_select: column %zu twice", columns[k]);
+                return mw__fail(error, MW_ERROR_ARGUMENT,
+                                "mw_point_reader_select: column %zu twice", columns[k]);
     }
     mw__point_reader_clear(reader);
     return reader->select(reader, columns, count, error);
@@ -156,7 +167,8 @@ uint64_t mw_point_reader_texts(const mw_point_reader *reader, size_t column, int
 const char *mw_point_reader_row(const mw_point_reader *reader, size_t row, size_t *length)
 {
     *length = 0;
-    return reader->table && row < reader->rows.count ? mw__row_texts_at(&reader->rows, row, length) : NULL;
+    return reader->table && row < reader->rows.count ? mw__row_texts_at(&reader->rows, row, length)
+                                                     : NULL;
 }
 
 void mw_point_reader_close(mw_point_reader *reader)

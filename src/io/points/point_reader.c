@@ -4,7 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-mw_status mw__point_reader_add(mw_point_reader *reader, const char *name, size_t place, mw_error *error)
+mw_status mw__point_reader_add(mw_point_reader *reader, const char *name, size_t place,
+                               mw_error *error)
 {
     size_t *places = mw__realloc(reader->places, reader->width + 1, sizeof *places);
     if (!places) return mw__fail_memory(error);

@@ -19,9 +19,11 @@ struct mw_point_reader {
     size_t width;
     char **names;   /* one per value */
     size_t *places; /* of each value: the column of the file */
-    mw_status (*read)(mw_point_reader *reader, double *values, size_t capacity, size_t *count, mw_error *error);
+    mw_status (*read)(mw_point_reader *reader, double *values, size_t capacity, size_t *count,
+                      mw_error *error);
     /* Choose the columns to read. They exist, each once; no column is chosen yet. */
-    mw_status (*select)(mw_point_reader *reader, const size_t *columns, size_t count, mw_error *error);
+    mw_status (*select)(mw_point_reader *reader, const size_t *columns, size_t count,
+                        mw_error *error);
     void *state;            /* of that reader; released with free */
     mw_table_header header; /* all columns of the file */
     char separator;         /* of the rows' texts */
@@ -34,7 +36,8 @@ struct mw_point_reader {
 };
 
 /* Add a column to the reader: its name, and which column of the file it is. */
-mw_status mw__point_reader_add(mw_point_reader *reader, const char *name, size_t place, mw_error *error);
+mw_status mw__point_reader_add(mw_point_reader *reader, const char *name, size_t place,
+                               mw_error *error);
 
 /* Remove all columns from the reader. */
 void mw__point_reader_clear(mw_point_reader *reader);

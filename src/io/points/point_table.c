@@ -38,26 +38,29 @@ static mw_status table_take_column(mw_point_reader *reader, size_t column, mw_er
     return mw__point_reader_add(reader, name, column, error);
 }
 
-static mw_status table_no_such_column(mw_point_reader *reader, const char *item, size_t length, mw_error *error)
+static mw_status table_no_such_column(mw_point_reader *reader, const char *item, size_t length,
+                                      mw_error *error)
 {
     const mw_table_header *c = &reader->header;
     char known[160] = "";
     size_t used = 0;
     for (size_t i = 0; c->names && i < c->count && used < sizeof known; i++)
-        used += (size_t)snprintf(known + used, sizeof known - used, "%s%s", i ? ", " : ": ", c->names[i]);
-    return mw__source_fail(&reader->source, error, "no column '%.*s' among the %zu%s", length < 60 ? (int)length : 60,
-                           item, c->count, known);
+        used += (size_t)snprintf(known + used, sizeof known - used, "%s%s", i ? ", " : ": ",
+                                 c->names[i]);
+    return mw__source_fail(&reader->source, error, "no column '%.*s' among the %zu%s",
+                           length < 60 ? (int)length : 60, item, c->count, known);
 }
 
 /* The column that the caller names, by name or by number. */
-static mw_status table_find_column(mw_point_reader *reader, const char *item, size_t length, size_t *column,
-                                   mw_error *error)
+static mw_status table_find_column(mw_point_reader *reader, const char *item, size_t length,
+                                   size_t *column, mw_error *error)
 {
     const mw_table_header *c = &reader->header;
     *column = mw__table_header_find(c, item, length);
     for (size_t i = *column + 1; c->names && i < c->count; i++)
         if (strlen(c->names[i]) == length && strncasecmp(c->names[i], item, length) == 0)
-            return mw__source_fail(&reader->source, error, "columns %zu and %zu are both called '%.*s': use a number",
+            return mw__source_fail(&reader->source, error,
+                                   "columns %zu and %zu are both called '%.*s': use a number",
                                    *column + 1, i + 1, length < 60 ? (int)length : 60, item);
     if (*column < c->count) return MW_OK;
     int64_t number;
@@ -77,8 +80,8 @@ static mw_status table_select_named(mw_point_reader *reader, const char *selecti
         mw_status status = table_find_column(reader, item, length, &column, error);
         if (status) return status;
         if (t->slot[column] != UNUSED)
-            return mw__fail(error, MW_ERROR_ARGUMENT, "columns '%.60s': '%.*s' is selected twice", selection,
-                            length < 60 ? (int)length : 60, item);
+            return mw__fail(error, MW_ERROR_ARGUMENT, "columns '%.60s': '%.*s' is selected twice",
+                            selection, length < 60 ? (int)length : 60, item);
         status = table_take_column(reader, column, error);
         if (status) return status;
     }
@@ -103,12 +106,14 @@ static mw_status table_select_numbers(mw_point_reader *reader, mw_error *error)
     size_t found[3];
     if (mw__table_header_coordinates(c, found))
         for (int k = 0; k < 3; k++) {
-            mw_status status = found[k] < c->count ? table_take_column(reader, found[k], error) : MW_OK;
+            mw_status status =
+                found[k] < c->count ? table_take_column(reader, found[k], error) : MW_OK;
             if (status) return status;
         }
     size_t coordinates = reader->width ? reader->width : 3;
     for (size_t i = 0; i < c->count; i++) {
-        mw_status status = c->numbers[i] && t->slot[i] == UNUSED ? table_take_column(reader, i, error) : MW_OK;
+        mw_status status =
+            c->numbers[i] && t->slot[i] == UNUSED ? table_take_column(reader, i, error) : MW_OK;
         if (status) return status;
     }
     if (reader->width >= 2) return table_allow_texts(reader, coordinates, error);
@@ -117,7 +122,8 @@ static mw_status table_select_numbers(mw_point_reader *reader, mw_error *error)
                               reader->width == 1 ? "" : "s");
 }
 
-static mw_status table_select(mw_point_reader *reader, const size_t *columns, size_t count, mw_error *error)
+static mw_status table_select(mw_point_reader *reader, const size_t *columns, size_t count,
+                              mw_error *error)
 {
     point_table *t = reader->state;
     for (size_t i = 0; i < t->columns; i++) t->slot[i] = UNUSED;
@@ -134,20 +140,23 @@ static mw_status table_explain_row(mw_point_reader *reader, const char *row, mw_
     const point_table *t = reader->state;
     size_t count = mw__delimited_count(row, t->separator);
     if (count != t->columns)
-        return mw__source_fail(&reader->source, error, "%zu column%s where %s %zu%s", count, count == 1 ? "" : "s",
-                               t->header ? "the header has" : "the rows before have", t->columns,
-                               t->separator == ',' && count == 2 * t->columns ? " (are these decimal commas?)" : "");
+        return mw__source_fail(
+            &reader->source, error, "%zu column%s where %s %zu%s", count, count == 1 ? "" : "s",
+            t->header ? "the header has" : "the rows before have", t->columns,
+            t->separator == ',' && count == 2 * t->columns ? " (are these decimal commas?)" : "");
     if (t->point && t->comma)
-        return mw__source_fail(&reader->source, error, "decimal points and decimal commas in one table");
+        return mw__source_fail(&reader->source, error,
+                               "decimal points and decimal commas in one table");
     mw_text_cell cell;
     bool more = true;
     for (size_t i = 0; mw__delimited_cell(&row, t->separator, &more, &cell); i++) {
         if (t->slot[i] == UNUSED || mw__cell_is_number(cell, t->separator)) continue;
         if (mw__cell_is_missing(cell) && (cell.length > 0 || t->separator != ' ')) continue;
         bool comma = mw__cell_is_number(cell, ';');
-        return mw__source_fail(&reader->source, error, "column %zu: '%s' is not a number%s", i + 1,
-                               mw__excerpt_of(cell.text, cell.length).text,
-                               comma ? " (for decimal commas separate the columns by semicolons or tabs)" : "");
+        return mw__source_fail(
+            &reader->source, error, "column %zu: '%s' is not a number%s", i + 1,
+            mw__excerpt_of(cell.text, cell.length).text,
+            comma ? " (for decimal commas separate the columns by semicolons or tabs)" : "");
     }
     return mw__source_fail(&reader->source, error, "this is no row of numbers");
 }
@@ -185,7 +194,8 @@ static char *table_read_missing(const point_table *t, char *p, double *value)
     mw_text_cell cell;
     const char *row = p, *end = mw__delimited_skip(p, t->separator);
     bool more = true;
-    if (!mw__delimited_cell(&row, t->separator, &more, &cell) || !mw__cell_is_missing(cell)) return NULL;
+    if (!mw__delimited_cell(&row, t->separator, &more, &cell) || !mw__cell_is_missing(cell))
+        return NULL;
     if (cell.length == 0 && t->separator == ' ') return NULL;
     *value = NAN;
     return p + (end - p);
@@ -211,14 +221,16 @@ static char *table_skip_text(point_table *t, char *p, size_t slot, int64_t line,
     return p + (mw__delimited_skip(p, t->separator) - p);
 }
 
-/* Read a cell of a table where texts may stand in some columns. What looks like a decimal mark in a text
- * is none. */
-static char *table_read_cell_or_text(point_table *t, char *p, size_t slot, int64_t line, double *value)
+/* Read a cell of a table where texts may stand in some columns. What looks like a decimal mark in
+ * a text is none. */
+static char *table_read_cell_or_text(point_table *t, char *p, size_t slot, int64_t line,
+                                     double *value)
 {
     bool point = t->point, comma = t->comma;
     char *end = table_read_cell(t, p, value);
     char *after = end ? table_skip_gap(end, t->separator) : NULL;
-    if (after && (!*after || *after == t->separator || (t->separator == ' ' && after > end))) return end;
+    if (after && (!*after || *after == t->separator || (t->separator == ' ' && after > end)))
+        return end;
     t->point = point;
     t->comma = comma;
     return table_skip_text(t, p, slot, line, value);
@@ -256,15 +268,17 @@ static mw_status table_keep_row(mw_point_reader *reader, const char *row, mw_err
     return mw__row_texts_add(&reader->rows, row, reader->source.line_length, t->separator, error);
 }
 
-static mw_status table_check_count(const mw_point_reader *reader, const point_table *t, mw_error *error)
+static mw_status table_check_count(const mw_point_reader *reader, const point_table *t,
+                                   mw_error *error)
 {
     if (t->expected == UINT64_MAX || t->done == t->expected) return MW_OK;
-    return mw__source_fail(&reader->source, error, "%" PRIu64 " rows where %" PRIu64 " are announced", t->done,
+    return mw__source_fail(&reader->source, error,
+                           "%" PRIu64 " rows where %" PRIu64 " are announced", t->done,
                            t->expected);
 }
 
-static mw_status table_read_rows(mw_point_reader *reader, double *values, size_t capacity, size_t *count,
-                                 mw_error *error)
+static mw_status table_read_rows(mw_point_reader *reader, double *values, size_t capacity,
+                                 size_t *count, mw_error *error)
 {
     point_table *t = reader->state;
     /* an id like #12 begins a row of a table, a number does not */
@@ -282,7 +296,9 @@ static mw_status table_read_rows(mw_point_reader *reader, double *values, size_t
         ++*count;
     }
     if (t->comma) reader->decimal = ',';
-    return *count < capacity && reader->rows.size < MW_ROW_TEXTS_LIMIT ? table_check_count(reader, t, error) : MW_OK;
+    return *count < capacity && reader->rows.size < MW_ROW_TEXTS_LIMIT
+               ? table_check_count(reader, t, error)
+               : MW_OK;
 }
 
 /* Nothing to read: the columns are those selected, or x and y. */
@@ -324,14 +340,18 @@ static mw_status table_make(mw_point_reader *reader, char separator, mw_error *e
     return MW_OK;
 }
 
-mw_status mw__point_table_start(mw_point_reader *reader, const mw_point_reader_options *options, mw_error *error)
+mw_status mw__point_table_start(mw_point_reader *reader, const mw_point_reader_options *options,
+                                mw_error *error)
 {
     char separator = ' ';
-    reader->header = (mw_table_header){.expected = UINT64_MAX, .marks = reader->table, .texts = reader->texts_allowed};
+    reader->header = (mw_table_header){
+        .expected = UINT64_MAX, .marks = reader->table, .texts = reader->texts_allowed};
     bool node = mw__path_ends(reader->source.path, ".node");
-    mw_status status = node ? mw__table_header_of_node(&reader->source, &reader->header, error)
-                            : mw__table_header_detect(&reader->source, &reader->header, &separator, error);
-    if (!status && reader->table) status = mw__table_header_commas(&reader->header, separator, error);
+    mw_status status =
+        node ? mw__table_header_of_node(&reader->source, &reader->header, error)
+             : mw__table_header_detect(&reader->source, &reader->header, &separator, error);
+    if (!status && reader->table)
+        status = mw__table_header_commas(&reader->header, separator, error);
     if (!status) status = table_make(reader, separator, error);
     return status ? status : table_select_first(reader, options->columns, error);
 }

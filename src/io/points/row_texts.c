@@ -51,7 +51,8 @@ static size_t row_write_commas(char *out, const char *row)
     return (size_t)(out - begin);
 }
 
-mw_status mw__row_texts_add(mw_row_texts *t, const char *row, size_t length, char separator, mw_error *error)
+mw_status mw__row_texts_add(mw_row_texts *t, const char *row, size_t length, char separator,
+                            mw_error *error)
 {
     bool blanks = separator == ' ';
     mw_status status = row_texts_reserve(t, blanks ? 5 * length : length, error);

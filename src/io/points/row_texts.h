@@ -15,9 +15,10 @@ typedef struct mw_row_texts {
     size_t count, room;
 } mw_row_texts;
 
-/* Add a row as it stands. White space as the separator (' ') is replaced by commas; a cell that holds a
- * comma is then quoted. */
-mw_status mw__row_texts_add(mw_row_texts *texts, const char *row, size_t length, char separator, mw_error *error);
+/* Add a row as it stands. White space as the separator (' ') is replaced by commas; a cell that
+ * holds a comma is then quoted. */
+mw_status mw__row_texts_add(mw_row_texts *texts, const char *row, size_t length, char separator,
+                            mw_error *error);
 /* The text of a row, its length in *length; it is not ended by NUL. */
 const char *mw__row_texts_at(const mw_row_texts *texts, size_t row, size_t *length);
 void mw__row_texts_clear(mw_row_texts *texts); /* keeps the memory */

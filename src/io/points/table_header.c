@@ -29,7 +29,9 @@ static mw_status row_join_lines(mw_source *source, char separator, char **row, m
         size_t known = source->line_bytes;
         mw_status status = mw__source_join_line(source, row, error);
         if (status) return status;
-        if (!*row) return mw__source_fail_at(source, first, error, "a quoted cell begins in this row and does not end");
+        if (!*row)
+            return mw__source_fail_at(source, first, error,
+                                      "a quoted cell begins in this row and does not end");
         open = mw__delimited_is_open(*row + known, separator, true);
     }
     return MW_OK;
@@ -44,7 +46,8 @@ static bool row_is_none(const char *row, char separator, size_t columns)
     return columns == 0 || separator == ' ' || mw__delimited_count(row, separator) != columns;
 }
 
-mw_status mw__table_row(mw_source *source, char separator, size_t columns, char **row, mw_error *error)
+mw_status mw__table_row(mw_source *source, char separator, size_t columns, char **row,
+                        mw_error *error)
 {
     for (;;) {
         mw_status status = mw__source_line(source, row, error);
@@ -55,7 +58,8 @@ mw_status mw__table_row(mw_source *source, char separator, size_t columns, char 
     }
 }
 
-static mw_status header_keep_names(mw_table_header *c, const char *row, char separator, mw_error *error)
+static mw_status header_keep_names(mw_table_header *c, const char *row, char separator,
+                                   mw_error *error)
 {
     c->names = mw__calloc(c->count, sizeof *c->names);
     c->text = strdup(row);
@@ -99,17 +103,19 @@ static bool row_names_coordinates(const char *row, char separator)
 }
 
 /* Numbers like 1,5 between blanks are refused: they could as well be two. */
-static mw_status header_refuse_decimal_commas(const mw_source *source, const char *row, char *separator,
-                                              mw_error *error)
+static mw_status header_refuse_decimal_commas(const mw_source *source, const char *row,
+                                              char *separator, mw_error *error)
 {
     bool decimal_comma;
     *separator = mw__delimited_separator(row, &decimal_comma);
     if (!decimal_comma) return MW_OK;
-    return mw__source_fail(source, error,
-                           "decimal commas: write points, or separate the columns by semicolons or tabs");
+    return mw__source_fail(
+        source, error,
+        "decimal commas: write points, or separate the columns by semicolons or tabs");
 }
 
-mw_status mw__table_header_detect(mw_source *source, mw_table_header *c, char *separator, mw_error *error)
+mw_status mw__table_header_detect(mw_source *source, mw_table_header *c, char *separator,
+                                  mw_error *error)
 {
     char *row, other;
     mw_status status = mw__table_row(source, 0, 0, &row, error);
@@ -117,12 +123,14 @@ mw_status mw__table_header_detect(mw_source *source, mw_table_header *c, char *s
     status = header_refuse_decimal_commas(source, row, separator, error);
     if (status) return status;
     c->count = mw__delimited_count(row, *separator);
-    if (c->count > MW_COLUMN_LIMIT) return mw__source_fail(source, error, "more than %d columns", MW_COLUMN_LIMIT);
+    if (c->count > MW_COLUMN_LIMIT)
+        return mw__source_fail(source, error, "more than %d columns", MW_COLUMN_LIMIT);
     c->numbers = mw__calloc(c->count, sizeof *c->numbers);
     if (!c->numbers) return mw__fail_memory(error);
     if (mw__delimited_is_header(row, *separator) || row_names_coordinates(row, *separator)) {
         status = header_keep_names(c, row, *separator, error);
-        if (!status) status = mw__table_row(source, *separator, c->marks ? c->count : 0, &row, error);
+        if (!status)
+            status = mw__table_row(source, *separator, c->marks ? c->count : 0, &row, error);
         if (!status && row && !mw__delimited_takes_comma(*separator))
             status = header_refuse_decimal_commas(source, row, &other, error);
         if (status) return status;
@@ -165,7 +173,8 @@ mw_status mw__table_header_commas(mw_table_header *c, char separator, mw_error *
     return MW_OK;
 }
 
-static mw_status header_name_column(mw_table_header *c, const char *name, size_t number, mw_error *error)
+static mw_status header_name_column(mw_table_header *c, const char *name, size_t number,
+                                    mw_error *error)
 {
     char **names = mw__realloc(c->names, c->count + 1, sizeof *names);
     if (!names) return mw__fail_memory(error);
@@ -188,16 +197,19 @@ mw_status mw__table_header_of_node(mw_source *source, mw_table_header *c, mw_err
     for (int i = 0; i < 4 && p && *p; i++) {
         const char *number = p;
         p = mw__read_integer(p, &values[i]);
-        if (p && !mw__integer_fits(values[i])) return mw__source_fail_large(source, number, p, error);
+        if (p && !mw__integer_fits(values[i]))
+            return mw__source_fail_large(source, number, p, error);
         if (p) p = mw__at_gap(p) ? mw__skip_blanks(p) : NULL;
     }
     if (!p || *p || values[0] < 0 || values[1] < 2 || values[1] > 3 || values[2] < 0 ||
         values[2] > MW_COLUMN_LIMIT - 8 || values[3] < 0 || values[3] > 1)
-        return mw__source_fail(source, error, "a .node file begins with 'count dimension attributes markers'");
+        return mw__source_fail(source, error,
+                               "a .node file begins with 'count dimension attributes markers'");
     c->expected = (uint64_t)values[0];
     static const char *const letters[] = {"x", "y", "z"};
     status = header_name_column(c, "number", 0, error);
-    for (int64_t k = 0; !status && k < values[1]; k++) status = header_name_column(c, letters[k], 0, error);
+    for (int64_t k = 0; !status && k < values[1]; k++)
+        status = header_name_column(c, letters[k], 0, error);
     for (int64_t k = 0; !status && k < values[2]; k++)
         status = header_name_column(c, "attribute", (size_t)k + 1, error);
     if (!status && values[3]) status = header_name_column(c, "marker", 0, error);

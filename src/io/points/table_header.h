@@ -14,30 +14,32 @@ typedef struct mw_table_header {
     bool texts;        /* set before: texts may stand among the numbers of a column */
 } mw_table_header;
 
-/* Look at the header, if there is one, and at the first row of data, which stays unread. A header is a
- * row without numbers, or one with names of coordinates.
+/* Look at the header, if there is one, and at the first row of data, which stays unread. A header
+ * is a row without numbers, or one with names of coordinates.
  * `header` is all zero but for `expected`; a table without rows leaves it so. Release it in any
  * case. */
-mw_status mw__table_header_detect(mw_source *source, mw_table_header *header, char *separator, mw_error *error);
+mw_status mw__table_header_detect(mw_source *source, mw_table_header *header, char *separator,
+                                  mw_error *error);
 /* The same for the vertices of Triangle's .node, a table separated by blanks, whose first row
  * "rows dimension attributes markers" tells what its columns are: number, x, y, (z,) attribute1,
  * ..., (marker). Numbers and markers do not count as columns of numbers. */
 mw_status mw__table_header_of_node(mw_source *source, mw_table_header *header, mw_error *error);
-/* Write the header as the text of rows separated by commas, if white space separates the rows of the
- * file, or if `text` has not been set yet. */
+/* Write the header as the text of rows separated by commas, if white space separates the rows of
+ * the file, or if `text` has not been set yet. */
 mw_status mw__table_header_commas(mw_table_header *header, char separator, mw_error *error);
 void mw__table_header_release(mw_table_header *header);
 
-/* The next row: neither empty nor a comment; NULL at the end. It has several lines where a quoted cell
- * has. The separator may be 0: not known yet. A line that begins with # is a row if it has so many
- * `columns`, and blanks do not separate them; 0: it is a comment. */
-mw_status mw__table_row(mw_source *source, char separator, size_t columns, char **row, mw_error *error);
+/* The next row: neither empty nor a comment; NULL at the end. It has several lines where a quoted
+ * cell has. The separator may be 0: not known yet. A line that begins with # is a row if it has so
+ * many `columns`, and blanks do not separate them; 0: it is a comment. */
+mw_status mw__table_row(mw_source *source, char separator, size_t columns, char **row,
+                        mw_error *error);
 
 /* The column of that name, letters in any case, or header->count. Without a header the first
  * three are x, y and z. */
 size_t mw__table_header_find(const mw_table_header *header, const char *name, size_t length);
-/* The columns of a header that mean x, y and z, by the first set of names that fits; false if x or y is not found. The third may be
- * header->count. */
+/* The columns of a header that mean x, y and z, by the first set of names that fits; false if x or
+ * y is not found. The third may be header->count. */
 bool mw__table_header_coordinates(const mw_table_header *header, size_t found[3]);
 
 #endif

@@ -42,8 +42,8 @@ void mw__message_clean(char *message)
         if ((unsigned char)*c < 0x20 || *c == 0x7f) *c = '?';
 }
 
-static mw_status source_fail_at(const mw_source *source, uint64_t position, mw_error *error, const char *format,
-                                va_list arguments)
+static mw_status source_fail_at(const mw_source *source, uint64_t position, mw_error *error,
+                                const char *format, va_list arguments)
 {
     if (!error) return MW_ERROR_INPUT;
     char message[256];
@@ -67,7 +67,8 @@ mw_status mw__source_fail(const mw_source *source, mw_error *error, const char *
     return MW_ERROR_INPUT;
 }
 
-mw_status mw__source_fail_at(const mw_source *source, uint64_t position, mw_error *error, const char *format, ...)
+mw_status mw__source_fail_at(const mw_source *source, uint64_t position, mw_error *error,
+                             const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
@@ -90,7 +91,8 @@ mw_excerpt mw__excerpt(const char *text)
     return mw__excerpt_of(text, strcspn(text, " \t"));
 }
 
-mw_status mw__source_fail_large(const mw_source *source, const char *number, const char *end, mw_error *error)
+mw_status mw__source_fail_large(const mw_source *source, const char *number, const char *end,
+                                mw_error *error)
 {
     return mw__source_fail(source, error, "the number %s is too large",
                            mw__excerpt_of(number, (size_t)(end - number)).text);
@@ -141,7 +143,8 @@ mw_status mw__source_open(mw_source *source, const char *path, mw_error *error)
     return MW_OK;
 }
 
-mw_status mw__source_memory(mw_source *source, const char *name, const void *bytes, size_t size, mw_error *error)
+mw_status mw__source_memory(mw_source *source, const char *name, const void *bytes, size_t size,
+                            mw_error *error)
 {
     mw_status status = source_start(source, name, MEMORY_BLOCK, error);
     if (status) return status;
@@ -207,7 +210,8 @@ static mw_status source_fill(mw_source *source, mw_error *error)
     size_t left = source->end - source->begin;
     if (source->begin > 0) {
         memmove(source->buffer, source->buffer + source->begin, left);
-        source->no_newline_below -= source->no_newline_below < source->begin ? source->no_newline_below : source->begin;
+        source->no_newline_below -=
+            source->no_newline_below < source->begin ? source->no_newline_below : source->begin;
         source->begin = 0;
         source->end = left;
     }
@@ -235,7 +239,8 @@ static mw_status source_fill(mw_source *source, mw_error *error)
     return MW_OK;
 }
 
-mw_status mw__source_peek(mw_source *source, size_t wanted, const char **bytes, size_t *count, mw_error *error)
+mw_status mw__source_peek(mw_source *source, size_t wanted, const char **bytes, size_t *count,
+                          mw_error *error)
 {
     while (!source->ended && source->end - source->begin < wanted) {
         mw_status status = source_fill(source, error);
@@ -252,7 +257,8 @@ static void source_advance(mw_source *source, size_t count)
     source->offset += count;
 }
 
-mw_status mw__source_bytes(mw_source *source, size_t count, const unsigned char **bytes, mw_error *error)
+mw_status mw__source_bytes(mw_source *source, size_t count, const unsigned char **bytes,
+                           mw_error *error)
 {
     if (MW_UNLIKELY(source->end - source->begin < count)) {
         const char *have;
@@ -290,8 +296,10 @@ mw_status mw__source_check_end(mw_source *source, uint64_t count, const char *wh
         for (size_t i = 0; i < have; i++)
             if (bytes[i] != 0 && bytes[i] != ' ' && (bytes[i] < '\t' || bytes[i] > '\r'))
                 return mw__source_fail_at(source, source->offset + i, error,
-                                          "more data after the %" PRIu64 " %s announced", count, what);
-        if (have == 0 && source->damage) return mw__source_fail(source, error, "%s", source->damage);
+                                          "more data after the %" PRIu64 " %s announced", count,
+                                          what);
+        if (have == 0 && source->damage)
+            return mw__source_fail(source, error, "%s", source->damage);
         if (have == 0) return MW_OK;
         source_advance(source, have);
     }
@@ -303,7 +311,8 @@ static char *source_find_line_end(mw_source *source, size_t from)
 {
     char *stop = source->buffer + source->end, *newline = NULL;
     size_t unknown = source->no_newline_below > from ? source->no_newline_below : from;
-    if (unknown < source->end) newline = memchr(source->buffer + unknown, '\n', source->end - unknown);
+    if (unknown < source->end)
+        newline = memchr(source->buffer + unknown, '\n', source->end - unknown);
     source->no_newline_below = (size_t)((newline ? newline : stop) - source->buffer);
     char *begin = source->buffer + from;
     char *limit = newline ? newline : stop;
@@ -313,8 +322,8 @@ static char *source_find_line_end(mw_source *source, size_t from)
 
 /* Hand out the line that ends before `stop`; its end takes up `stop_bytes` bytes there. The first
  * `checked` bytes hold no NUL. */
-static mw_status source_take_line(mw_source *source, char *stop, size_t stop_bytes, size_t checked, char **line,
-                                  mw_error *error)
+static mw_status source_take_line(mw_source *source, char *stop, size_t stop_bytes, size_t checked,
+                                  char **line, mw_error *error)
 {
     char *begin = source->buffer + source->begin;
     source->line_begin = source->begin;
@@ -326,7 +335,8 @@ static mw_status source_take_line(mw_source *source, char *stop, size_t stop_byt
     source->line_count = 1;
     source_advance(source, source->line_bytes);
     if (memchr(begin + checked, 0, source->line_length - checked))
-        return mw__source_fail(source, error, "a NUL byte: this is no text file, or not the kind it was taken for");
+        return mw__source_fail(
+            source, error, "a NUL byte: this is no text file, or not the kind it was taken for");
     *line = begin;
     return MW_OK;
 }
@@ -347,23 +357,27 @@ static mw_status source_skip_byte_order_mark(mw_source *source, mw_error *error)
  * no more than those is left. */
 static mw_status source_read_line(mw_source *source, size_t kept, char **line, mw_error *error)
 {
-    size_t searched = kept; /* bytes after begin that hold no line end, or one that is passed over */
+    /* bytes after begin that hold no line end, or one that is passed over */
+    size_t searched = kept;
     mw_status status = MW_OK;
     while (!status) {
         char *stop = source_find_line_end(source, source->begin + searched);
-        size_t length = stop ? (size_t)(stop - source->buffer) - source->begin : source->end - source->begin;
+        size_t length =
+            stop ? (size_t)(stop - source->buffer) - source->begin : source->end - source->begin;
         if (length > MW_LINE_LIMIT)
-            return mw__source_fail_at(source, (uint64_t)source->line + 1, error, "a line longer than %zu bytes",
-                                      MW_LINE_LIMIT);
+            return mw__source_fail_at(source, (uint64_t)source->line + 1, error,
+                                      "a line longer than %zu bytes", MW_LINE_LIMIT);
         /* a CR at the end of the buffer may belong to an LF behind it */
         if (stop && (*stop == '\n' || stop + 1 < source->buffer + source->end || source->ended)) {
             bool pair = *stop == '\r' && stop + 1 < source->buffer + source->end && stop[1] == '\n';
             return source_take_line(source, stop, pair ? 2 : 1, kept, line, error);
         }
         if (source->ended && source->damage)
-            return mw__source_fail_at(source, (uint64_t)source->line + 1, error, "%s", source->damage);
+            return mw__source_fail_at(source, (uint64_t)source->line + 1, error, "%s",
+                                      source->damage);
         if (source->ended && length <= kept) return MW_OK;
-        if (source->ended) return source_take_line(source, source->buffer + source->end, 0, kept, line, error);
+        if (source->ended)
+            return source_take_line(source, source->buffer + source->end, 0, kept, line, error);
         searched = length;
         status = source_fill(source, error);
     }

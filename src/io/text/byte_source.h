@@ -46,9 +46,10 @@ typedef struct mw_source {
 mw_status mw__source_open(mw_source *source, const char *path, mw_error *error);
 /* Read from memory, which must outlive the source; `name` is for messages and to tell the
  * format. The block is small, so that tests with little data reach its borders. */
-mw_status mw__source_memory(mw_source *source, const char *name, const void *bytes, size_t size, mw_error *error);
-/* Reading is a part of the present stage of a job: all of it, or what comes after another source. If
- * the job is to stop, reading fails with MW_ERROR_MEMORY. */
+mw_status mw__source_memory(mw_source *source, const char *name, const void *bytes, size_t size,
+                            mw_error *error);
+/* Reading is a part of the present stage of a job: all of it, or what comes after another source.
+ * If the job is to stop, reading fails with MW_ERROR_MEMORY. */
 void mw__source_watch(mw_source *source, mw_job *job);
 /* How much of the file has been read, from 0 to 1; -1: unknown. */
 double mw__source_fraction(const mw_source *source);
@@ -61,22 +62,25 @@ const char *mw__source_name(const mw_source *source);
 bool mw__path_ends(const char *path, const char *ending);
 
 /* Up to `wanted` of the next bytes, which stay unread; fewer only at the end of the input. */
-mw_status mw__source_peek(mw_source *source, size_t wanted, const char **bytes, size_t *count, mw_error *error);
+mw_status mw__source_peek(mw_source *source, size_t wanted, const char **bytes, size_t *count,
+                          mw_error *error);
 
 /* Read exactly `count` bytes (at most MW_BYTES_LIMIT); an input that ends before is an error. */
-mw_status mw__source_bytes(mw_source *source, size_t count, const unsigned char **bytes, mw_error *error);
+mw_status mw__source_bytes(mw_source *source, size_t count, const unsigned char **bytes,
+                           mw_error *error);
 mw_status mw__source_skip(mw_source *source, uint64_t count, mw_error *error);
 
 /* After the last of `count` things: an error if more than white space and NUL bytes follows. */
-mw_status mw__source_check_end(mw_source *source, uint64_t count, const char *what, mw_error *error);
+mw_status mw__source_check_end(mw_source *source, uint64_t count, const char *what,
+                               mw_error *error);
 
 /* Read a line: *line is ended by NUL where its LF, CR LF or CR was; *line = NULL at the
  * end of the input. A UTF-8 byte order mark before the first line is skipped. Lines with NUL
  * bytes, lines longer than MW_LINE_LIMIT and UTF-16 are errors. The line may be written to. */
 mw_status mw__source_line(mw_source *source, char **line, mw_error *error);
-/* Join the next line to the one read last, which must not have been altered: *line is both, with the
- * line end between them, and may have moved; NULL at the end of the input, where the line read last
- * is lost. */
+/* Join the next line to the one read last, which must not have been altered: *line is both, with
+ * the line end between them, and may have moved; NULL at the end of the input, where the line read
+ * last is lost. */
 mw_status mw__source_join_line(mw_source *source, char **line, mw_error *error);
 /* Give the line read last back, unchanged; nothing else may have been read since, and it must
  * not have been altered. */
@@ -91,8 +95,8 @@ mw_status mw__source_content_line(mw_source *source, char **line, mw_error *erro
 mw_status mw__source_fail(const mw_source *source, mw_error *error, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 /* The same with a position noted before: a line number, or an offset in a binary source. */
-mw_status mw__source_fail_at(const mw_source *source, uint64_t position, mw_error *error, const char *format, ...)
-    __attribute__((format(printf, 4, 5)));
+mw_status mw__source_fail_at(const mw_source *source, uint64_t position, mw_error *error,
+                             const char *format, ...) __attribute__((format(printf, 4, 5)));
 /* The present position, for mw__source_fail_at. */
 uint64_t mw__source_position(const mw_source *source);
 
@@ -105,7 +109,8 @@ mw_excerpt mw__excerpt_of(const char *text, size_t length);
 
 /* Fill in an error with MW_ERROR_INPUT: the integer from `number` to `end` does not fit into 64
  * bits (mw__integer_fits). The message names it as it stands there. */
-mw_status mw__source_fail_large(const mw_source *source, const char *number, const char *end, mw_error *error);
+mw_status mw__source_fail_large(const mw_source *source, const char *number, const char *end,
+                                mw_error *error);
 
 /* Control characters in a message, which pieces of the input may have brought there, become '?'. */
 void mw__message_clean(char *message);

@@ -17,12 +17,14 @@ mw_status mw__row_double(mw_number_row *row, const char *what, double *value, mw
 
 /* A header: a count, and up to `count - 1` further integers that keep their values where the
  * line ends; none is negative. A line that is NULL is an empty file. */
-mw_status mw__rows_header(mw_source *source, char *line, int64_t *values, size_t count, mw_error *error);
+mw_status mw__rows_header(mw_source *source, char *line, int64_t *values, size_t count,
+                          mw_error *error);
 
 /* The error of a file that ends after `have` rows. */
-mw_status mw__rows_end_early(const mw_source *source, const char *what, int64_t have, int64_t announced,
-                             mw_error *error);
+mw_status mw__rows_end_early(const mw_source *source, const char *what, int64_t have,
+                             int64_t announced, mw_error *error);
 /* After the last row: an error if another one follows. */
-mw_status mw__rows_check_end(mw_source *source, const char *what, int64_t announced, mw_error *error);
+mw_status mw__rows_check_end(mw_source *source, const char *what, int64_t announced,
+                             mw_error *error);
 
 #endif

@@ -40,10 +40,10 @@ mw_status mw__crs_copy(const char *bytes, size_t size, char **crs, mw_error *err
 /* Other programs keep other things in files of this name, so only WKT counts, and EPSG:n. */
 static bool crs_begins_as_wkt(const char *text)
 {
-    static const char *const words[] = {"PROJCS",         "GEOGCS",        "GEOCCS",       "COMPD_CS", "LOCAL_CS",
-                                        "FITTED_CS",      "PROJCRS",       "PROJECTEDCRS", "GEOGCRS",  "GEOGRAPHICCRS",
-                                        "GEODCRS",        "GEODETICCRS",   "COMPOUNDCRS",  "BOUNDCRS", "ENGCRS",
-                                        "ENGINEERINGCRS", "DERIVEDPROJCRS"};
+    static const char *const words[] = {
+        "PROJCS",      "GEOGCS",       "GEOCCS",  "COMPD_CS",       "LOCAL_CS",      "FITTED_CS",
+        "PROJCRS",     "PROJECTEDCRS", "GEOGCRS", "GEOGRAPHICCRS",  "GEODCRS",       "GEODETICCRS",
+        "COMPOUNDCRS", "BOUNDCRS",     "ENGCRS",  "ENGINEERINGCRS", "DERIVEDPROJCRS"};
     if (strncasecmp(text, "EPSG:", 5) == 0) return true;
     size_t length = strcspn(text, " [(");
     const char *rest = text + length + strspn(text + length, " ");
@@ -71,7 +71,8 @@ static int crs_open_beside(const char *path)
     char name[4096];
     struct stat what;
     for (size_t i = 0; i < sizeof endings / sizeof *endings; i++)
-        if (crs_name_beside(path, endings[i], name, sizeof name) && stat(name, &what) == 0 && S_ISREG(what.st_mode))
+        if (crs_name_beside(path, endings[i], name, sizeof name) && stat(name, &what) == 0 &&
+            S_ISREG(what.st_mode))
             return mw__descriptor_open(name, O_RDONLY, 0);
     return -1;
 }
@@ -80,7 +81,8 @@ static int crs_open_beside(const char *path)
 static size_t crs_read_bytes(int fd, char *bytes, size_t room)
 {
     size_t size = 0;
-    for (ssize_t more; size < room && (more = read(fd, bytes + size, room - size)) > 0;) size += (size_t)more;
+    for (ssize_t more; size < room && (more = read(fd, bytes + size, room - size)) > 0;)
+        size += (size_t)more;
     return size;
 }
 
@@ -94,7 +96,8 @@ mw_status mw_read_prj(const char *path, char **crs, mw_error *error)
     size_t size = bytes ? crs_read_bytes(fd, bytes, MW_CRS_LIMIT + 1) : 0;
     size_t mark = size >= 3 && memcmp(bytes, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
     close(fd);
-    mw_status status = bytes ? mw__crs_copy(bytes + mark, size - mark, crs, error) : mw__fail_memory(error);
+    mw_status status =
+        bytes ? mw__crs_copy(bytes + mark, size - mark, crs, error) : mw__fail_memory(error);
     free(bytes);
     if (*crs && !crs_begins_as_wkt(*crs)) {
         free(*crs);

@@ -104,7 +104,8 @@ bool mw__cell_is_missing(mw_text_cell cell)
 {
     static const char *const words[] = {"", "-", "na", "n/a", "nan", "null"};
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
-        if (strlen(words[i]) == cell.length && strncasecmp(words[i], cell.text, cell.length) == 0) return true;
+        if (strlen(words[i]) == cell.length && strncasecmp(words[i], cell.text, cell.length) == 0)
+            return true;
     return false;
 }
 
@@ -116,7 +117,8 @@ static bool row_has_decimal_commas(const char *row)
     mw_text_cell cell;
     for (bool more = true; mw__delimited_cell(&row, ' ', &more, &cell); count++) {
         if (cell.length > 0 && cell.text[cell.length - 1] == ',') cell.length--;
-        if (!memchr(cell.text, ',', cell.length) || memchr(cell.text, '.', cell.length)) return false;
+        if (!memchr(cell.text, ',', cell.length) || memchr(cell.text, '.', cell.length))
+            return false;
         if (!mw__cell_is_number(cell, ';')) return false;
     }
     return count >= 2;

@@ -24,15 +24,15 @@ bool mw__delimited_cell(const char **row, char separator, bool *more, mw_text_ce
 /* How many cells a row has. */
 size_t mw__delimited_count(const char *row, char separator);
 
-/* Whether a quoted cell is still open at the end of the row. `open` tells whether one is open at its
- * beginning, which is in the middle of a row then. */
+/* Whether a quoted cell is still open at the end of the row. `open` tells whether one is open at
+ * its beginning, which is in the middle of a row then. */
 bool mw__delimited_is_open(const char *row, char separator, bool open);
 
 /* What follows the closing quote of a cell that begins with one; the end of the row without one. */
 const char *mw__delimited_quote_end(const char *quote);
 
-/* Whether the cell says that there is no value: it is empty, or -, NA, N/A, NaN or NULL in letters of
- * any case. */
+/* Whether the cell says that there is no value: it is empty, or -, NA, N/A, NaN or NULL in letters
+ * of any case. */
 bool mw__cell_is_missing(mw_text_cell cell);
 
 /* Whether the whole cell is a number; with ';' and tab as separators a comma is a decimal point

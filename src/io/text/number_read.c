@@ -11,8 +11,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-const double mw__power_of_10[23] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
-                                    1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+const double mw__power_of_10[23] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+                                    1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
+                                    1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 
 const uint64_t mw__power_of_5[MW_DECIMAL_RANGE + 1] = {
     UINT64_C(1),
@@ -164,7 +165,8 @@ const char *mw__read_double(const char *p, double *value)
     if (count > 19) count = significant_digits(first, mantissa_end);
     if (count > 19 || decimals > 1000) return number_read_slowly(start, p, value);
     exponent -= (int)decimals;
-    if (exponent < -MW_DECIMAL_RANGE || exponent > MW_DECIMAL_RANGE) return number_read_slowly(start, p, value);
+    if (exponent < -MW_DECIMAL_RANGE || exponent > MW_DECIMAL_RANGE)
+        return number_read_slowly(start, p, value);
     double magnitude = mw__decimal(digits, exponent);
     *value = minus ? -magnitude : magnitude;
     return p;
@@ -178,7 +180,8 @@ const char *mw__read_integer(const char *p, int64_t *value)
     int64_t sum = 0; /* negative, since INT64_MIN has no positive counterpart */
     bool full = false;
     for (; is_digit(*p); p++)
-        full |= __builtin_mul_overflow(sum, 10, &sum) || __builtin_sub_overflow(sum, *p - '0', &sum);
+        full |=
+            __builtin_mul_overflow(sum, 10, &sum) || __builtin_sub_overflow(sum, *p - '0', &sum);
     if (full || (!minus && sum == INT64_MIN))
         *value = minus ? INT64_MIN : INT64_MAX;
     else

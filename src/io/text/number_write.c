@@ -82,7 +82,8 @@ static scaled_number decimal_scale(uint64_t m, int e, int k)
         int shift = -(e + k);
         if (shift <= 0) return (scaled_number){(uint64_t)(product << -shift), false, false};
         unsigned __int128 fraction = product & ((one << shift) - 1), middle = one << (shift - 1);
-        return (scaled_number){(uint64_t)(product >> shift), fraction >= middle, fraction != 0 && fraction != middle};
+        return (scaled_number){(uint64_t)(product >> shift), fraction >= middle,
+                               fraction != 0 && fraction != middle};
     }
     /* v >= 10^17, and then e + k > 0 */
     unsigned __int128 numerator = (unsigned __int128)m << (e + k);
@@ -114,7 +115,8 @@ static decimal_digits decimal_exact(double v, int exponent)
         /* half a unit in the last place of v is at most 2^-53 v, or 12 units of the 17th digit */
         int64_t off = (int64_t)(digits * ten_to[17 - precision] - s.whole);
         if (off < -13 || off > 13) continue;
-        if (mw__decimal(digits, exponent - precision + 1) == v) return decimal_tidy(digits, exponent, precision);
+        if (mw__decimal(digits, exponent - precision + 1) == v)
+            return decimal_tidy(digits, exponent, precision);
     }
     return decimal_tidy(s.whole + (s.half && (s.rest || (s.whole & 1))), exponent, 17);
 }
@@ -136,7 +138,8 @@ static decimal_digits decimal_of_library(double v)
         d = decimal_tidy(digits, (int)exponent, precision);
         double back;
         char plain[64];
-        snprintf(plain, sizeof plain, "%llue%d", (unsigned long long)digits, (int)exponent - precision + 1);
+        snprintf(plain, sizeof plain, "%llue%d", (unsigned long long)digits,
+                 (int)exponent - precision + 1);
         if (mw__read_double(plain, &back) && back == v) break;
     }
     return d;
@@ -150,7 +153,8 @@ static decimal_digits decimal_shortest(double v)
     int exponent = ((binary - 1) * 78913) >> 18; /* times log10 of 2: right or one too low */
     if (exponent < LOWEST || exponent > HIGHEST) return decimal_of_library(v);
     if (exponent < 22) {
-        double next = exponent >= -1 ? mw__power_of_10[exponent + 1] : 1 / mw__power_of_10[-exponent - 1];
+        double next =
+            exponent >= -1 ? mw__power_of_10[exponent + 1] : 1 / mw__power_of_10[-exponent - 1];
         exponent += v >= next;
         decimal_digits d;
         if (decimal_of_15_digits(v, exponent, &d)) return d;
@@ -229,7 +233,8 @@ size_t mw_format_double(double value, char text[32])
         p += count;
     } else {
         decimal_digits d = decimal_shortest(v);
-        p = d.exponent < -4 || d.exponent >= d.precision ? decimal_put_scientific(p, d) : decimal_put_fixed(p, d);
+        p = d.exponent < -4 || d.exponent >= d.precision ? decimal_put_scientific(p, d)
+                                                         : decimal_put_fixed(p, d);
     }
     *p = 0;
     return (size_t)(p - text);

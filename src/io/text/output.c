@@ -26,9 +26,10 @@ enum { ROOM = 1 << 16, NAME_ATTEMPTS = 100, MAX_LINKS = 40, PATH_SIZE = 4096 };
 
 struct mw_output {
     int fd;
-    int error;                  /* errno of the first failure, 0 if none */
-    bool standard;              /* standard output, which stays open */
-    bool named;                 /* the data stand in `temporary`, which has to be renamed or removed */
+    int error;     /* errno of the first failure, 0 if none */
+    bool standard; /* standard output, which stays open */
+    /* the data stand in `temporary`, which has to be renamed or removed */
+    bool named;
     bool nameless;              /* the data stand in a file without a name */
     char *shown;                /* the path as given, for messages */
     char *path;                 /* the final name, symbolic links followed */
@@ -62,8 +63,8 @@ static void output_invent_name(mw_output *output, uint64_t *state)
     struct timespec time;
     clock_gettime(CLOCK_REALTIME, &time);
     *state += (uint64_t)time.tv_nsec + ((uint64_t)getpid() << 32);
-    sprintf(output->temporary, "%.*s.%.200s.%08x", (int)directory, output->path, output->path + directory,
-            (unsigned)mw__random(state));
+    sprintf(output->temporary, "%.*s.%.200s.%08x", (int)directory, output->path,
+            output->path + directory, (unsigned)mw__random(state));
 }
 
 /* A file without a name in the directory of the output; it can get one only through /proc. */
@@ -100,7 +101,8 @@ static char *link_target(const char *path)
     ssize_t length = readlink(path, target, sizeof target);
     if (length < 0) return NULL;
     size_t directory = target[0] == '/' ? 0 : directory_length(path);
-    char *next = (size_t)length < sizeof target ? mw__alloc(directory + (size_t)length + 1, 1) : NULL;
+    char *next =
+        (size_t)length < sizeof target ? mw__alloc(directory + (size_t)length + 1, 1) : NULL;
     if (!next) {
         errno = (size_t)length < sizeof target ? ENOMEM : ENAMETOOLONG;
         return NULL;
@@ -202,7 +204,8 @@ static void output_write_out(mw_output *output, const char *bytes, size_t size)
         else
             bytes += done, size -= (size_t)done;
     }
-    if (output->job && !output->error && !mw__job_step(output->job, output->written, output->expected))
+    if (output->job && !output->error &&
+        !mw__job_step(output->job, output->written, output->expected))
         output->error = ECANCELED;
 }
 
@@ -328,7 +331,8 @@ mw_status mw_output_close(mw_output *output, int commit, mw_error *error)
     if (commit && !output->error) output->error = output_put_in_place(output);
     if (output->nameless) output_close_file(output);
     if (output->named) unlink(output->temporary);
-    mw_status status = commit && output->error ? mw__fail_system(output->shown, output->error, error) : MW_OK;
+    mw_status status =
+        commit && output->error ? mw__fail_system(output->shown, output->error, error) : MW_OK;
     output_release(output);
     return status;
 }

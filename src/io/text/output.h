@@ -9,8 +9,8 @@
 /* Write out what is buffered, so that mw_output_failed tells whether all of it arrived. */
 void mw__output_flush(mw_output *output);
 
-/* Writing is a part of the present stage of a job, of about `expected` bytes. If the job is to stop,
- * the output has failed. */
+/* Writing is a part of the present stage of a job, of about `expected` bytes. If the job is to
+ * stop, the output has failed. */
 void mw__output_watch(mw_output *output, mw_job *job, uint64_t expected);
 
 /* A text without format. */

@@ -30,7 +30,8 @@ static uint32_t star_batch_first_facet(const star_batch *b, uint32_t i, uint32_t
     return b->guided ? mw__star_guide_facet(b->star, b->queries.order[i].key) : last;
 }
 
-static void star_batch_in_turn(const star_batch *b, uint32_t first, uint32_t end, mw_counters *counters)
+static void star_batch_in_turn(const star_batch *b, uint32_t first, uint32_t end,
+                               mw_counters *counters)
 {
     uint32_t last = MW_NONE;
     for (uint32_t i = first; i < end; i++) {
@@ -38,8 +39,8 @@ static void star_batch_in_turn(const star_batch *b, uint32_t first, uint32_t end
         uint64_t random = mw__random_seed(b->queries.seed, item);
         mw__surface_read_lock(b->star->surface);
         uint32_t begin = star_batch_first_facet(b, i, last);
-        b->queries.locations[item] =
-            mw__star_query_answer(b->star, &b->cursor, batch_point(&b->queries, item), &begin, &random, counters, NULL);
+        b->queries.locations[item] = mw__star_query_answer(
+            b->star, &b->cursor, batch_point(&b->queries, item), &begin, &random, counters, NULL);
         mw__surface_read_unlock(b->star->surface);
         if (b->chained) last = begin;
     }
@@ -56,14 +57,16 @@ typedef struct star_batch_feed {
 
 static void star_batch_prefetch(const mw_batch *queries, uint32_t item)
 {
-    const char *point = (const char *)batch_point(queries, item), *location = (const char *)&queries->locations[item];
+    const char *point = (const char *)batch_point(queries, item),
+               *location = (const char *)&queries->locations[item];
     __builtin_prefetch(point);
     __builtin_prefetch(point + 2 * sizeof(double));
     __builtin_prefetch(location, 1);
     __builtin_prefetch(location + sizeof(mw_location) - 1, 1);
 }
 
-static bool star_batch_deliver(mw_star_feed *base, uint32_t lane, mw_star_walk *walk, mw_star_verdict verdict)
+static bool star_batch_deliver(mw_star_feed *base, uint32_t lane, mw_star_walk *walk,
+                               mw_star_verdict verdict)
 {
     star_batch_feed *f = (star_batch_feed *)base; /* its first member */
     const star_batch *b = f->b;
@@ -73,12 +76,13 @@ static bool star_batch_deliver(mw_star_feed *base, uint32_t lane, mw_star_walk *
     }
     while (f->next[lane] < f->end[lane]) {
         uint32_t i = f->next[lane]++, item = f->item[lane] = batch_item(&b->queries, i);
-        if (f->next[lane] < f->end[lane]) star_batch_prefetch(&b->queries, batch_item(&b->queries, f->next[lane]));
+        if (f->next[lane] < f->end[lane])
+            star_batch_prefetch(&b->queries, batch_item(&b->queries, f->next[lane]));
         const double *point = batch_point(&b->queries, item);
         if (MW_LIKELY(mw__star_answerable(b->star, point))) {
             uint64_t random = mw__random_seed(b->queries.seed, item);
-            mw__star_query_begin(walk, b->star, &b->cursor, point, star_batch_first_facet(b, i, f->last[lane]), random,
-                                 NULL);
+            mw__star_query_begin(walk, b->star, &b->cursor, point,
+                                 star_batch_first_facet(b, i, f->last[lane]), random, NULL);
             return true;
         }
         b->queries.locations[item] = mw__star_location_none();
@@ -86,7 +90,8 @@ static bool star_batch_deliver(mw_star_feed *base, uint32_t lane, mw_star_walk *
     return false;
 }
 
-static void star_batch_in_flight(const star_batch *b, uint32_t first, uint32_t count, uint32_t lanes)
+static void star_batch_in_flight(const star_batch *b, uint32_t first, uint32_t count,
+                                 uint32_t lanes)
 {
     star_batch_feed f = {.base = {star_batch_deliver}, .b = b};
     for (uint32_t i = 0; i < lanes; i++) {
@@ -115,8 +120,8 @@ static mw_counters star_batch_answer(const mw_batch *queries, uint32_t first, ui
     }
     if (parts == 0) parts = 1;
     for (uint64_t i = 0; i < parts; i++)
-        star_batch_in_turn(b, first + (uint32_t)(count * i / parts), first + (uint32_t)(count * (i + 1) / parts),
-                           &counters);
+        star_batch_in_turn(b, first + (uint32_t)(count * i / parts),
+                           first + (uint32_t)(count * (i + 1) / parts), &counters);
     return counters;
 }
 
@@ -130,7 +135,8 @@ static void star_batch_sort(const mw_batch *queries, size_t n, mw_key *keys, mw_
     mw_hilbert hilbert = mw__hilbert(low, high);
     for (size_t i = 0; i < n; i++) {
         double d[3], x, y;
-        for (int k = 0; k < 3; k++) d[k] = queries->points[i * queries->stride + (size_t)k] / 2 - star->centre[k] / 2;
+        for (int k = 0; k < 3; k++)
+            d[k] = queries->points[i * queries->stride + (size_t)k] / 2 - star->centre[k] / 2;
         mw__star_unfold(d, &x, &y);
         keys[i] = (mw_key){mw__hilbert_key(&hilbert, x, y), (uint32_t)i};
     }
@@ -138,8 +144,8 @@ static void star_batch_sort(const mw_batch *queries, size_t n, mw_key *keys, mw_
 }
 
 mw_status mw_star_locate_batch(const mw_star *star, const double *points, size_t n, size_t stride,
-                               const mw_star_query_options *options, mw_location *locations, mw_counters *counters,
-                               mw_error *error)
+                               const mw_star_query_options *options, mw_location *locations,
+                               mw_counters *counters, mw_error *error)
 {
     static const mw_star_query_options defaults;
     if (!options) options = &defaults;
@@ -151,11 +157,15 @@ mw_status mw_star_locate_batch(const mw_star *star, const double *points, size_t
                     .star = star};
     mw_status status = mw_star_cursor_init(star, options, &b.cursor, error);
     if (status) return status;
-    if (n && (!points || !locations)) return mw__fail(error, MW_ERROR_ARGUMENT, "no points, or no place for results");
-    if (b.queries.stride < 3) return mw__fail(error, MW_ERROR_ARGUMENT, "a stride of %zu holds no x, y, z", stride);
-    if (b.cursor.start == MW_STAR_START_AUTO && n >= MW_SORT_WORTHWHILE) b.cursor.start = MW_STAR_START_SORTED;
+    if (n && (!points || !locations))
+        return mw__fail(error, MW_ERROR_ARGUMENT, "no points, or no place for results");
+    if (b.queries.stride < 3)
+        return mw__fail(error, MW_ERROR_ARGUMENT, "a stride of %zu holds no x, y, z", stride);
+    if (b.cursor.start == MW_STAR_START_AUTO && n >= MW_SORT_WORTHWHILE)
+        b.cursor.start = MW_STAR_START_SORTED;
     bool sorted = b.cursor.start == MW_STAR_START_SORTED;
-    b.chained = sorted || b.cursor.start == MW_STAR_START_LAST || b.cursor.start == MW_STAR_START_AUTO;
+    b.chained =
+        sorted || b.cursor.start == MW_STAR_START_LAST || b.cursor.start == MW_STAR_START_AUTO;
     b.guided = sorted && n < star->tri_count;
     b.queries.sort = sorted ? star_batch_sort : NULL;
     return mw__batch_run(&b.queries, n, options->threads, options->progress, counters, error);

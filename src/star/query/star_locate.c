@@ -75,12 +75,13 @@ const mw_star_kernels *mw__star_kernels_of(const mw_star_cursor *cursor)
     return kernels[cursor->walk];
 }
 
-void mw__star_query_begin(mw_star_walk *walk, const mw_star *star, const mw_star_cursor *cursor, const double q[3],
-                          uint32_t last, uint64_t random, mw_star_work *work)
+void mw__star_query_begin(mw_star_walk *walk, const mw_star *star, const mw_star_cursor *cursor,
+                          const double q[3], uint32_t last, uint64_t random, mw_star_work *work)
 {
     mw__star_walk_begin(walk, star, q, random, work);
     uint32_t t = mw__star_start(star, cursor, last, walk);
-    mw__star_walk_enter(walk, t, MW_STAR_STAGE_WALK, cursor->walk == MW_STAR_WALK_STRAIGHT ? UINT32_MAX : star->fuel);
+    mw__star_walk_enter(walk, t, MW_STAR_STAGE_WALK,
+                        cursor->walk == MW_STAR_WALK_STRAIGHT ? UINT32_MAX : star->fuel);
     if (work) work->visited++;
 }
 
@@ -91,13 +92,15 @@ void mw__star_query_end(const mw_star_cursor *cursor, mw_star_walk *walk, mw_sta
     star_settle(walk->star, walk->t, walk->q, location);
 }
 
-mw_location mw__star_query_answer(const mw_star *star, const mw_star_cursor *cursor, const double point[3],
-                                  uint32_t *last, uint64_t *random, mw_counters *counters, mw_star_trace *trace)
+mw_location mw__star_query_answer(const mw_star *star, const mw_star_cursor *cursor,
+                                  const double point[3], uint32_t *last, uint64_t *random,
+                                  mw_counters *counters, mw_star_trace *trace)
 {
     if (MW_UNLIKELY(!mw__star_answerable(star, point))) return mw__star_location_none();
     mw_star_work work = {0};
     mw_star_walk walk;
-    mw__star_query_begin(&walk, star, cursor, point, *last, *random, cursor->count || trace ? &work : NULL);
+    mw__star_query_begin(&walk, star, cursor, point, *last, *random,
+                         cursor->count || trace ? &work : NULL);
     if (trace) mw__star_trace_add(trace, &walk);
     mw_star_verdict verdict = mw__star_walk_run(&walk, kernels[cursor->walk], trace);
     bool handed_over = mw__star_walk_go_on(&walk, verdict, kernels[cursor->finish], trace);

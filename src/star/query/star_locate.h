@@ -11,8 +11,8 @@ bool mw__star_answerable(const mw_star *star, const double q[3]);
 
 /* Start the walk of a query that can be answered, by the cursor's start. `last`: where the previous
  * query ended, or MW_NONE. Counts in *work, unless that is NULL. */
-void mw__star_query_begin(mw_star_walk *walk, const mw_star *star, const mw_star_cursor *cursor, const double q[3],
-                          uint32_t last, uint64_t random, mw_star_work *work);
+void mw__star_query_begin(mw_star_walk *walk, const mw_star *star, const mw_star_cursor *cursor,
+                          const double q[3], uint32_t last, uint64_t random, mw_star_work *work);
 const mw_star_kernels *mw__star_kernels_of(const mw_star_cursor *cursor);
 /* Go from facet walk->t, where the walk ended, to the answer. */
 void mw__star_query_end(const mw_star_cursor *cursor, mw_star_walk *walk, mw_star_verdict verdict,
@@ -23,7 +23,8 @@ void mw__star_query_end(const mw_star_cursor *cursor, mw_star_walk *walk, mw_sta
 /* Answer the query at `point` by the cursor's options. *last is where the previous query ended, or
  * MW_NONE; it becomes the stored facet where this one ended. Counts in *counters if the cursor
  * counts. `trace` may be NULL. */
-mw_location mw__star_query_answer(const mw_star *star, const mw_star_cursor *cursor, const double point[3],
-                                  uint32_t *last, uint64_t *random, mw_counters *counters, mw_star_trace *trace);
+mw_location mw__star_query_answer(const mw_star *star, const mw_star_cursor *cursor,
+                                  const double point[3], uint32_t *last, uint64_t *random,
+                                  mw_counters *counters, mw_star_trace *trace);
 
 #endif

@@ -4,22 +4,26 @@
 #include "star/star_index.h"
 #include "star/query/star_locate.h"
 
-mw_status mw_star_cursor_init(const mw_star *star, const mw_star_query_options *options, mw_star_cursor *cursor,
-                              mw_error *error)
+mw_status mw_star_cursor_init(const mw_star *star, const mw_star_query_options *options,
+                              mw_star_cursor *cursor, mw_error *error)
 {
     static const mw_star_query_options defaults;
     if (!cursor || !star) return mw__fail(error, MW_ERROR_ARGUMENT, "no cursor, or no star");
     if (!options) options = &defaults;
     mw_star_start_kind start = options->start;
-    if ((unsigned)options->walk >= MW_STAR_WALK_COUNT) return mw__fail(error, MW_ERROR_ARGUMENT, "unknown walk");
-    if ((unsigned)start >= MW_STAR_START_COUNT) return mw__fail(error, MW_ERROR_ARGUMENT, "unknown start");
-    if (options->finish && options->finish != MW_STAR_WALK_STOCHASTIC && options->finish != MW_STAR_WALK_FORGETFUL)
+    if ((unsigned)options->walk >= MW_STAR_WALK_COUNT)
+        return mw__fail(error, MW_ERROR_ARGUMENT, "unknown walk");
+    if ((unsigned)start >= MW_STAR_START_COUNT)
+        return mw__fail(error, MW_ERROR_ARGUMENT, "unknown start");
+    if (options->finish && options->finish != MW_STAR_WALK_STOCHASTIC &&
+        options->finish != MW_STAR_WALK_FORGETFUL)
         return mw__fail(error, MW_ERROR_ARGUMENT, "a walk is finished by stochastic or forgetful");
     if (options->walk == MW_STAR_WALK_ORTHOGONAL && !star->angle)
         return mw__fail(error, MW_ERROR_ARGUMENT, "the orthogonal walk needs a star with angles");
     if (start == MW_STAR_START_AUTO && options->index) start = mw__star_index_start(options->index);
     if (mw_star_start_has_index(start) && !options->index)
-        return mw__fail(error, MW_ERROR_ARGUMENT, "the start %s needs its index", mw_star_start_name(start));
+        return mw__fail(error, MW_ERROR_ARGUMENT, "the start %s needs its index",
+                        mw_star_start_name(start));
     if (options->index && mw__star_index_start(options->index) != start)
         return mw__fail(error, MW_ERROR_ARGUMENT, "the index is one of another start");
     mw_status status = MW_RESERVED_CHECK(mw_star_query_options, options, error);
@@ -37,11 +41,12 @@ mw_status mw_star_cursor_init(const mw_star *star, const mw_star_query_options *
     return MW_OK;
 }
 
-static mw_location star_query(const mw_star *star, mw_star_cursor *cursor, const double point[3], mw_star_trace *trace)
+static mw_location star_query(const mw_star *star, mw_star_cursor *cursor, const double point[3],
+                              mw_star_trace *trace)
 {
     mw__surface_read_lock(star->surface);
-    mw_location location =
-        mw__star_query_answer(star, cursor, point, &cursor->last, &cursor->random, &cursor->counters, trace);
+    mw_location location = mw__star_query_answer(star, cursor, point, &cursor->last,
+                                                 &cursor->random, &cursor->counters, trace);
     mw__surface_read_unlock(star->surface);
     return location;
 }
@@ -51,8 +56,8 @@ mw_location mw_star_locate(const mw_star *star, mw_star_cursor *cursor, const do
     return star_query(star, cursor, point, NULL);
 }
 
-size_t mw_star_path(const mw_star *star, mw_star_cursor *cursor, const double point[3], uint32_t *facets,
-                    size_t capacity, mw_location *location)
+size_t mw_star_path(const mw_star *star, mw_star_cursor *cursor, const double point[3],
+                    uint32_t *facets, size_t capacity, mw_location *location)
 {
     mw_star_trace trace = {.facet = facets, .capacity = facets ? capacity : 0};
     mw_location found = star_query(star, cursor, point, &trace);

@@ -24,7 +24,8 @@ static mw_status cdt_check_segments(const mw_constraints *given, mw_error *error
 {
     for (size_t i = 0; i < 2 * given->segment_count; i++)
         if (given->segments[i] >= given->point_count)
-            return mw__fail(error, MW_ERROR_ARGUMENT, "segment %zu: %" PRIu32 " is no point; there are %zu", i / 2,
+            return mw__fail(error, MW_ERROR_ARGUMENT,
+                            "segment %zu: %" PRIu32 " is no point; there are %zu", i / 2,
                             given->segments[i], given->point_count);
     for (size_t i = 0; i < given->hole_seed_count; i++)
         if (!isfinite(given->hole_seeds[2 * i]) || !isfinite(given->hole_seeds[2 * i + 1]))
@@ -35,7 +36,8 @@ static mw_status cdt_check_segments(const mw_constraints *given, mw_error *error
 static mw_status cdt_check_arguments(const mw_constraints *given, mw_keep keep, mw_error *error)
 {
     if (!given) return mw__fail(error, MW_ERROR_ARGUMENT, "constraints are NULL");
-    if ((unsigned)keep > MW_KEEP_INSIDE) return mw__fail(error, MW_ERROR_ARGUMENT, "unknown choice of what to keep");
+    if ((unsigned)keep > MW_KEEP_INSIDE)
+        return mw__fail(error, MW_ERROR_ARGUMENT, "unknown choice of what to keep");
     if (given->stride == 1) return mw__fail(error, MW_ERROR_ARGUMENT, "a stride of 1 holds no y");
     if ((given->point_count && !given->points) || (given->segment_count && !given->segments) ||
         (given->hole_seed_count && !given->hole_seeds))
@@ -70,7 +72,8 @@ static bool part_force(mw_cdt *m, mw_segment_part s)
         mw_subsegment subsegment;
         mw_subsegment_result result = mw__insert_subsegment(&m->net, &s.from, &s.to, &subsegment);
         if (result == MW_SUBSEGMENT_CROSSES) return mw__segment_parts_add(&m->crossing, s);
-        if (result != MW_SUBSEGMENT_DONE || !mw__subsegment_note(m, &subsegment, s.segment)) return false;
+        if (result != MW_SUBSEGMENT_DONE || !mw__subsegment_note(m, &subsegment, s.segment))
+            return false;
     }
     return true;
 }
@@ -101,14 +104,17 @@ static uint32_t *cdt_order_parts(const mw_cdt *m)
 static mw_status cdt_make(mw_cdt *m, bool all, mw_delaunay_report *report, mw_error *error)
 {
     uint32_t n = (uint32_t)m->point_count;
-    if (m->parts.count >= MW_NONE) return mw__fail(error, MW_ERROR_LIMIT, "too many parts of segments that cross");
+    if (m->parts.count >= MW_NONE)
+        return mw__fail(error, MW_ERROR_LIMIT, "too many parts of segments that cross");
     m->twin = mw__alloc(n, sizeof *m->twin);
     if (!m->twin) return mw__fail_memory(error);
     mw_job_span outer = mw__job_part(m->job, 0.5);
-    mw_status status = mw__delaunay_triangles(m->point, n, m->job, m->twin, report, &m->tri, &m->tri_count, error);
+    mw_status status =
+        mw__delaunay_triangles(m->point, n, m->job, m->twin, report, &m->tri, &m->tri_count, error);
     mw__job_part_end(m->job, outer);
     if (status) return status;
-    if (!mw__segment_insertion_create(&m->net, m->point, n, m->tri, m->tri_count)) return mw__fail_memory(error);
+    if (!mw__segment_insertion_create(&m->net, m->point, n, m->tri, m->tri_count))
+        return mw__fail_memory(error);
     for (size_t i = 0; i < m->parts.count; i++) {
         m->parts.item[i].from = mw__vertex_of(m, m->parts.item[i].from);
         m->parts.item[i].to = mw__vertex_of(m, m->parts.item[i].to);
@@ -150,7 +156,8 @@ static bool cdt_find_subsegment(void *context, mw_segment_meeting meeting, uint3
 }
 
 /* Name the first pair found that crosses. */
-static mw_status cdt_fail_crossing(const mw_cdt *m, const char *why, mw_constrain_report *report, mw_error *error)
+static mw_status cdt_fail_crossing(const mw_cdt *m, const char *why, mw_constrain_report *report,
+                                   mw_error *error)
 {
     const mw_segment_part *s = &m->crossing.item[0];
     finder f = {m, MW_NONE};
@@ -160,16 +167,17 @@ static mw_status cdt_fail_crossing(const mw_cdt *m, const char *why, mw_constrai
     report->crossing_segments[1] = s->segment < p->segment ? p->segment : s->segment;
     const uint32_t *a = &m->given->segments[2 * (size_t)report->crossing_segments[0]];
     const uint32_t *b = &m->given->segments[2 * (size_t)report->crossing_segments[1]];
-    mw_point crossing = mw__crossing_point(m->point[s->from], m->point[s->to], m->point[p->from], m->point[p->to]);
+    mw_point crossing =
+        mw__crossing_point(m->point[s->from], m->point[s->to], m->point[p->from], m->point[p->to]);
     return mw__fail(error, MW_ERROR_INPUT,
-                    "segments %" PRIu32 " (from point %" PRIu32 " to %" PRIu32 ") and %" PRIu32 " (from point %" PRIu32
-                    " to %" PRIu32 ") cross near %.9g %.9g%s",
-                    report->crossing_segments[0], a[0], a[1], report->crossing_segments[1], b[0], b[1], crossing.x,
-                    crossing.y, why);
+                    "segments %" PRIu32 " (from point %" PRIu32 " to %" PRIu32 ") and %" PRIu32
+                    " (from point %" PRIu32 " to %" PRIu32 ") cross near %.9g %.9g%s",
+                    report->crossing_segments[0], a[0], a[1], report->crossing_segments[1], b[0],
+                    b[1], crossing.x, crossing.y, why);
 }
 
-static mw_status cdt_make_all(mw_cdt *m, bool split, mw_delaunay_report *delaunay, mw_constrain_report *report,
-                              mw_error *error);
+static mw_status cdt_make_all(mw_cdt *m, bool split, mw_delaunay_report *delaunay,
+                              mw_constrain_report *report, mw_error *error);
 
 /* The ends of parts, in the order of their numbers: number[p] is the one of point p among them, or
  * MW_NONE. */
@@ -177,7 +185,8 @@ static uint32_t cdt_number_ends(const mw_cdt *m, uint32_t *number)
 {
     uint32_t count = 0;
     for (size_t p = 0; p < m->point_count; p++) number[p] = MW_NONE;
-    for (size_t i = 0; i < m->parts.count; i++) number[m->parts.item[i].from] = number[m->parts.item[i].to] = 0;
+    for (size_t i = 0; i < m->parts.count; i++)
+        number[m->parts.item[i].from] = number[m->parts.item[i].to] = 0;
     for (size_t p = 0; p < m->point_count; p++)
         if (number[p] != MW_NONE) number[p] = count++;
     return count;
@@ -206,10 +215,12 @@ static bool cdt_take_back(mw_cdt *m, uint32_t *number, uint32_t count, mw_cdt *e
     size_t n = m->point_count, made = ends->point_count - count;
     mw_point *point = mw__alloc_lines(n + made, sizeof *point);
     if (!point) return false;
-    for (size_t p = 0; p < n + made; p++) point[p] = p < n ? m->point[p] : ends->point[count + (p - n)];
+    for (size_t p = 0; p < n + made; p++)
+        point[p] = p < n ? m->point[p] : ends->point[count + (p - n)];
     for (uint32_t p = 0; p < n; p++)
         if (number[p] != MW_NONE)
-            number[number[p]] = p; /* no less than its own number, so read before it is overwritten */
+            /* no less than its own number, so read before it is overwritten */
+            number[number[p]] = p;
     for (size_t i = 0; i < ends->parts.count; i++) {
         mw_segment_part *s = &ends->parts.item[i];
         s->from = s->from < count ? number[s->from] : (uint32_t)n + (s->from - count);
@@ -225,9 +236,9 @@ static bool cdt_take_back(mw_cdt *m, uint32_t *number, uint32_t count, mw_cdt *e
 }
 
 /* Whether parts cross has nothing to do with the other points. Where these are many, split the
- * parts without them, until nothing crosses. cdt_make_all, which calls this, does that, and may come
- * here again; but not deep, as each time at most half the points remain. Hardly ever twice: nearly
- * all points are ends then. */
+ * parts without them, until nothing crosses. cdt_make_all, which calls this, does that, and may
+ * come here again; but not deep, as each time at most half the points remain. Hardly ever twice:
+ * nearly all points are ends then. */
 static mw_status cdt_split_apart(mw_cdt *m, mw_constrain_report *report, mw_error *error)
 {
     uint32_t *number = mw__alloc(m->point_count, sizeof *number);
@@ -236,10 +247,12 @@ static mw_status cdt_split_apart(mw_cdt *m, mw_constrain_report *report, mw_erro
     mw_cdt ends = {.given = m->given, .job = m->job};
     mw_status status = MW_OK;
     if (count <= m->point_count / 2) {
-        status = cdt_take_ends(m, number, count, &ends) ? cdt_make_all(&ends, true, NULL, report, error)
-                                                        : mw__fail_memory(error);
+        status = cdt_take_ends(m, number, count, &ends)
+                     ? cdt_make_all(&ends, true, NULL, report, error)
+                     : mw__fail_memory(error);
         m->crossed += ends.crossed;
-        if (status == MW_OK && !cdt_take_back(m, number, count, &ends)) status = mw__fail_memory(error);
+        if (status == MW_OK && !cdt_take_back(m, number, count, &ends))
+            status = mw__fail_memory(error);
     }
     mw__cdt_release(&ends);
     free(number);
@@ -249,15 +262,16 @@ static mw_status cdt_split_apart(mw_cdt *m, mw_constrain_report *report, mw_erro
 /* Each round puts points where parts cross. Most are then done; but points are rounded, so a part
  * may come to cross another by that, and of many that cross one another each round lets some in,
  * and parts the others. */
-static mw_status cdt_make_all(mw_cdt *m, bool split, mw_delaunay_report *delaunay, mw_constrain_report *report,
-                              mw_error *error)
+static mw_status cdt_make_all(mw_cdt *m, bool split, mw_delaunay_report *delaunay,
+                              mw_constrain_report *report, mw_error *error)
 {
     enum { MOST_ROUNDS = 200 };
     double left = 0.5; /* of the job, for further rounds: of what is left, each takes half */
     mw_job_span outer = mw__job_part(m->job, left);
     mw_status status = cdt_make(m, split, delaunay, error);
     mw__job_part_end(m->job, outer);
-    for (int round = 1; status == MW_OK && m->crossing.count && split && round < MOST_ROUNDS; round++) {
+    for (int round = 1; status == MW_OK && m->crossing.count && split && round < MOST_ROUNDS;
+         round++) {
         status = mw__cdt_split_crossings(m, round, error);
         if (status == MW_OK) {
             cdt_unmake(m);
@@ -271,8 +285,9 @@ static mw_status cdt_make_all(mw_cdt *m, bool split, mw_delaunay_report *delauna
         left /= 2;
     }
     if (status == MW_OK && m->crossing.count)
-        status =
-            cdt_fail_crossing(m, split ? ", and so close to others that rounding cannot part them" : "", report, error);
+        status = cdt_fail_crossing(
+            m, split ? ", and so close to others that rounding cannot part them" : "", report,
+            error);
     return status;
 }
 
@@ -290,12 +305,14 @@ static mw_status cdt_take(mw_cdt *m, mw_error *error)
         m->point[i] = (mw_point){given->points[i * stride], given->points[i * stride + 1]};
     m->parts.count = m->parts.capacity = given->segment_count;
     for (size_t i = 0; i < given->segment_count; i++)
-        m->parts.item[i] = (mw_segment_part){given->segments[2 * i], given->segments[2 * i + 1], (uint32_t)i};
+        m->parts.item[i] =
+            (mw_segment_part){given->segments[2 * i], given->segments[2 * i + 1], (uint32_t)i};
     return MW_OK;
 }
 
 static mw_status cdt_build(mw_cdt *m, const mw_constrain_options *options, uint32_t *duplicate_of,
-                           mw_constrain_report *report, mw_constrained_edges *edges, mw_mesh **out, mw_error *error)
+                           mw_constrain_report *report, mw_constrained_edges *edges, mw_mesh **out,
+                           mw_error *error)
 {
     mw_status status = cdt_take(m, error);
     mw_job_span outer = mw__job_part(m->job, 0.85);
@@ -319,8 +336,9 @@ mw_status mw__cdt_make_partly(mw_cdt *m, mw_error *error)
     return status ? status : cdt_make(m, true, NULL, error);
 }
 
-mw_status mw_constrained_delaunay(const mw_constraints *constraints, const mw_constrain_options *options,
-                                  uint32_t *duplicate_of, mw_constrain_report *report, mw_constrained_edges *edges,
+mw_status mw_constrained_delaunay(const mw_constraints *constraints,
+                                  const mw_constrain_options *options, uint32_t *duplicate_of,
+                                  mw_constrain_report *report, mw_constrained_edges *edges,
                                   mw_mesh **out, mw_error *error)
 {
     static const mw_constrain_options defaults;
@@ -336,7 +354,8 @@ mw_status mw_constrained_delaunay(const mw_constraints *constraints, const mw_co
     if (status) return status;
     mw_job job = mw__job(options->threads, options->progress);
     mw_cdt m = {.given = constraints, .job = &job};
-    status = mw__job_end(&job, cdt_build(&m, options, duplicate_of, report, edges, out, error), error);
+    status =
+        mw__job_end(&job, cdt_build(&m, options, duplicate_of, report, edges, out, error), error);
     mw__cdt_release(&m);
     if (status && edges) mw_constrained_edges_release(edges);
     if (status) {

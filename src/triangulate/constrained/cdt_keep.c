@@ -34,7 +34,8 @@ static mw_status parity_prepare(parity *p, mw_error *error)
     mw_status status = mw__polygon_ranks_create(&p->ranks, p->m, error);
     if (status) return status;
     p->odd = mw__calloc((size_t)p->ranks.count + 1, sizeof *p->odd);
-    return p->odd && mw__subsegment_owners_create(&p->owners, p->m) ? MW_OK : mw__fail_memory(error);
+    return p->odd && mw__subsegment_owners_create(&p->owners, p->m) ? MW_OK
+                                                                    : mw__fail_memory(error);
 }
 
 /* Cross a half-edge, either way. */
@@ -131,7 +132,8 @@ static void flood_remove_outside(flood *f)
 {
     for (uint32_t t = 0; t < f->m->tri_count; t++)
         for (uint32_t k = 0; k < 3; k++)
-            if (f->m->tri[t].link[k] == MW_NONE && keep_subsegment_at(f->m, mw__link(t, k)) == MW_NONE)
+            if (f->m->tri[t].link[k] == MW_NONE &&
+                keep_subsegment_at(f->m, mw__link(t, k)) == MW_NONE)
                 flood_remove_triangle(f, t);
     flood_spread(f);
 }
@@ -141,7 +143,8 @@ static void flood_remove_outside(flood *f)
 static double half_side(const mw_cdt *m, uint32_t half, mw_point q)
 {
     const mw_triangle *t = &m->tri[mw__link_triangle(half)];
-    return mw__orient2d(m->point[t->v[mw__link_edge(half)]], m->point[t->v[mw__link_edge(half) + 1]], q);
+    return mw__orient2d(m->point[t->v[mw__link_edge(half)]],
+                        m->point[t->v[mw__link_edge(half) + 1]], q);
 }
 
 /* Walk from triangle *t to one that holds q; false if q is outside the hull. The edges are tried
@@ -214,7 +217,8 @@ static bool constraints_have_polygon(const mw_constraints *given)
 mw_status mw__cdt_keep_triangles(mw_cdt *m, mw_keep keep, mw_error *error)
 {
     bool polygons = constraints_have_polygon(m->given);
-    if (keep == MW_KEEP_AUTO) keep = polygons || m->given->hole_seed_count ? MW_KEEP_INSIDE : MW_KEEP_HULL;
+    if (keep == MW_KEEP_AUTO)
+        keep = polygons || m->given->hole_seed_count ? MW_KEEP_INSIDE : MW_KEEP_HULL;
     m->kept = mw__alloc(m->tri_count, sizeof *m->kept);
     if (!m->kept) return mw__fail_memory(error);
     for (uint32_t t = 0; t < m->tri_count; t++) m->kept[t] = 1;

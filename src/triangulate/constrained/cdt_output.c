@@ -31,21 +31,25 @@ static uint32_t *output_number_triangles(const mw_cdt *m, uint32_t *count)
 {
     uint32_t *number = mw__alloc(m->tri_count, sizeof *number);
     *count = 0;
-    for (uint32_t t = 0; number && t < m->tri_count; t++) number[t] = m->kept[t] ? (*count)++ : MW_NONE;
+    for (uint32_t t = 0; number && t < m->tri_count; t++)
+        number[t] = m->kept[t] ? (*count)++ : MW_NONE;
     return number;
 }
 
 /* The triangles kept, with their new numbers, and those of their vertices. */
-static void output_copy_triangles(const mw_cdt *m, const uint32_t *number, const uint32_t *vertex, mw_triangle *out)
+static void output_copy_triangles(const mw_cdt *m, const uint32_t *number, const uint32_t *vertex,
+                                  mw_triangle *out)
 {
     for (uint32_t t = 0; t < m->tri_count; t++) {
         if (!m->kept[t]) continue;
         const mw_triangle *from = &m->tri[t];
         mw_triangle *to = &out[number[t]];
         for (uint32_t k = 0; k < 3; k++) {
-            uint32_t other = from->link[k] == MW_NONE ? MW_NONE : number[mw__link_triangle(from->link[k])];
+            uint32_t other =
+                from->link[k] == MW_NONE ? MW_NONE : number[mw__link_triangle(from->link[k])];
             to->v[k] = vertex[from->v[k]];
-            to->link[k] = other == MW_NONE ? MW_NONE : mw__link(other, mw__link_edge(from->link[k]));
+            to->link[k] =
+                other == MW_NONE ? MW_NONE : mw__link(other, mw__link_edge(from->link[k]));
         }
         to->v[3] = to->v[0];
         to->user = number[t];
@@ -62,14 +66,16 @@ static void output_move_triangles(mw_cdt *m, mw_mesh *mesh)
 
 /* Subsegments of the triangles kept, each once, in the order of the triangles. With out NULL they
  * are only counted. */
-static size_t output_list_subsegments(const mw_cdt *m, const uint32_t *vertex, mw_constrained_edges *out)
+static size_t output_list_subsegments(const mw_cdt *m, const uint32_t *vertex,
+                                      mw_constrained_edges *out)
 {
     size_t made = 0;
     for (uint32_t t = 0; t < m->tri_count; t++)
         for (uint32_t k = 0; k < 3 && m->kept[t]; k++) {
             uint32_t subsegment = m->net.subsegment[3 * (size_t)t + k], link = m->tri[t].link[k];
             if (subsegment == MW_NONE) continue;
-            if (link != MW_NONE && mw__link_triangle(link) < t && m->kept[mw__link_triangle(link)]) continue;
+            if (link != MW_NONE && mw__link_triangle(link) < t && m->kept[mw__link_triangle(link)])
+                continue;
             if (out) {
                 const mw_segment_part *p = &m->subsegments.item[subsegment];
                 out->edge[2 * made] = vertex[p->from];
@@ -81,7 +87,8 @@ static size_t output_list_subsegments(const mw_cdt *m, const uint32_t *vertex, m
     return made;
 }
 
-static bool output_give_subsegments(const mw_cdt *m, const uint32_t *vertex, size_t count, mw_constrained_edges *out)
+static bool output_give_subsegments(const mw_cdt *m, const uint32_t *vertex, size_t count,
+                                    mw_constrained_edges *out)
 {
     if (!out) return true;
     out->edge = mw__alloc(2 * count, sizeof *out->edge);
@@ -92,7 +99,8 @@ static bool output_give_subsegments(const mw_cdt *m, const uint32_t *vertex, siz
     return true;
 }
 
-static bool output_give_triangles(mw_cdt *m, const uint32_t *number, const uint32_t *vertex, mw_mesh *mesh)
+static bool output_give_triangles(mw_cdt *m, const uint32_t *number, const uint32_t *vertex,
+                                  mw_mesh *mesh)
 {
     if (mesh->tri_count == m->tri_count && mesh->point_count == m->point_count) {
         output_move_triangles(m, mesh);
@@ -113,7 +121,8 @@ static void output_give_points(mw_cdt *m, const uint32_t *vertex, mw_mesh *mesh)
 }
 
 /* Move what was made into a mesh. */
-static bool output_give_mesh(mw_cdt *m, mw_constrain_report *report, mw_constrained_edges *edges, mw_mesh *mesh)
+static bool output_give_mesh(mw_cdt *m, mw_constrain_report *report, mw_constrained_edges *edges,
+                             mw_mesh *mesh)
 {
     uint32_t *vertex = output_number_points(m, &mesh->point_count),
              *number = output_number_triangles(m, &mesh->tri_count);
@@ -139,14 +148,15 @@ static bool output_lay_out(const mw_cdt *m, mw_mesh *mesh)
     return done;
 }
 
-mw_status mw__cdt_output(mw_cdt *m, mw_constrain_report *report, mw_constrained_edges *edges, mw_mesh **out,
-                         mw_error *error)
+mw_status mw__cdt_output(mw_cdt *m, mw_constrain_report *report, mw_constrained_edges *edges,
+                         mw_mesh **out, mw_error *error)
 {
     bool any = false;
     for (uint32_t t = 0; t < m->tri_count && !any; t++) any = m->kept[t];
     report->triangles_removed = any ? 0 : m->tri_count;
     if (!any)
-        return mw__fail(error, MW_ERROR_INPUT, "nothing is left: all %" PRIu32 " triangles are outside or in holes",
+        return mw__fail(error, MW_ERROR_INPUT,
+                        "nothing is left: all %" PRIu32 " triangles are outside or in holes",
                         m->tri_count);
     mw_mesh *mesh = mw__calloc(1, sizeof *mesh);
     mw__job_stage(m->job, "making a mesh", 0.3);

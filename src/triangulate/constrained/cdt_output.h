@@ -7,7 +7,7 @@
 /* Make the mesh and, unless NULL, the subsegments; fills what concerns them in the report. m->point
  * and m->tri may be moved into the mesh. MW_ERROR_INPUT: nothing is kept; MW_ERROR_MEMORY: the
  * caller releases the subsegments. Stages of the present part of the job. */
-mw_status mw__cdt_output(mw_cdt *m, mw_constrain_report *report, mw_constrained_edges *subsegments, mw_mesh **out,
-                         mw_error *error);
+mw_status mw__cdt_output(mw_cdt *m, mw_constrain_report *report, mw_constrained_edges *subsegments,
+                         mw_mesh **out, mw_error *error);
 
 #endif

@@ -44,17 +44,21 @@ static double segment_extent(mw_point a, mw_point b)
 
 mw_point mw__crossing_point(mw_point a, mw_point b, mw_point c, mw_point d)
 {
-    mw_point e[4] = {a, b, c, d}; /* the point is computed on the shorter of the two, from its nearer end */
+    /* the point is computed on the shorter of the two, from its nearer end */
+    mw_point e[4] = {a, b, c, d};
     if (segment_extent(a, b) > segment_extent(c, d)) e[0] = c, e[1] = d, e[2] = a, e[3] = b;
     int exponent[2];
     double area[2];
-    for (int i = 0; i < 2; i++) area[i] = fabs(mw__orient2d_fraction(e[2], e[3], e[i], &exponent[i]));
+    for (int i = 0; i < 2; i++)
+        area[i] = fabs(mw__orient2d_fraction(e[2], e[3], e[i], &exponent[i]));
     int less = exponent[0] < exponent[1] ? 0 : 1;
     area[less] = ldexp(area[less], exponent[less] - exponent[1 - less]);
     int near = area[0] <= area[1] ? 0 : 1;
     double share = area[near] / (area[0] + area[1]);
-    mw_point p = {value_between(e[near].x, e[1 - near].x, share), value_between(e[near].y, e[1 - near].y, share)};
-    return (mw_point){value_clamp_twice(p.x, a.x, b.x, c.x, d.x), value_clamp_twice(p.y, a.y, b.y, c.y, d.y)};
+    mw_point p = {value_between(e[near].x, e[1 - near].x, share),
+                  value_between(e[near].y, e[1 - near].y, share)};
+    return (mw_point){value_clamp_twice(p.x, a.x, b.x, c.x, d.x),
+                      value_clamp_twice(p.y, a.y, b.y, c.y, d.y)};
 }
 
 /* --- cuts --- */
@@ -80,7 +84,8 @@ typedef struct splitter {
 
 static const mw_segment_part *splitter_part_at(const mw_cdt *m, size_t link)
 {
-    return link < m->subsegments.count ? &m->subsegments.item[link] : &m->crossing.item[link - m->subsegments.count];
+    return link < m->subsegments.count ? &m->subsegments.item[link]
+                                       : &m->crossing.item[link - m->subsegments.count];
 }
 
 static mw_point splitter_point_at(const splitter *s, uint32_t p)
@@ -102,7 +107,8 @@ static bool splitter_add_cut(splitter *s, size_t link, uint32_t point, bool exac
 {
     const mw_segment_part *l = splitter_part_at(s->m, link);
     mw_point p = splitter_point_at(s, point);
-    if (mw__points_equal(p, s->m->point[l->from]) || mw__points_equal(p, s->m->point[l->to])) return true;
+    if (mw__points_equal(p, s->m->point[l->from]) || mw__points_equal(p, s->m->point[l->to]))
+        return true;
     if (s->cut_count == s->cut_capacity) {
         size_t capacity = 2 * s->cut_capacity + 64;
         cut *list = mw__realloc(s->cut, capacity, sizeof *list);
@@ -181,11 +187,14 @@ static bool splitter_cut_at_ends(splitter *s, size_t link, size_t other)
 static bool splitter_cross(splitter *s, size_t link, uint32_t subsegment)
 {
     size_t before = s->cut_count;
-    if (s->tolerance > 0 && !(splitter_cut_at_ends(s, link, subsegment) && splitter_cut_at_ends(s, subsegment, link)))
+    if (s->tolerance > 0 &&
+        !(splitter_cut_at_ends(s, link, subsegment) && splitter_cut_at_ends(s, subsegment, link)))
         return false;
     if (s->cut_count > before) return true;
-    uint32_t point = splitter_make_point(s, splitter_part_at(s->m, link), &s->m->subsegments.item[subsegment]);
-    return point != MW_NONE && splitter_add_cut(s, link, point, false) && splitter_add_cut(s, subsegment, point, false);
+    uint32_t point =
+        splitter_make_point(s, splitter_part_at(s->m, link), &s->m->subsegments.item[subsegment]);
+    return point != MW_NONE && splitter_add_cut(s, link, point, false) &&
+           splitter_add_cut(s, subsegment, point, false);
 }
 
 static bool splitter_meet(void *context, mw_segment_meeting meeting, uint32_t number)
@@ -201,7 +210,8 @@ static bool splitter_find_cuts(splitter *s)
     const mw_segment_parts *crossing = &s->m->crossing;
     for (s->remainder = 0; s->remainder < crossing->count; s->remainder++) {
         const mw_segment_part *r = &crossing->item[s->remainder];
-        if (!mw__segment_insertion_trace(&s->m->net, r->from, r->to, splitter_meet, s)) return false;
+        if (!mw__segment_insertion_trace(&s->m->net, r->from, r->to, splitter_meet, s))
+            return false;
     }
     return true;
 }
@@ -220,8 +230,8 @@ static int cut_compare(const void *left, const void *right)
 /* The parts of a link, cut at `count` points, for one segment. No part leads back in either
  * coordinate: so their boxes are smaller than the link's, even of a link that is only a few doubles
  * long. A point left out is seen to in the next round. */
-static bool parts_add_cut(splitter *s, const mw_segment_part *link, const cut *cuts, size_t count, uint32_t segment,
-                          mw_segment_parts *parts)
+static bool parts_add_cut(splitter *s, const mw_segment_part *link, const cut *cuts, size_t count,
+                          uint32_t segment, mw_segment_parts *parts)
 {
     uint32_t from = link->from;
     double reached = splitter_point_along(s, link, splitter_point_at(s, from)).y;
@@ -236,12 +246,14 @@ static bool parts_add_cut(splitter *s, const mw_segment_part *link, const cut *c
     return true;
 }
 
-static bool splitter_cut_all(splitter *s, const mw_subsegment_owners *owners, mw_segment_parts *parts)
+static bool splitter_cut_all(splitter *s, const mw_subsegment_owners *owners,
+                             mw_segment_parts *parts)
 {
     const mw_cdt *m = s->m;
     const cut *cuts = s->cut;
     size_t left = s->cut_count, count;
-    for (size_t link = 0; link < m->subsegments.count + m->crossing.count; link++, cuts += count, left -= count) {
+    for (size_t link = 0; link < m->subsegments.count + m->crossing.count;
+         link++, cuts += count, left -= count) {
         for (count = 0; count < left && cuts[count].link == link;) count++;
         const mw_segment_part *l = splitter_part_at(m, link);
         if (link >= m->subsegments.count) {
@@ -260,7 +272,8 @@ static bool splitter_take_points(splitter *s)
     mw_cdt *m = s->m;
     mw_point *point = mw__alloc_lines(m->point_count + s->made_count, sizeof *point);
     if (!point) return false;
-    for (size_t i = 0; i < m->point_count + s->made_count; i++) point[i] = splitter_point_at(s, (uint32_t)i);
+    for (size_t i = 0; i < m->point_count + s->made_count; i++)
+        point[i] = splitter_point_at(s, (uint32_t)i);
     free(m->point);
     m->point = point;
     m->point_count += s->made_count;

@@ -24,7 +24,8 @@ bool mw__segment_parts_add(mw_segment_parts *list, mw_segment_part part)
 
 bool mw__subsegment_owner_add(mw_cdt *m, mw_subsegment_owner owner)
 {
-    mw_subsegment_owner *list = list_with_room(m->owner, m->owner_count, &m->owner_capacity, sizeof *list);
+    mw_subsegment_owner *list =
+        list_with_room(m->owner, m->owner_count, &m->owner_capacity, sizeof *list);
     if (!list) return false;
     m->owner = list;
     list[m->owner_count++] = owner;
@@ -54,7 +55,8 @@ bool mw__subsegment_owners_create(mw_subsegment_owners *owners, const mw_cdt *m)
         sum += first[p];
         first[p] = sum;
     }
-    for (size_t i = m->owner_count; i-- > 0;) segment[--first[m->owner[i].subsegment]] = m->owner[i].segment;
+    for (size_t i = m->owner_count; i-- > 0;)
+        segment[--first[m->owner[i].subsegment]] = m->owner[i].segment;
     return true;
 }
 

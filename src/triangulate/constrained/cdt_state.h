@@ -32,13 +32,17 @@ typedef struct mw_cdt {
     mw_job *job;
     mw_point *point; /* the caller's, then those made where segments cross */
     size_t point_count;
-    uint32_t *twin;   /* per point: the lowest-numbered one with its coordinates, MW_NONE if it is that itself */
+    /* per point: the lowest-numbered one with its coordinates, MW_NONE if it is that itself */
+    uint32_t *twin;
     mw_triangle *tri; /* of the points, with the parts inserted */
     uint32_t tri_count;
     mw_segment_insertion net;
-    mw_segment_parts parts;       /* to be inserted                                                */
-    mw_segment_parts subsegments; /* inserted, by number                                           */
-    mw_segment_parts crossing;    /* what could not be inserted of some parts: it crosses subsegments */
+    /* to be inserted */
+    mw_segment_parts parts;
+    /* inserted, by number */
+    mw_segment_parts subsegments;
+    /* what could not be inserted of some parts: it crosses subsegments */
+    mw_segment_parts crossing;
     mw_subsegment_owner *owner;
     size_t owner_count, owner_capacity;
     uint64_t crossed; /* triangles: by the parts of all rounds, those that crossed others too */

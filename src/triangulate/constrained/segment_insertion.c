@@ -1,10 +1,18 @@
 /* segment_insertion.c - segments forced into a triangulation.
  *
- *           q---s      The triangles that the segment a->b crosses form a channel. It is emptied and filled again on
- *         / |  / \     both sides of the new edge: ears are cut off the boundary, those with a short base first, then put
- *       a...|./...w--b back in the opposite order, with flips that keep the Delaunay property [Lawson 1977]. The subsegment
- *         \ | /  /     ends at the first vertex w on the segment.
- *           p---'      The right boundary runs a, p, ..., w, the left boundary w, s, q, ..., a: the channel lies to their left.
+ *           q---s
+ *         / |  / \
+ *
+ * The triangles that the segment a->b crosses form a channel. It is emptied and filled again on
+ * both sides of the new edge: ears are cut off the boundary, those with a short base first, then
+ * put
+ *       a...|./...w--b back in the opposite order, with flips that keep the Delaunay property
+ *       [Lawson 1977]. The subsegment
+ *         \ | /  /
+ *           p---'
+ *
+ * ends at the first vertex w on the segment. The right boundary runs a, p, ..., w, the left
+ * boundary w, s, q, ..., a: the channel lies to their left.
  *
  * Why one may cut off an ear p, q, r wherever the boundary turns left: every vertex of the boundary
  * sees a point of the segment across the channel, and these points follow each other as the
@@ -29,13 +37,20 @@ struct mw_channel_step {
     uint32_t half;  /* the half-edge inside the channel: the old one, later the new one  */
     uint32_t outer; /* the half-edge beyond the boundary; MW_NONE on the hull                 */
     uint32_t subsegment;
-    uint32_t slot; /* a triangle of the channel, whose number an ear with this step and the one after it may take     */
-    mw_channel_step *mate; /* the boundary runs along both sides of this edge: the other side        */
+    /* a triangle of the channel, whose number an ear with this step and the one after it may
+     * take */
+    uint32_t slot;
+    /* the boundary runs along both sides of this edge: the other side */
+    mw_channel_step *mate;
     /* in the ring: */
-    mw_channel_step *origin; /* the step of the boundary this is a copy of, NULL for the base of an ear        */
-    uint32_t before, after;  /* its neighbours, or MW_NONE                                                */
-    uint32_t line;           /* of ears, where it makes one with the step after it; else MW_NONE          */
-    uint32_t ahead, behind;  /* its neighbours in that line, or MW_NONE                                   */
+    /* the step of the boundary this is a copy of, NULL for the base of an ear */
+    mw_channel_step *origin;
+    /* its neighbours, or MW_NONE */
+    uint32_t before, after;
+    /* of ears, where it makes one with the step after it; else MW_NONE */
+    uint32_t line;
+    /* its neighbours in that line, or MW_NONE */
+    uint32_t ahead, behind;
 };
 
 /* Ears wait in line with others whose bases are of about the same length, and those in the line of
@@ -53,11 +68,14 @@ struct mw_ears {
 
 enum { IN_CHANNEL = 1, AWAY }; /* marks in mw_triangle.user */
 
-bool mw__segment_insertion_create(mw_segment_insertion *c, const mw_point *point, uint32_t point_count,
-                                  mw_triangle *tri, uint32_t tri_count)
+bool mw__segment_insertion_create(mw_segment_insertion *c, const mw_point *point,
+                                  uint32_t point_count, mw_triangle *tri, uint32_t tri_count)
 {
-    *c = (mw_segment_insertion){
-        .point = point, .tri = tri, .point_count = point_count, .tri_count = tri_count, .reach = SIZE_MAX};
+    *c = (mw_segment_insertion){.point = point,
+                                .tri = tri,
+                                .point_count = point_count,
+                                .tri_count = tri_count,
+                                .reach = SIZE_MAX};
     c->subsegment = mw__alloc(3 * (size_t)tri_count, sizeof *c->subsegment);
     c->at = mw__alloc(point_count, sizeof *c->at);
     c->ears = mw__calloc(1, sizeof *c->ears);
@@ -105,15 +123,17 @@ static double segment_vertex_side(const mw_segment_insertion *c, uint32_t a, uin
 /* Turns round a vertex: counter-clockwise to the hull or once round, then clockwise from the
  * beginning. */
 typedef struct vertex_rotor {
-    uint32_t half, first; /* half-edges that leave the vertex; the triangle of `half` is looked at     */
+    /* half-edges that leave the vertex; the triangle of `half` is looked at */
+    uint32_t half, first;
     bool clockwise;
-    double right, left, first_right; /* the side of the target as seen along the two edges of the triangle, and of the
-                                        first one */
+    /* the side of the target as seen along the two edges of the triangle, and of the first one */
+    double right, left, first_right;
 } vertex_rotor;
 
 /* On which side of v->p the target lies. Where p is the target no test is made: it would be decided
  * exactly, slowly. */
-static double segment_target_side(const mw_segment_insertion *c, uint32_t v, uint32_t p, uint32_t target)
+static double segment_target_side(const mw_segment_insertion *c, uint32_t v, uint32_t p,
+                                  uint32_t target)
 {
     return p == target ? 0 : segment_vertex_side(c, v, p, target);
 }
@@ -128,14 +148,16 @@ static vertex_rotor segment_rotor(const mw_segment_insertion *c, uint32_t vertex
     return r;
 }
 
-static void segment_rotor_turn(const mw_segment_insertion *c, vertex_rotor *r, uint32_t vertex, uint32_t target)
+static void segment_rotor_turn(const mw_segment_insertion *c, vertex_rotor *r, uint32_t vertex,
+                               uint32_t target)
 {
     if (!r->clockwise) {
         uint32_t half = *half_link_field(c, mw__half_prev(r->half));
         if (half != MW_NONE) {
             r->half = half;
             r->right = r->left;
-            r->left = segment_target_side(c, vertex, mw__half_start(c->tri, mw__half_prev(half)), target);
+            r->left =
+                segment_target_side(c, vertex, mw__half_start(c->tri, mw__half_prev(half)), target);
             return;
         }
         r->clockwise = true;
@@ -153,7 +175,9 @@ static void segment_rotor_turn(const mw_segment_insertion *c, vertex_rotor *r, u
 static bool rotor_leaves_here(const vertex_rotor *r, uint32_t *half, bool *along)
 {
     *along = r->right == 0 || r->left == 0;
-    *half = r->right == 0 ? r->half : r->left == 0 ? mw__half_prev(r->half) : mw__half_next(r->half);
+    *half = r->right == 0  ? r->half
+            : r->left == 0 ? mw__half_prev(r->half)
+                           : mw__half_next(r->half);
     return (r->right >= 0 && r->left < 0) || (r->right > 0 && r->left == 0);
 }
 
@@ -183,7 +207,8 @@ typedef struct segment_channel {
     size_t right_count, left_count, triangle_count;
 } segment_channel;
 
-static void channel_add_boundary(const mw_segment_insertion *c, mw_channel_step *boundary, size_t *count, uint32_t half)
+static void channel_add_boundary(const mw_segment_insertion *c, mw_channel_step *boundary,
+                                 size_t *count, uint32_t half)
 {
     boundary[(*count)++] = (mw_channel_step){.from = mw__half_start(c->tri, half),
                                              .to = mw__half_end(c->tri, half),
@@ -194,8 +219,8 @@ static void channel_add_boundary(const mw_segment_insertion *c, mw_channel_step 
 }
 
 /* Follow the segment from a through edge `half` to the first vertex on it. Changes no triangle. */
-static mw_subsegment_result channel_open(mw_segment_insertion *c, uint32_t a, uint32_t b, uint32_t half,
-                                         segment_channel *ch, uint32_t *crossed)
+static mw_subsegment_result channel_open(mw_segment_insertion *c, uint32_t a, uint32_t b,
+                                         uint32_t half, segment_channel *ch, uint32_t *crossed)
 {
     *ch = (segment_channel){.a = a};
     if (!channel_reserve(c, 2)) return MW_SUBSEGMENT_MEMORY;
@@ -230,13 +255,15 @@ static void channel_find_mates(mw_segment_insertion *c, const segment_channel *c
     for (size_t i = 0; i < ch->triangle_count; i++) c->tri[c->channel[i]].user = IN_CHANNEL;
     for (int r = 0; r < 2; r++)
         for (uint32_t i = 0; i < counts[r]; i++)
-            c->tri[mw__link_triangle(boundaries[r][i].half)].v[mw__link_edge(boundaries[r][i].half)] = i;
+            c->tri[mw__link_triangle(boundaries[r][i].half)]
+                .v[mw__link_edge(boundaries[r][i].half)] = i;
     for (int r = 0; r < 2; r++)
         for (size_t i = 0; i < counts[r]; i++) {
             uint32_t outer = boundaries[r][i].outer;
             if (outer == MW_NONE || c->tri[mw__link_triangle(outer)].user != IN_CHANNEL) continue;
             boundaries[r][i].mate =
-                &boundaries[r][mw__half_start(c->tri, outer)]; /* no edge lies on both sides of the segment */
+                /* no edge lies on both sides of the segment */
+                &boundaries[r][mw__half_start(c->tri, outer)];
             boundaries[r][i].half = MW_NONE;
         }
     for (size_t i = 0; i < ch->triangle_count; i++) c->tri[c->channel[i]].user = 0;
@@ -270,8 +297,11 @@ static mw_channel_step ear_cut(mw_segment_insertion *c, uint32_t t, const mw_cha
     step_join(c, mw__link(t, 0), s0);
     step_join(c, mw__link(t, 1), s1);
     *half_subsegment(c, mw__link(t, 2)) = MW_NONE;
-    return (mw_channel_step){
-        .from = s0->from, .to = s1->to, .outer = mw__link(t, 2), .subsegment = MW_NONE, .slot = s1->slot};
+    return (mw_channel_step){.from = s0->from,
+                             .to = s1->to,
+                             .outer = mw__link(t, 2),
+                             .subsegment = MW_NONE,
+                             .slot = s1->slot};
 }
 
 static uint32_t ear_line(double base)
@@ -336,12 +366,14 @@ static void ear_note(mw_segment_insertion *c, uint32_t i)
     if (step->after == MW_NONE) return;
     uint32_t to = c->ring[step->after].to;
     if (segment_vertex_side(c, step->from, step->to, to) <= 0) return;
-    double dx = c->point[to].x - c->point[step->from].x, dy = c->point[to].y - c->point[step->from].y;
+    double dx = c->point[to].x - c->point[step->from].x,
+           dy = c->point[to].y - c->point[step->from].y;
     ear_add(c, i, dx * dx + dy * dy);
 }
 
 /* Lay out a boundary of n steps, taken in order or backwards, for cutting. */
-static void ring_lay_out(mw_segment_insertion *c, mw_channel_step *boundary, uint32_t n, bool backwards)
+static void ring_lay_out(mw_segment_insertion *c, mw_channel_step *boundary, uint32_t n,
+                         bool backwards)
 {
     for (uint32_t i = 0; i < n; i++) {
         mw_channel_step *step = &boundary[backwards ? n - 1 - i : i];
@@ -362,7 +394,8 @@ static void ring_lay_out(mw_segment_insertion *c, mw_channel_step *boundary, uin
  * triangles at either end of the channel were at two steps, and the last step's number is never
  * taken; that is the triangle at w on the right boundary, the one at a on the left boundary, which
  * runs the other way. */
-static uint32_t side_fill(mw_segment_insertion *c, mw_channel_step *boundary, size_t n, bool backwards, size_t *next)
+static uint32_t side_fill(mw_segment_insertion *c, mw_channel_step *boundary, size_t n,
+                          bool backwards, size_t *next)
 {
     ring_lay_out(c, boundary, (uint32_t)n, backwards);
     for (uint32_t i; (i = ear_first(c)) != MW_NONE;) {
@@ -401,14 +434,17 @@ static bool channel_push_half(mw_segment_insertion *c, size_t *count, uint32_t h
 static bool half_is_illegal(const mw_segment_insertion *c, uint32_t half)
 {
     uint32_t twin = *half_link_field(c, half);
-    if (twin == MW_NONE || *half_subsegment(c, half) != MW_NONE || c->tri[mw__link_triangle(twin)].user == AWAY)
+    if (twin == MW_NONE || *half_subsegment(c, half) != MW_NONE ||
+        c->tri[mw__link_triangle(twin)].user == AWAY)
         return false;
     const mw_triangle *t = &c->tri[mw__link_triangle(half)];
     uint32_t apex = mw__half_start(c->tri, mw__half_prev(twin));
-    return mw__incircle(c->point[t->v[0]], c->point[t->v[1]], c->point[t->v[2]], c->point[apex]) > 0;
+    return mw__incircle(c->point[t->v[0]], c->point[t->v[1]], c->point[t->v[2]], c->point[apex]) >
+           0;
 }
 
-static void channel_set_triangle(mw_segment_insertion *c, uint32_t t, uint32_t v0, uint32_t v1, uint32_t v2)
+static void channel_set_triangle(mw_segment_insertion *c, uint32_t t, uint32_t v0, uint32_t v1,
+                                 uint32_t v2)
 {
     mw_triangle *tri = &c->tri[t];
     tri->v[0] = tri->v[3] = v0;
@@ -424,15 +460,17 @@ static void channel_set_triangle(mw_segment_insertion *c, uint32_t t, uint32_t v
  *        s                s       */
 static void channel_flip(mw_segment_insertion *c, uint32_t half)
 {
-    uint32_t twin = *half_link_field(c, half), t = mw__link_triangle(half), n = mw__link_triangle(twin);
+    uint32_t twin = *half_link_field(c, half), t = mw__link_triangle(half),
+             n = mw__link_triangle(twin);
     uint32_t p = mw__half_start(c->tri, half), q = mw__half_end(c->tri, half);
-    uint32_t r = mw__half_start(c->tri, mw__half_prev(half)), s = mw__half_start(c->tri, mw__half_prev(twin));
+    uint32_t r = mw__half_start(c->tri, mw__half_prev(half)),
+             s = mw__half_start(c->tri, mw__half_prev(twin));
     uint32_t sides[4] = {mw__half_next(twin), mw__half_prev(half), mw__half_prev(twin),
                          mw__half_next(half)}; /* ps, rp, sq, qr */
     mw_channel_step step[4];
     for (int i = 0; i < 4; i++)
-        step[i] =
-            (mw_channel_step){.outer = *half_link_field(c, sides[i]), .subsegment = *half_subsegment(c, sides[i])};
+        step[i] = (mw_channel_step){.outer = *half_link_field(c, sides[i]),
+                                    .subsegment = *half_subsegment(c, sides[i])};
     channel_set_triangle(c, t, p, s, r);
     channel_set_triangle(c, n, s, q, r);
     step_join(c, mw__link(t, 0), &step[0]);
@@ -487,8 +525,8 @@ uint32_t mw__segment_insertion_mark(mw_segment_insertion *c, uint32_t half)
 
 /* A segment that crosses no edge but `half` becomes an edge by a flip; the sides of the two
  * triangles were Delaunay, and now see fewer vertices. Returns whether it is so. */
-static bool channel_cut_one(mw_segment_insertion *c, uint32_t a, uint32_t b, uint32_t half, uint32_t *w,
-                            uint32_t *number)
+static bool channel_cut_one(mw_segment_insertion *c, uint32_t a, uint32_t b, uint32_t half,
+                            uint32_t *w, uint32_t *number)
 {
     if (*half_subsegment(c, half) != MW_NONE) return false;
     *w = mw__half_start(c->tri, mw__half_prev(*half_link_field(c, half)));
@@ -500,8 +538,8 @@ static bool channel_cut_one(mw_segment_insertion *c, uint32_t a, uint32_t b, uin
 }
 
 /* Make an edge from a towards b, through edge `half`. */
-static mw_subsegment_result channel_cut(mw_segment_insertion *c, uint32_t a, uint32_t b, uint32_t half, uint32_t *w,
-                                        uint32_t *number)
+static mw_subsegment_result channel_cut(mw_segment_insertion *c, uint32_t a, uint32_t b,
+                                        uint32_t half, uint32_t *w, uint32_t *number)
 {
     if (channel_cut_one(c, a, b, half, w, number)) return MW_SUBSEGMENT_DONE;
     segment_channel ch;
@@ -538,7 +576,8 @@ mw_subsegment_result mw__insert_subsegment(mw_segment_insertion *c, uint32_t *fr
     uint32_t w;
     mw_subsegment_result result = MW_SUBSEGMENT_DONE;
     if (along) {
-        w = mw__half_start(c->tri, half) == *ends[i] ? mw__half_end(c->tri, half) : mw__half_start(c->tri, half);
+        w = mw__half_start(c->tri, half) == *ends[i] ? mw__half_end(c->tri, half)
+                                                     : mw__half_start(c->tri, half);
         subsegment->number = mw__segment_insertion_mark(c, half);
     } else {
         result = channel_cut(c, *ends[i], *ends[1 - i], half, &w, &subsegment->number);
@@ -552,13 +591,14 @@ mw_subsegment_result mw__insert_subsegment(mw_segment_insertion *c, uint32_t *fr
 
 /* From `from`, through edge `half`, to the first vertex on the segment; MW_NONE if `meet` will not
  * go on. */
-static uint32_t segment_follow(const mw_segment_insertion *c, uint32_t from, uint32_t to, uint32_t half,
-                               mw_segment_visitor *meet, void *context)
+static uint32_t segment_follow(const mw_segment_insertion *c, uint32_t from, uint32_t to,
+                               uint32_t half, mw_segment_visitor *meet, void *context)
 {
     if (!meet(context, MW_MEETS_TRIANGLE, mw__link_triangle(half))) return MW_NONE;
     for (;;) {
         uint32_t subsegment = *half_subsegment(c, half);
-        if (subsegment != MW_NONE && !meet(context, MW_MEETS_SUBSEGMENT, subsegment)) return MW_NONE;
+        if (subsegment != MW_NONE && !meet(context, MW_MEETS_SUBSEGMENT, subsegment))
+            return MW_NONE;
         half = *half_link_field(c, half);
         if (!meet(context, MW_MEETS_TRIANGLE, mw__link_triangle(half))) return MW_NONE;
         uint32_t w = mw__half_start(c->tri, mw__half_prev(half));
@@ -568,8 +608,8 @@ static uint32_t segment_follow(const mw_segment_insertion *c, uint32_t from, uin
     }
 }
 
-bool mw__segment_insertion_trace(const mw_segment_insertion *c, uint32_t from, uint32_t to, mw_segment_visitor *meet,
-                                 void *context)
+bool mw__segment_insertion_trace(const mw_segment_insertion *c, uint32_t from, uint32_t to,
+                                 mw_segment_visitor *meet, void *context)
 {
     while (from != to) {
         uint32_t half;
@@ -578,7 +618,8 @@ bool mw__segment_insertion_trace(const mw_segment_insertion *c, uint32_t from, u
         while (!rotor_leaves_here(&r, &half, &along)) segment_rotor_turn(c, &r, from, to);
         if (along && !meet(context, MW_MEETS_EDGE, half)) return false;
         if (along)
-            from = mw__half_start(c->tri, half) == from ? mw__half_end(c->tri, half) : mw__half_start(c->tri, half);
+            from = mw__half_start(c->tri, half) == from ? mw__half_end(c->tri, half)
+                                                        : mw__half_start(c->tri, half);
         else
             from = segment_follow(c, from, to, half, meet, context);
         if (from == MW_NONE || (from != to && !meet(context, MW_MEETS_VERTEX, from))) return false;

@@ -20,24 +20,30 @@ typedef struct mw_segment_insertion {
     const mw_point *point;
     mw_triangle *tri; /* changed in place; `user` is used as scratch */
     uint32_t point_count, tri_count;
-    uint32_t *subsegment; /* per edge, at 3 * triangle + edge: the number of the subsegment that it is, or MW_NONE */
-    uint32_t subsegment_count; /* never more than the edges of the triangulation: tri_count + point_count - 1      */
-    uint32_t *at;              /* per vertex: a triangle that has it                                               */
+    /* per edge, at 3 * triangle + edge: the number of the subsegment that it is, or MW_NONE */
+    uint32_t *subsegment;
+    /* never more than the edges of the triangulation: tri_count + point_count - 1 */
+    uint32_t subsegment_count;
+    /* per vertex: a triangle that has it */
+    uint32_t *at;
     mw_channel_step *right, *left, *ring; /* scratch */
     mw_ears *ears;
     uint32_t *channel, *flip;
     size_t step_capacity, flip_capacity;
     size_t
-        reach; /* a segment may look through this many triangles for the end of a subsegment: SIZE_MAX unless changed */
+        /* a segment may look through this many triangles for the end of a subsegment: SIZE_MAX
+         * unless changed */
+        reach;
     size_t
-        wasted; /* triangles that segments have looked through without making a subsegment                             */
+        /* triangles that segments have looked through without making a subsegment */
+        wasted;
     uint64_t crossed; /* triangles that the subsegments made so far crossed */
 } mw_segment_insertion;
 
 /* Prepare; `point` and `tri` stay the caller's and must outlive *c. Returns false when out of
  * memory. Release *c in either case. */
-bool mw__segment_insertion_create(mw_segment_insertion *c, const mw_point *point, uint32_t point_count,
-                                  mw_triangle *tri, uint32_t tri_count);
+bool mw__segment_insertion_create(mw_segment_insertion *c, const mw_point *point,
+                                  uint32_t point_count, mw_triangle *tri, uint32_t tri_count);
 void mw__segment_insertion_release(mw_segment_insertion *c);
 
 typedef enum mw_subsegment_result {
@@ -77,7 +83,7 @@ typedef bool mw_segment_visitor(void *context, mw_segment_meeting meeting, uint3
 
 /* Tell all that a segment meets between its ends, in order; the triangulation stays as it is.
  * Returns false if `meet` did. */
-bool mw__segment_insertion_trace(const mw_segment_insertion *c, uint32_t from, uint32_t to, mw_segment_visitor *meet,
-                                 void *context);
+bool mw__segment_insertion_trace(const mw_segment_insertion *c, uint32_t from, uint32_t to,
+                                 mw_segment_visitor *meet, void *context);
 
 #endif

@@ -140,11 +140,14 @@ static mw_status delaunay_fail_flat(const delaunay *d, mw_error *error)
     const mw_point *p = d->arrays.point;
     uint32_t n = d->arrays.n, second = 1, third;
     while (second < n && mw__points_equal(p[0], p[second])) second++;
-    if (second == n) return mw__fail(error, MW_ERROR_INPUT, "fewer than three different points: all %u are equal", n);
+    if (second == n)
+        return mw__fail(error, MW_ERROR_INPUT,
+                        "fewer than three different points: all %u are equal", n);
     for (third = second + 1; third < n; third++)
         if (!mw__points_equal(p[third], p[0]) && !mw__points_equal(p[third], p[second]))
             return mw__fail(error, MW_ERROR_INPUT, "all %u points lie on one line", n);
-    return mw__fail(error, MW_ERROR_INPUT, "fewer than three different points: only two among %u", n);
+    return mw__fail(error, MW_ERROR_INPUT, "fewer than three different points: only two among %u",
+                    n);
 }
 
 /* --- growth --- */
@@ -188,7 +191,8 @@ static mw_status delaunay_prepare(delaunay *d, mw_error *error)
 {
     mw_patch_arrays *g = &d->arrays;
     if (g->n < 3) return mw__fail(error, MW_ERROR_INPUT, "fewer than three points: %u", g->n);
-    if (g->n > MW_MAX_TRIANGLES / 2) return mw__fail(error, MW_ERROR_LIMIT, "too many points: %u", g->n);
+    if (g->n > MW_MAX_TRIANGLES / 2)
+        return mw__fail(error, MW_ERROR_LIMIT, "too many points: %u", g->n);
     mw_status status = delaunay_measure(d, error);
     if (status != MW_OK) return status;
     g->order = mw__alloc_lines(g->n, sizeof *g->order);
@@ -212,12 +216,13 @@ static bool delaunay_collect(delaunay *d, mw_triangle **tri, uint32_t *tri_count
     free(d->arrays.sequence);
     d->arrays.sequence = NULL;
     uint32_t *scratch = (uint32_t *)d->arrays.point;
-    return mw__delaunay_collect(&d->patches, &d->arrays, d->setup.order != NULL, d->job, scratch, tri, tri_count);
+    return mw__delaunay_collect(&d->patches, &d->arrays, d->setup.order != NULL, d->job, scratch,
+                                tri, tri_count);
 }
 
-mw_status mw__delaunay_set_up(const mw_point *points, uint32_t n, const mw_delaunay_setup *setup, mw_job *job,
-                              uint32_t *duplicate_of, mw_delaunay_report *report, mw_triangle **tri,
-                              uint32_t *tri_count, mw_error *error)
+mw_status mw__delaunay_set_up(const mw_point *points, uint32_t n, const mw_delaunay_setup *setup,
+                              mw_job *job, uint32_t *duplicate_of, mw_delaunay_report *report,
+                              mw_triangle **tri, uint32_t *tri_count, mw_error *error)
 {
     delaunay d = {.given = points, .setup = *setup, .job = job, .arrays = {.n = n}};
     if (!d.setup.patch) d.setup.patch = PATCH;
@@ -249,32 +254,36 @@ mw_status mw__delaunay_set_up(const mw_point *points, uint32_t n, const mw_delau
     return status;
 }
 
-mw_status mw__delaunay_triangles(const mw_point *points, uint32_t n, mw_job *job, uint32_t *duplicate_of,
-                                 mw_delaunay_report *report, mw_triangle **tri, uint32_t *tri_count, mw_error *error)
+mw_status mw__delaunay_triangles(const mw_point *points, uint32_t n, mw_job *job,
+                                 uint32_t *duplicate_of, mw_delaunay_report *report,
+                                 mw_triangle **tri, uint32_t *tri_count, mw_error *error)
 {
     static const mw_delaunay_setup defaults;
-    return mw__delaunay_set_up(points, n, &defaults, job, duplicate_of, report, tri, tri_count, error);
+    return mw__delaunay_set_up(points, n, &defaults, job, duplicate_of, report, tri, tri_count,
+                               error);
 }
 
 /* --- a mesh --- */
 
-static mw_status delaunay_make_mesh(const mw_point *given, bool laid_out, mw_job *job, uint32_t *duplicate_of,
-                                    mw_delaunay_report *report, mw_mesh *mesh, mw_error *error)
+static mw_status delaunay_make_mesh(const mw_point *given, bool laid_out, mw_job *job,
+                                    uint32_t *duplicate_of, mw_delaunay_report *report,
+                                    mw_mesh *mesh, mw_error *error)
 {
     mw_delaunay_setup setup = {0};
     uint32_t *order = NULL, n = mesh->point_count;
     if (laid_out && mw__points_are_scattered(given, n)) setup.order = &order;
     mw_job_span outer = mw__job_part(job, 0.93);
-    mw_status status =
-        mw__delaunay_set_up(given, n, &setup, job, duplicate_of, report, &mesh->tri, &mesh->tri_count, error);
+    mw_status status = mw__delaunay_set_up(given, n, &setup, job, duplicate_of, report, &mesh->tri,
+                                           &mesh->tri_count, error);
     mw__job_part_end(job, outer);
     mw__job_stage(job, "copying points", 0.05);
     if (!status && !mw__mesh_set_points(mesh, given, order, job)) status = mw__fail_memory(error);
     return status;
 }
 
-mw_status mw__delaunay_mesh(mw_job *job, bool laid_out, const double *points, size_t n, size_t stride,
-                            uint32_t *duplicate_of, mw_delaunay_report *report, mw_mesh **out, mw_error *error)
+mw_status mw__delaunay_mesh(mw_job *job, bool laid_out, const double *points, size_t n,
+                            size_t stride, uint32_t *duplicate_of, mw_delaunay_report *report,
+                            mw_mesh **out, mw_error *error)
 {
     if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "out is NULL");
     *out = NULL;
@@ -299,8 +308,9 @@ mw_status mw__delaunay_mesh(mw_job *job, bool laid_out, const double *points, si
     return status;
 }
 
-mw_status mw_delaunay(const double *points, size_t n, size_t stride, const mw_delaunay_options *options,
-                      uint32_t *duplicate_of, mw_delaunay_report *report, mw_mesh **out, mw_error *error)
+mw_status mw_delaunay(const double *points, size_t n, size_t stride,
+                      const mw_delaunay_options *options, uint32_t *duplicate_of,
+                      mw_delaunay_report *report, mw_mesh **out, mw_error *error)
 {
     static const mw_delaunay_options defaults;
     if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "out is NULL");

@@ -21,8 +21,10 @@ typedef struct slice {
 
 typedef struct collector {
     const mw_patch_arrays *arrays;
-    uint32_t *number; /* of each facet: MW_NONE: it is no triangle                                   */
-    uint32_t *next;   /* of each slot: triangles whose lowest it is, then the number of the next one */
+    /* of each facet: MW_NONE: it is no triangle */
+    uint32_t *number;
+    /* of each slot: triangles whose lowest it is, then the number of the next one */
+    uint32_t *next;
     slice *slices;
     uint32_t slice_count;
     mw_triangle *tri;
@@ -124,7 +126,8 @@ static void slice_step(void *work, uint64_t i, uint32_t member)
 static bool slices_run(collector *h, void (*step)(collector *h, slice *s), mw_job *job)
 {
     slice_loop loop = {h, step};
-    return mw__job_chunks(job, mw__job_team(job, h->slice_count), h->slice_count, slice_step, &loop);
+    return mw__job_chunks(job, mw__job_team(job, h->slice_count), h->slice_count, slice_step,
+                          &loop);
 }
 
 static bool slices_list(collector *h, const mw_patches *patches)
@@ -133,7 +136,8 @@ static bool slices_list(collector *h, const mw_patches *patches)
     if (!h->slices) return false;
     for (uint32_t i = 0; i < patches->count; i++)
         if (patches->patch[i].half == MW_NONE)
-            h->slices[h->slice_count++] = (slice){.from = patches->patch[i].from, .to = patches->patch[i].to};
+            h->slices[h->slice_count++] =
+                (slice){.from = patches->patch[i].from, .to = patches->patch[i].to};
     return true;
 }
 
@@ -164,8 +168,8 @@ static bool slices_number(collector *h, mw_job *job, uint32_t *tri_count)
     return true;
 }
 
-bool mw__delaunay_collect(const mw_patches *patches, const mw_patch_arrays *arrays, bool slots, mw_job *job,
-                          uint32_t *scratch, mw_triangle **tri, uint32_t *tri_count)
+bool mw__delaunay_collect(const mw_patches *patches, const mw_patch_arrays *arrays, bool slots,
+                          mw_job *job, uint32_t *scratch, mw_triangle **tri, uint32_t *tri_count)
 {
     collector h = {.arrays = arrays, .number = scratch, .next = scratch + 2 * (size_t)arrays->n};
     if (!slots) h.vertex = arrays->order;

@@ -1,14 +1,19 @@
 /* delaunay_grow.c - insertion of a point: walk, split, flip [Lawson 1977; Guibas, Stolfi 1985].
  *
- *            c              The facet that holds q is split in three, all with q as vertex 2. Then the edges across
- *           /|\  n          from q are looked at, once round: where the next facet n has q in its circle, the edge ab
- *          / | \            becomes the edge qd, and the two edges behind it are looked at instead. What remains is
- *         /  q  \  d        the Delaunay triangulation: only facets with q in their circle have gone.
+ *            c
+ *           /|\  n
+ *          / | \
+ *         /  q  \  d
  *        /.-' '-.\
- *       a---------b         A ghost is a facet with the vertex at infinity: its circle is the open half plane beyond its
- *                           hull edge, and the inside of that edge. A point on an edge or beyond the hull needs no
- *                           special case: splitting gives flat facets, and their edges are flipped at once, as the
- *                           inside of a chord lies inside the circle.
+ *       a---------b
+ *
+ * The facet that holds q is split in three, all with q as vertex 2. Then the edges across from q
+ * are looked at, once round: where the next facet n has q in its circle, the edge ab becomes the
+ * edge qd, and the two edges behind it are looked at instead. What remains is the Delaunay
+ * triangulation: only facets with q in their circle have gone. A ghost is a facet with the vertex
+ * at infinity: its circle is the open half plane beyond its hull edge, and the inside of that edge.
+ * A point on an edge or beyond the hull needs no special case: splitting gives flat facets, and
+ * their edges are flipped at once, as the inside of a chord lies inside the circle.
  *
  * The walk is the remembering walk [thesis, App. A, sec. 2], which ends on every Delaunay
  * triangulation; it begins at the point inserted before. Points on one circle: a point on the
@@ -43,14 +48,16 @@ static bool value_strictly_between(double a, double b, double q)
 /* Is q inside the edge ab, on whose line it lies? */
 static bool edge_holds_point(mw_point a, mw_point b, mw_point q)
 {
-    return a.x != b.x ? value_strictly_between(a.x, b.x, q.x) : value_strictly_between(a.y, b.y, q.y);
+    return a.x != b.x ? value_strictly_between(a.x, b.x, q.x)
+                      : value_strictly_between(a.y, b.y, q.y);
 }
 
-static __attribute__((noinline)) bool growth_in_circle_exact(const mw_growth *g, uint32_t a, uint32_t b, uint32_t c,
-                                                             mw_point q)
+static __attribute__((noinline)) bool growth_in_circle_exact(const mw_growth *g, uint32_t a,
+                                                             uint32_t b, uint32_t c, mw_point q)
 {
     const mw_point *p = g->point;
-    if (a != g->infinity && b != g->infinity && c != g->infinity) return mw__incircle_exact(p[a], p[b], p[c], q) > 0;
+    if (a != g->infinity && b != g->infinity && c != g->infinity)
+        return mw__incircle_exact(p[a], p[b], p[c], q) > 0;
     uint32_t from = a == g->infinity ? b : b == g->infinity ? c : a;
     uint32_t to = a == g->infinity ? c : b == g->infinity ? a : b;
     double side = mw__orient2d(p[from], p[to], q);
@@ -72,21 +79,24 @@ static __attribute__((noinline)) bool growth_in_circle_exact(const mw_growth *g,
 #define LATTICE_LIFTS 0x1p26
 #define LATTICE_LEAST 0x1p-250
 #define LATTICE_MOST 0x1p230
-static MW_INLINE bool lifted_in_circle(const mw_growth *g, const lifted *a, const lifted *b, const lifted *c,
-                                       mw_point q)
+static MW_INLINE bool lifted_in_circle(const mw_growth *g, const lifted *a, const lifted *b,
+                                       const lifted *c, mw_point q)
 {
     double det = a->lift * (b->x * c->y - b->y * c->x) + b->lift * (c->x * a->y - c->y * a->x) +
                  c->lift * (a->x * b->y - a->y * b->x);
-    double bound = CIRCLE_ERROR * (a->lift * b->lift + c->lift * (a->lift + b->lift)) + g->underflow;
+    double bound =
+        CIRCLE_ERROR * (a->lift * b->lift + c->lift * (a->lift + b->lift)) + g->underflow;
     if (MW_LIKELY(fabs(det) > bound) || a->lift + b->lift + c->lift < g->lattice) return det > 0;
     return growth_in_circle_exact(g, a->vertex, b->vertex, c->vertex, q);
 }
 
 /* Is q strictly to the right of the directed edge ab? */
-static MW_INLINE bool edge_lies_beyond(const mw_growth *g, const lifted *a, const lifted *b, mw_point q)
+static MW_INLINE bool edge_lies_beyond(const mw_growth *g, const lifted *a, const lifted *b,
+                                       mw_point q)
 {
     double left = a->x * b->y, right = a->y * b->x, det = left - right;
-    if (MW_LIKELY(fabs(det) > mw__orient2d_bound(left, right)) || a->lift + b->lift < g->lattice) return det < 0;
+    if (MW_LIKELY(fabs(det) > mw__orient2d_bound(left, right)) || a->lift + b->lift < g->lattice)
+        return det < 0;
     return mw__orient2d_exact(g->point[a->vertex], g->point[b->vertex], q) < 0;
 }
 
@@ -112,7 +122,8 @@ static MW_INLINE found growth_walk(mw_growth *g, mw_point q)
 {
     uint32_t link = mw__link(growth_start(g), 0);
     const mw_facet *f = &g->facet[mw__link_triangle(link)];
-    lifted a = growth_lifted(g, f->v[0], q), b = growth_lifted(g, f->v[1], q), c = growth_lifted(g, f->v[2], q);
+    lifted a = growth_lifted(g, f->v[0], q), b = growth_lifted(g, f->v[1], q),
+           c = growth_lifted(g, f->v[2], q);
     g->visited++;
     if (edge_lies_beyond(g, &a, &b, q)) {
         link = f->link[0], c = a, a = b, b = c;
@@ -146,8 +157,8 @@ static MW_INLINE void facet_set_link(mw_growth *g, uint32_t from, uint32_t to)
 
 /* Facet t becomes a, b, q with the facet `outer` beyond ab, `next` beyond bq and `prev` beyond
  * qa. */
-static MW_INLINE void facet_set(mw_growth *g, uint32_t t, const uint32_t v[3], uint32_t outer, uint32_t next,
-                                uint32_t prev)
+static MW_INLINE void facet_set(mw_growth *g, uint32_t t, const uint32_t v[3], uint32_t outer,
+                                uint32_t next, uint32_t prev)
 {
     g->facet[t] = (mw_facet){{v[0], v[1], v[2]}, {outer, mw__link(next, 2), mw__link(prev, 1)}};
     facet_set_link(g, outer, mw__link(t, 0));
@@ -156,8 +167,10 @@ static MW_INLINE void facet_set(mw_growth *g, uint32_t t, const uint32_t v[3], u
 /* Split the facet that holds q into three round q. The first keeps the number of the facet. */
 static MW_INLINE void facet_split(mw_growth *g, const found *at, uint32_t q)
 {
-    uint32_t e = mw__link_edge(at->link), a = at->v[0].vertex, b = at->v[1].vertex, c = at->v[2].vertex;
-    uint32_t first = mw__link_triangle(at->link), second = g->facet_count++, third = g->facet_count++;
+    uint32_t e = mw__link_edge(at->link), a = at->v[0].vertex, b = at->v[1].vertex,
+             c = at->v[2].vertex;
+    uint32_t first = mw__link_triangle(at->link), second = g->facet_count++,
+             third = g->facet_count++;
     const mw_facet old = g->facet[first];
     facet_set(g, first, (uint32_t[]){a, b, q}, old.link[e], second, third);
     facet_set(g, second, (uint32_t[]){b, c, q}, old.link[mw__next(e)], third, first);
@@ -166,7 +179,8 @@ static MW_INLINE void facet_split(mw_growth *g, const found *at, uint32_t q)
 
 /* Restore the Delaunay property round q: facet t is a, b, q, the next one counter-clockwise lies
  * beyond bq. */
-static MW_INLINE void growth_flip_round(mw_growth *g, uint32_t first, lifted a, lifted b, mw_point q)
+static MW_INLINE void growth_flip_round(mw_growth *g, uint32_t first, lifted a, lifted b,
+                                        mw_point q)
 {
     uint32_t t = first;
     for (;;) {
@@ -174,7 +188,8 @@ static MW_INLINE void growth_flip_round(mw_growth *g, uint32_t first, lifted a, 
         uint32_t outer = f->link[0], n = mw__link_triangle(outer), e = mw__link_edge(outer);
         mw_facet *beyond_ab = &g->facet[n];
         lifted d = growth_lifted(g, beyond_ab->v[mw__prev(e)], q);
-        if (lifted_in_circle(g, &b, &a, &d, q)) { /* a, b, q and b, a, d become a, d, q and d, b, q */
+        if (lifted_in_circle(g, &b, &a, &d,
+                             q)) { /* a, b, q and b, a, d become a, d, q and d, b, q */
             uint32_t over_ad = beyond_ab->link[mw__next(e)], over_db = beyond_ab->link[mw__prev(e)];
             uint32_t next = mw__link_triangle(f->link[1]);
             f->v[1] = d.vertex;
@@ -197,7 +212,8 @@ void mw__grow_prepare(mw_growth *g, uint32_t point_count, double width, double h
 {
     g->infinity = point_count;
     g->lattice = unit >= LATTICE_LEAST && unit <= LATTICE_MOST ? LATTICE_LIFTS * unit * unit : 0;
-    g->far = fmax(2 * (width * width + height * height), g->lattice); /* so no ghost passes for a part of the lattice */
+    /* so no ghost passes for a part of the lattice */
+    g->far = fmax(2 * (width * width + height * height), g->lattice);
     /* 12 * 2^-1075 times the sum of the lifts (see mw__incircle), which is below 3 far, or times
      * 1 */
     g->underflow = 0x1p-1069 * fmax(g->far, 1);
@@ -211,11 +227,12 @@ void mw__grow_begin(mw_growth *g, const uint32_t first[3])
         v[1] = first[2];
         v[2] = first[1];
     }
-    g->facet[t] = (mw_facet){{v[0], v[1], v[2]}, {mw__link(t + 1, 0), mw__link(t + 2, 0), mw__link(t + 3, 0)}};
+    g->facet[t] = (mw_facet){{v[0], v[1], v[2]},
+                             {mw__link(t + 1, 0), mw__link(t + 2, 0), mw__link(t + 3, 0)}};
     for (uint32_t k = 0; k < 3; k++) /* the ghost of edge k */
-        g->facet[t + k + 1] =
-            (mw_facet){{v[mw__next(k)], v[k], g->infinity},
-                       {mw__link(t, k), mw__link(t + mw__prev(k) + 1, 2), mw__link(t + mw__next(k) + 1, 1)}};
+        g->facet[t + k + 1] = (mw_facet){
+            {v[mw__next(k)], v[k], g->infinity},
+            {mw__link(t, k), mw__link(t + mw__prev(k) + 1, 2), mw__link(t + mw__next(k) + 1, 1)}};
     g->facet_count = t + 4;
     g->last = t;
 }
@@ -226,7 +243,8 @@ uint32_t mw__grow(mw_growth *g, uint32_t point)
     found at = growth_walk(g, q);
     g->last = mw__link_triangle(at.link);
     for (int k = 0; k < 3; k++)
-        if (at.v[k].x == 0 && at.v[k].y == 0 && at.v[k].vertex != g->infinity) return at.v[k].vertex;
+        if (at.v[k].x == 0 && at.v[k].y == 0 && at.v[k].vertex != g->infinity)
+            return at.v[k].vertex;
     facet_split(g, &at, point);
     growth_flip_round(g, g->last, at.v[0], at.v[1], q);
     return point;

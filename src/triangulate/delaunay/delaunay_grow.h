@@ -16,12 +16,18 @@ typedef struct mw_growth {
     const mw_point *point; /* finite */
     mw_facet *facet;       /* room for two facets more with each point */
     uint32_t facet_count;
-    uint32_t infinity; /* number of the vertex at infinity: the number of points                                  */
-    uint32_t last;     /* where the next walk begins                                                              */
-    double far;        /* lift of the vertex at infinity, see delaunay_grow.c                                     */
-    double underflow;  /* what underflow can add to the error of the circle test, at most                         */
-    double lattice;    /* squares of distances whose sum is below this: rounding is exact, see delaunay_grow.c    */
-    uint64_t visited;  /* facets visited by walks                                                                 */
+    /* number of the vertex at infinity: the number of points */
+    uint32_t infinity;
+    /* where the next walk begins */
+    uint32_t last;
+    /* lift of the vertex at infinity, see delaunay_grow.c */
+    double far;
+    /* what underflow can add to the error of the circle test, at most */
+    double underflow;
+    /* squares of distances whose sum is below this: rounding is exact, see delaunay_grow.c */
+    double lattice;
+    /* facets visited by walks */
+    uint64_t visited;
 } mw_growth;
 
 static MW_INLINE bool mw__is_ghost(const mw_growth *g, const mw_facet *f)

@@ -1,13 +1,19 @@
 /* delaunay_merge.c - the merge step of divide and conquer [Guibas, Stolfi 1985], on facets with
  * ghosts.
  *
- *         l'.       .r'         Left and right lie on either side of a line. From the lower common tangent lr on, the
- *          | \     / |          seam is closed upwards: an empty circle through l and r rises until it meets the first
- *          |  \   /  |          vertex, l' or r', which makes a triangle with lr; its upper edge is the next lr. What the
- *         l.---------.r         seam faces on either side is a row of ghosts, each with its hull edge. A ghost whose edge
- *          |///below/|          ll' is met becomes the triangle l', l, r: infinity comes to be r. Where the facet behind
- *                               ll' has its third vertex in the circle of l, r, l', the edge ll' goes: it is flipped
- *                               between ghost and facet, which makes two ghosts that show the two edges behind it.
+ *         l'.       .r'
+ *          | \     / |
+ *          |  \   /  |
+ *         l.---------.r
+ *          |///below/|
+ *
+ * Left and right lie on either side of a line. From the lower common tangent lr on, the seam is
+ * closed upwards: an empty circle through l and r rises until it meets the first vertex, l' or r',
+ * which makes a triangle with lr; its upper edge is the next lr. What the seam faces on either side
+ * is a row of ghosts, each with its hull edge. A ghost whose edge ll' is met becomes the triangle
+ * l', l, r: infinity comes to be r. Where the facet behind ll' has its third vertex in the circle
+ * of l, r, l', the edge ll' goes: it is flipped between ghost and facet, which makes two ghosts
+ * that show the two edges behind it.
  *
  * So facets are neither freed nor made, but for two ghosts: one below the lower tangent, one above
  * the upper. Vertices on one circle: one that is on the circle is not met. All tests are exact. */
@@ -128,7 +134,8 @@ static void seam_close_above(mw_growth *g, const seam *s, uint32_t ghost)
 
 /* Is the vertex behind the hull edge of a ghost in the circle of l, r and c? Sets *link to the edge
  * behind. */
-static MW_INLINE bool seam_meets_before(const mw_growth *g, const seam *s, uint32_t ghost, uint32_t c, uint32_t *link)
+static MW_INLINE bool seam_meets_before(const mw_growth *g, const seam *s, uint32_t ghost,
+                                        uint32_t c, uint32_t *link)
 {
     const mw_point *p = g->point;
     *link = g->facet[ghost].link[mw__next(ghost_corner(g, ghost))];
@@ -162,7 +169,8 @@ static uint32_t seam_clear_right(mw_growth *g, const seam *s)
 {
     uint32_t up = hull_from(g, s->right), link;
     while (seam_meets_before(g, s, s->right, up, &link)) {
-        uint32_t t = mw__link_triangle(link), e = mw__link_edge(link), k = ghost_corner(g, s->right);
+        uint32_t t = mw__link_triangle(link), e = mw__link_edge(link),
+                 k = ghost_corner(g, s->right);
         mw_facet *ghost = &g->facet[s->right];
         const mw_facet old = g->facet[t];
         uint32_t apex = old.v[mw__prev(e)], next = ghost->link[mw__prev(k)];
@@ -206,7 +214,8 @@ static void seam_close(mw_growth *g, seam *s, uint32_t spare)
     seam_close_below(g, s, spare);
     for (;;) {
         uint32_t l = hull_to(g, s->left), r = hull_from(g, s->right);
-        bool left = mw__orient2d(p[s->l], p[s->r], p[l]) > 0, right = mw__orient2d(p[s->l], p[s->r], p[r]) > 0;
+        bool left = mw__orient2d(p[s->l], p[s->r], p[l]) > 0,
+             right = mw__orient2d(p[s->l], p[s->r], p[r]) > 0;
         if (!left && !right) break;
         if (left) l = seam_clear_left(g, s);
         if (right) r = seam_clear_right(g, s);
@@ -225,11 +234,16 @@ uint32_t mw__merge(mw_growth *g, uint32_t a, uint32_t b, uint32_t spare)
                        ghost_coordinate(g, eb.high[0], 0) < ghost_coordinate(g, ea.low[0], 0)
                    ? 0
                    : 1;
-    bool a_first = ghost_coordinate(g, ea.high[axis], axis) < ghost_coordinate(g, eb.low[axis], axis);
+    bool a_first =
+        ghost_coordinate(g, ea.high[axis], axis) < ghost_coordinate(g, eb.low[axis], axis);
     /* A horizontal line is turned upright by a quarter turn clockwise: what lies below it comes to
      * lie on the left. */
-    uint32_t left = a_first ? ea.high[axis] : eb.high[axis], right = a_first ? eb.low[axis] : ea.low[axis];
-    seam s = {.l = hull_from(g, left), .r = hull_from(g, right), .left = left, .right = hull_back(g, right)};
+    uint32_t left = a_first ? ea.high[axis] : eb.high[axis],
+             right = a_first ? eb.low[axis] : ea.low[axis];
+    seam s = {.l = hull_from(g, left),
+              .r = hull_from(g, right),
+              .left = left,
+              .right = hull_back(g, right)};
     seam_close(g, &s, spare);
     return spare + 1;
 }

@@ -25,8 +25,10 @@ static bool patches_add_halves(mw_patches *patches, uint32_t whole, uint32_t mid
     }
     mw_patch *patch = &patches->patch[patches->count];
     patches->patch[whole].half = patches->count;
-    patch[0] = (mw_patch){.from = patches->patch[whole].from, .to = middle, .half = MW_NONE, .ghost = MW_NONE};
-    patch[1] = (mw_patch){.from = middle, .to = patches->patch[whole].to, .half = MW_NONE, .ghost = MW_NONE};
+    patch[0] = (mw_patch){
+        .from = patches->patch[whole].from, .to = middle, .half = MW_NONE, .ghost = MW_NONE};
+    patch[1] = (mw_patch){
+        .from = middle, .to = patches->patch[whole].to, .half = MW_NONE, .ghost = MW_NONE};
     patches->count += 2;
     return true;
 }
@@ -45,7 +47,8 @@ static bool patch_refine(const mw_patch *patch, const mw_point *points, mw_key *
 static uint32_t patch_find_middle(const mw_patch *patch, const mw_key *keys)
 {
     uint32_t first = keys[patch->from].key, last = keys[patch->to - 1].key;
-    uint32_t bit = UINT32_C(1) << (31 - __builtin_clz(first ^ last)), low = patch->from, high = patch->to - 1;
+    uint32_t bit = UINT32_C(1) << (31 - __builtin_clz(first ^ last)), low = patch->from,
+             high = patch->to - 1;
     while (high - low > 1) {
         uint32_t middle = low + (high - low) / 2;
         if (keys[middle].key & bit)
@@ -56,7 +59,8 @@ static uint32_t patch_find_middle(const mw_patch *patch, const mw_key *keys)
     return high;
 }
 
-bool mw__patches_cut(mw_patches *patches, const mw_point *points, mw_key *keys, uint32_t n, uint32_t most)
+bool mw__patches_cut(mw_patches *patches, const mw_point *points, mw_key *keys, uint32_t n,
+                     uint32_t most)
 {
     *patches = (mw_patches){.patch = mw__alloc(1, sizeof *patches->patch), .count = 1, .room = 1};
     if (!patches->patch) return false;
@@ -64,13 +68,15 @@ bool mw__patches_cut(mw_patches *patches, const mw_point *points, mw_key *keys, 
     for (uint32_t i = 0; i < patches->count; i++) {
         const mw_patch *patch = &patches->patch[i];
         if (patch->to - patch->from <= most) continue;
-        if (keys[patch->from].key == keys[patch->to - 1].key && !patch_refine(patch, points, keys)) continue;
+        if (keys[patch->from].key == keys[patch->to - 1].key && !patch_refine(patch, points, keys))
+            continue;
         if (!patches_add_halves(patches, i, patch_find_middle(patch, keys))) return false;
     }
     for (uint32_t i = patches->count; i-- > 0;) {
         mw_patch *patch = &patches->patch[i];
         if (patch->half == MW_NONE) continue;
-        uint32_t first = patches->patch[patch->half].rank, second = patches->patch[patch->half + 1].rank;
+        uint32_t first = patches->patch[patch->half].rank,
+                 second = patches->patch[patch->half + 1].rank;
         patch->rank = 1 + (first > second ? first : second);
     }
     return true;
@@ -99,13 +105,15 @@ static void point_set_twin(mw_point *point, uint32_t twin)
     *point = (mw_point){NAN, twin};
 }
 
-static uint32_t patch_insert(const mw_patch_arrays *arrays, mw_growth *g, const uint32_t *sequence, uint32_t n)
+static uint32_t patch_insert(const mw_patch_arrays *arrays, mw_growth *g, const uint32_t *sequence,
+                             uint32_t n)
 {
     uint32_t duplicates = 0;
     for (uint32_t i = 0; i < n; i++) {
         uint32_t slot = sequence[i], vertex = mw__grow(g, slot);
         if (MW_LIKELY(vertex == slot)) continue;
-        if (arrays->order[slot] < arrays->order[vertex]) mw__swap(&arrays->order[slot], &arrays->order[vertex]);
+        if (arrays->order[slot] < arrays->order[vertex])
+            mw__swap(&arrays->order[slot], &arrays->order[vertex]);
         point_set_twin(&arrays->point[slot], vertex);
         duplicates++;
     }
@@ -114,7 +122,8 @@ static uint32_t patch_insert(const mw_patch_arrays *arrays, mw_growth *g, const 
 
 static mw_growth patch_growth(const mw_patch_arrays *arrays, uint32_t last, uint32_t facets)
 {
-    mw_growth g = {.point = arrays->point, .facet = arrays->facet, .facet_count = facets, .last = last};
+    mw_growth g = {
+        .point = arrays->point, .facet = arrays->facet, .facet_count = facets, .last = last};
     mw__grow_prepare(&g, arrays->n, arrays->width, arrays->height, arrays->unit);
     return g;
 }
@@ -124,7 +133,8 @@ static mw_growth patch_growth(const mw_patch_arrays *arrays, uint32_t last, uint
 static void growth_clear_unused(const mw_growth *g, uint32_t to)
 {
     uint32_t i = g->infinity;
-    for (uint32_t f = g->facet_count; f < 2 * to; f++) g->facet[f] = (mw_facet){{i, i, i}, {MW_NONE, MW_NONE, MW_NONE}};
+    for (uint32_t f = g->facet_count; f < 2 * to; f++)
+        g->facet[f] = (mw_facet){{i, i, i}, {MW_NONE, MW_NONE, MW_NONE}};
 }
 
 static uint32_t growth_find_ghost(const mw_growth *g, uint32_t from)
@@ -152,7 +162,8 @@ static void patch_grow(const mw_patch_arrays *arrays, mw_patch *patch)
 /* --- merge --- */
 
 /* Of two halves one has grown, the slots of the other lie on a line: insert them. */
-static void patch_take_in(const mw_patch_arrays *arrays, mw_patch *patch, const mw_patch *grown, const mw_patch *flat)
+static void patch_take_in(const mw_patch_arrays *arrays, mw_patch *patch, const mw_patch *grown,
+                          const mw_patch *flat)
 {
     uint32_t n = flat->to - flat->from, *sequence = arrays->sequence + flat->from;
     mw__insertion_sequence(flat->from, n, sequence);
@@ -200,7 +211,8 @@ static void rank_grow_patch(void *work, uint64_t i, uint32_t member)
 }
 
 /* Patches of one rank do not depend on each other. Returns false if the job is to stop. */
-static bool rank_grow(mw_patches *patches, const mw_patch_arrays *arrays, uint32_t rank, mw_job *job)
+static bool rank_grow(mw_patches *patches, const mw_patch_arrays *arrays, uint32_t rank,
+                      mw_job *job)
 {
     rank_growth growth = {patches, arrays, rank};
     uint32_t count = 0;

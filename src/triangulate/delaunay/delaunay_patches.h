@@ -28,7 +28,8 @@ typedef struct mw_patches {
 /* Cut the slots, whose keys are sorted along the curve, until no patch has more than `most` of
  * them; a patch of equal points may. Spoils the keys. Returns false when out of memory; either way
  * release with free(patches->patch). */
-bool mw__patches_cut(mw_patches *patches, const mw_point *points, mw_key *keys, uint32_t n, uint32_t most);
+bool mw__patches_cut(mw_patches *patches, const mw_point *points, mw_key *keys, uint32_t n,
+                     uint32_t most);
 
 /* What all patches grow from and into: slot i holds point[i], which is the user's point order[i].
  * Of equal points one is the vertex, with the lowest number; the others hold, instead of
@@ -37,7 +38,8 @@ typedef struct mw_patch_arrays {
     mw_point *point;
     uint32_t *order;
     uint32_t *sequence; /* scratch, one for each slot */
-    mw_facet *facet;    /* two for each slot; those that remain unused are ghosts of nothing but infinity */
+    /* two for each slot; those that remain unused are ghosts of nothing but infinity */
+    mw_facet *facet;
     uint32_t n;
     double width, height, unit; /* as for mw__grow_prepare */
 } mw_patch_arrays;

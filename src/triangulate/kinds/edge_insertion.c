@@ -1,12 +1,20 @@
 /* edge_insertion.c - one edge inserted for a smaller largest angle [Edelsbrunner, Tan, Waupotitsch
  * 1992; Bern, Edelsbrunner, Eppstein, Mitchell, Tan 1993].
  *
- *         s          Let pqr be a triangle with the largest angle, at q. A triangulation T without an angle as large
- *        /|\         has an edge at q that parts this one; it crosses pr, pqr being empty. So each vertex s that q sees
- *       / | \        beyond pr is tried: the triangles that qs crosses are removed, which leaves a polygon on either side
- *      r--+--p       of qs, with a chain of vertices from q to s; ears are cut off the chains that have only smaller
- *       \ | /        angles. If T has the edge qs, there is such an ear, other than at q and s, as long as a polygon is left,
- *         q          whichever were cut before [the latter, "cake cutting"]. So if ears run out, T does not have it.
+ *         s
+ *        /|\
+ *       / | \
+ *      r--+--p
+ *       \ | /
+ *         q
+ *
+ * Let pqr be a triangle with the largest angle, at q. A triangulation T without an angle as large
+ * has an edge at q that parts this one; it crosses pr, pqr being empty. So each vertex s that q
+ * sees beyond pr is tried: the triangles that qs crosses are removed, which leaves a polygon on
+ * either side of qs, with a chain of vertices from q to s; ears are cut off the chains that have
+ * only smaller angles. If T has the edge qs, there is such an ear, other than at q and s, as long
+ * as a polygon is left, whichever were cut before [the latter, "cake cutting"]. So if ears run out,
+ * T does not have it.
  *
  * Ears at chain vertices do not depend on s, but for the last of them. So chains grow while the
  * search moves away from q, triangle by triangle and nearest first, as stacks: an ear is cut as
@@ -40,9 +48,12 @@ struct mw_chain {
  * and on the right. */
 struct mw_visible_triangle {
     uint32_t half, parent;
-    uint32_t left, right;             /* the tops of the chains                                     */
-    uint32_t left_bound, right_bound; /* q sees what is strictly between these vertices             */
-    uint32_t left_ray, right_ray;     /* a vertex of each chain: the one whose ray leaves least     */
+    /* the tops of the chains */
+    uint32_t left, right;
+    /* q sees what is strictly between these vertices */
+    uint32_t left_bound, right_bound;
+    /* a vertex of each chain: the one whose ray leaves least */
+    uint32_t left_ray, right_ray;
 };
 
 /* A search from one corner. */
@@ -92,7 +103,8 @@ static mw_point vector_minus(mw_point a, mw_point b)
 #define LINE_WORK 16
 #define TRIANGLE_WORK 4
 
-static bool insertion_angle_is_smaller(const insertion_search *s, mw_point a, mw_point b, mw_point c)
+static bool insertion_angle_is_smaller(const insertion_search *s, mw_point a, mw_point b,
+                                       mw_point c)
 {
     mw_angle angle = mw__angle(a, b, c);
     double bound, difference = mw__angle_difference_rounded(&angle, &s->worst, &bound);
@@ -102,7 +114,8 @@ static bool insertion_angle_is_smaller(const insertion_search *s, mw_point a, mw
 }
 
 /* May b, between a and c on a chain away from q, be cut off? */
-static bool search_ear_is_good(const insertion_search *s, hand side, uint32_t va, uint32_t vb, uint32_t vc)
+static bool search_ear_is_good(const insertion_search *s, hand side, uint32_t va, uint32_t vb,
+                               uint32_t vc)
 {
     const mw_point *point = s->in->point;
     mw_point a = point[va], b = point[vb], c = point[vc];
@@ -123,7 +136,10 @@ static uint32_t search_cut_one(const insertion_search *s, hand side, uint32_t to
 {
     const mw_chain *chain = s->in->chain;
     uint32_t below = chain[top].below;
-    return below != NOWHERE && search_ear_is_good(s, side, chain[below].vertex, chain[top].vertex, v) ? below : top;
+    return below != NOWHERE &&
+                   search_ear_is_good(s, side, chain[below].vertex, chain[top].vertex, v)
+               ? below
+               : top;
 }
 
 /* Cut off what vertex v, put on a chain, makes an ear of: the new top below v. Less where the work
@@ -139,7 +155,8 @@ static uint32_t search_cut(const insertion_search *s, hand side, uint32_t top, u
 
 static bool chain_push(mw_insertion *in, uint32_t vertex, uint32_t below, uint32_t *top)
 {
-    mw_chain *chain = insertion_array_with_room(in->chain, &in->chain_room, in->chain_count + 1, sizeof *chain);
+    mw_chain *chain =
+        insertion_array_with_room(in->chain, &in->chain_room, in->chain_count + 1, sizeof *chain);
     if (!chain) return false;
     in->chain = chain;
     in->chain[in->chain_count] = (mw_chain){vertex, below};
@@ -175,7 +192,8 @@ static ray search_ray_from(const insertion_search *s, hand side, uint32_t vertex
     mw_point y = s->in->point[vertex], d = vector_minus(y, s->in->point[s->q]);
     double cosine = s->cosine, sine = side == LEFT ? -s->sine : s->sine;
     ray r = {y, {d.x * cosine - d.y * sine, d.x * sine + d.y * cosine}};
-    if (!(fabs(r.direction.x) + fabs(r.direction.y) >= RAY_SHORTEST)) r.direction = (mw_point){0, 0};
+    if (!(fabs(r.direction.x) + fabs(r.direction.y) >= RAY_SHORTEST))
+        r.direction = (mw_point){0, 0};
     return r;
 }
 
@@ -186,21 +204,24 @@ static double ray_left_over(const ray *r, hand side, mw_point z)
 {
     mw_point d = vector_minus(z, r->y);
     double value = vector_cross(r->direction, d);
-    double slack = (fabs(r->direction.x) + fabs(r->direction.y)) * (fabs(d.x) + fabs(d.y)) * RAY_ERROR;
+    double slack =
+        (fabs(r->direction.x) + fabs(r->direction.y)) * (fabs(d.x) + fabs(d.y)) * RAY_ERROR;
     return (side == LEFT ? -value : value) + slack + MW_UNDERFLOW_ERROR;
 }
 
 /* Is nothing left of the edge from u, on the left, to v between the rays of two vertices? */
-static bool search_is_closed(const insertion_search *s, uint32_t left_vertex, uint32_t right_vertex, mw_point u,
-                             mw_point v)
+static bool search_is_closed(const insertion_search *s, uint32_t left_vertex, uint32_t right_vertex,
+                             mw_point u, mw_point v)
 {
-    ray left = search_ray_from(s, LEFT, left_vertex), right = search_ray_from(s, RIGHT, right_vertex);
+    ray left = search_ray_from(s, LEFT, left_vertex),
+        right = search_ray_from(s, RIGHT, right_vertex);
     double from_u = ray_left_over(&left, LEFT, u), from_v = ray_left_over(&left, LEFT, v);
     double to_u = ray_left_over(&right, RIGHT, u), to_v = ray_left_over(&right, RIGHT, v);
     if (from_v < 0 && from_u < 0) return true;
     if (to_u < 0 && to_v < 0) return true;
     /* left over: from u + t (v - u) on with t = from, up to t = to */
-    double from = from_u < 0 ? from_u / (from_u - from_v) : 0, to = to_v < 0 ? to_u / (to_u - to_v) : 1;
+    double from = from_u < 0 ? from_u / (from_u - from_v) : 0,
+           to = to_v < 0 ? to_u / (to_u - to_v) : 1;
     if (from_v < 0 || to_u < 0) return false;
     return from > to + RAY_ERROR;
 }
@@ -220,17 +241,21 @@ static uint32_t half_apex(const mw_insertion *in, uint32_t half)
 }
 
 /* Is there anything to see through a half-edge, from u on the left to v on the right? */
-static bool search_is_open(const insertion_search *s, const mw_visible_triangle *next, uint32_t u, uint32_t v)
+static bool search_is_open(const insertion_search *s, const mw_visible_triangle *next, uint32_t u,
+                           uint32_t v)
 {
     const mw_insertion *in = s->in;
-    if (next->half == MW_NONE || in->tri[mw__link_triangle(next->half)].user == MW_INSERTION_FIXED) return false;
+    if (next->half == MW_NONE || in->tri[mw__link_triangle(next->half)].user == MW_INSERTION_FIXED)
+        return false;
     return !search_is_closed(s, next->left_ray, next->right_ray, in->point[u], in->point[v]);
 }
 
 static mw_insertion_result insertion_look(mw_insertion *in, mw_visible_triangle next)
 {
-    if (in->seen_count >= in->most_seen || in->seen_count >= MW_INSERTION_MOST_SEEN) return MW_INSERTION_SPENT;
-    mw_visible_triangle *sight = insertion_array_with_room(in->seen, &in->seen_room, in->seen_count + 1, sizeof *sight);
+    if (in->seen_count >= in->most_seen || in->seen_count >= MW_INSERTION_MOST_SEEN)
+        return MW_INSERTION_SPENT;
+    mw_visible_triangle *sight =
+        insertion_array_with_room(in->seen, &in->seen_room, in->seen_count + 1, sizeof *sight);
     if (!sight) return MW_INSERTION_MEMORY;
     in->seen = sight;
     in->seen[in->seen_count++] = next;
@@ -248,16 +273,20 @@ static mw_insertion_result search_pass(insertion_search *s, uint32_t i, uint32_t
     next.parent = i;
     if (side == LEFT) {
         next.left_ray = hand_narrower(s, LEFT, from.left_ray, w);
-        if (mw__orient2d(in->point[s->q], in->point[from.left_bound], in->point[w]) < 0) next.left_bound = w;
+        if (mw__orient2d(in->point[s->q], in->point[from.left_bound], in->point[w]) < 0)
+            next.left_bound = w;
         next.half = tri->link[mw__next(e)];
         if (!search_is_open(s, &next, w, v)) return MW_INSERTION_NONE;
-        if (!chain_push(in, w, search_cut(s, LEFT, from.left, w), &next.left)) return MW_INSERTION_MEMORY;
+        if (!chain_push(in, w, search_cut(s, LEFT, from.left, w), &next.left))
+            return MW_INSERTION_MEMORY;
     } else {
         next.right_ray = hand_narrower(s, RIGHT, from.right_ray, w);
-        if (mw__orient2d(in->point[s->q], in->point[from.right_bound], in->point[w]) > 0) next.right_bound = w;
+        if (mw__orient2d(in->point[s->q], in->point[from.right_bound], in->point[w]) > 0)
+            next.right_bound = w;
         next.half = tri->link[mw__prev(e)];
         if (!search_is_open(s, &next, u, w)) return MW_INSERTION_NONE;
-        if (!chain_push(in, w, search_cut(s, RIGHT, from.right, w), &next.right)) return MW_INSERTION_MEMORY;
+        if (!chain_push(in, w, search_cut(s, RIGHT, from.right, w), &next.right))
+            return MW_INSERTION_MEMORY;
     }
     return insertion_look(in, next);
 }
@@ -284,7 +313,8 @@ static bool search_is_better(const insertion_search *s, const mw_visible_triangl
 static mw_insertion_result search_begin(insertion_search *s, uint32_t half)
 {
     mw_insertion *in = s->in;
-    mw_visible_triangle first = {.half = half, .parent = NOWHERE, .left_bound = s->r, .right_bound = s->p};
+    mw_visible_triangle first = {
+        .half = half, .parent = NOWHERE, .left_bound = s->r, .right_bound = s->p};
     uint32_t bottom;
     in->seen_count = in->chain_count = 0;
     if (!chain_push(in, s->q, NOWHERE, &bottom) || !chain_push(in, s->r, bottom, &first.left) ||
@@ -322,7 +352,8 @@ static mw_insertion_result search_find(insertion_search *s, uint32_t half, uint3
 
 /* --- the exchange --- */
 
-enum { ON_PATH = 3 }; /* while triangles are exchanged, `user` of those removed is their index on the path + ON_PATH */
+/* while triangles are exchanged, `user` of those removed is their index on the path + ON_PATH */
+enum { ON_PATH = 3 };
 
 /* A vertex of a chain, and the edge that leads to it from the one below. */
 struct mw_chain_edge {
@@ -337,8 +368,8 @@ static bool path_room(mw_insertion *in, uint32_t n)
     if (made) in->made = made;
     uint32_t *placed = insertion_array_with_room(in->placed, &in->placed_room, n, sizeof *placed);
     if (placed) in->placed = placed;
-    mw_chain_edge *edge_list =
-        insertion_array_with_room(in->edge_list, &in->edge_room, 2 * (size_t)n + 4, sizeof *edge_list);
+    mw_chain_edge *edge_list = insertion_array_with_room(in->edge_list, &in->edge_room,
+                                                         2 * (size_t)n + 4, sizeof *edge_list);
     if (edge_list) in->edge_list = edge_list;
     return made && placed && edge_list;
 }
@@ -350,7 +381,8 @@ static bool path_list(mw_insertion *in, uint32_t t, uint32_t found)
     for (uint32_t i = found; i != NOWHERE; i = in->seen[i].parent) n++;
     if (!path_room(in, n)) return false;
     in->made_count = n;
-    for (uint32_t i = found; i != NOWHERE; i = in->seen[i].parent) in->made[--n] = mw__link_triangle(in->seen[i].half);
+    for (uint32_t i = found; i != NOWHERE; i = in->seen[i].parent)
+        in->made[--n] = mw__link_triangle(in->seen[i].half);
     in->made[0] = t;
     for (uint32_t i = 0; i < in->made_count; i++) {
         in->tri[in->made[i]].user = ON_PATH + i;
@@ -360,7 +392,8 @@ static bool path_list(mw_insertion *in, uint32_t t, uint32_t found)
 }
 
 /* The step over edge e of the triangle at an index of the path, to the given vertex. */
-static mw_chain_edge path_step_over(const mw_insertion *in, uint32_t path_index, uint32_t e, uint32_t vertex)
+static mw_chain_edge path_step_over(const mw_insertion *in, uint32_t path_index, uint32_t e,
+                                    uint32_t vertex)
 {
     return (mw_chain_edge){vertex, in->tri[in->made[path_index]].link[e], path_index};
 }
@@ -373,7 +406,8 @@ static bool path_leads_to(const mw_insertion *in, uint32_t path_index, uint32_t 
 
 /* Write both chains, from q to w, uncut. Each triangle between the first and the last has one edge
  * on them. */
-static void path_list_chains(const insertion_search *s, uint32_t k, mw_chain_edge *chain[2], uint32_t count[2])
+static void path_list_chains(const insertion_search *s, uint32_t k, mw_chain_edge *chain[2],
+                             uint32_t count[2])
 {
     mw_insertion *in = s->in;
     uint32_t last = in->made_count - 1, left = 0, right = 0;
@@ -383,7 +417,8 @@ static void path_list_chains(const insertion_search *s, uint32_t k, mw_chain_edg
     uint32_t half = in->tri[in->made[0]].link[mw__next(k)];
     for (uint32_t i = 1; i <= last; i++) {
         uint32_t e = mw__link_edge(half), w = half_apex(in, half);
-        bool out_right = i < last && path_leads_to(in, i, mw__next(e), i + 1), out_left = i < last && !out_right;
+        bool out_right = i < last && path_leads_to(in, i, mw__next(e), i + 1),
+             out_left = i < last && !out_right;
         if (!out_left) chain[LEFT][left++] = path_step_over(in, i, mw__prev(e), w);
         if (!out_right) chain[RIGHT][right++] = path_step_over(in, i, mw__next(e), w);
         half = in->tri[in->made[i]].link[out_left ? mw__prev(e) : mw__next(e)];
@@ -397,7 +432,8 @@ static void path_list_chains(const insertion_search *s, uint32_t k, mw_chain_edg
 static void insertion_place(mw_insertion *in, uint32_t half, const mw_chain_edge *step)
 {
     uint32_t beyond = step->beyond;
-    if (step->path_index != NOWHERE && beyond != MW_NONE && in->tri[mw__link_triangle(beyond)].user >= ON_PATH) {
+    if (step->path_index != NOWHERE && beyond != MW_NONE &&
+        in->tri[mw__link_triangle(beyond)].user >= ON_PATH) {
         in->placed[step->path_index] = half;
         beyond = in->placed[in->tri[mw__link_triangle(beyond)].user - ON_PATH];
     }
@@ -406,8 +442,8 @@ static void insertion_place(mw_insertion *in, uint32_t half, const mw_chain_edge
 }
 
 /* The ear of a, b, c, which follow each other away from q, becomes triangle t. */
-static void search_write_ear(mw_insertion *in, hand side, uint32_t t, const mw_chain_edge *a, const mw_chain_edge *b,
-                             mw_chain_edge *c)
+static void search_write_ear(mw_insertion *in, hand side, uint32_t t, const mw_chain_edge *a,
+                             const mw_chain_edge *b, mw_chain_edge *c)
 {
     mw_triangle *tri = &in->tri[t];
     tri->v[0] = tri->v[3] = b->vertex;
@@ -420,21 +456,24 @@ static void search_write_ear(mw_insertion *in, hand side, uint32_t t, const mw_c
 }
 
 /* Cut a chain as the search has done, into triangles made[*next], ...: what lies beside qs. */
-static uint32_t search_write_side(const insertion_search *s, hand side, mw_chain_edge *chain, uint32_t count,
-                                  uint32_t *next)
+static uint32_t search_write_side(const insertion_search *s, hand side, mw_chain_edge *chain,
+                                  uint32_t count, uint32_t *next)
 {
     mw_insertion *in = s->in;
     uint32_t n = 1;
     for (uint32_t i = 1; i < count; i++) {
         mw_chain_edge c = chain[i];
-        for (; n > 1 && search_ear_is_good(s, side, chain[n - 2].vertex, chain[n - 1].vertex, c.vertex); n--)
+        for (; n > 1 &&
+               search_ear_is_good(s, side, chain[n - 2].vertex, chain[n - 1].vertex, c.vertex);
+             n--)
             search_write_ear(in, side, in->made[(*next)++], &chain[n - 2], &chain[n - 1], &c);
         chain[n++] = c;
     }
     return chain[1].beyond;
 }
 
-static mw_insertion_result search_exchange(const insertion_search *s, uint32_t t, uint32_t k, uint32_t found)
+static mw_insertion_result search_exchange(const insertion_search *s, uint32_t t, uint32_t k,
+                                           uint32_t found)
 {
     mw_insertion *in = s->in;
     if (!path_list(in, t, found)) return MW_INSERTION_MEMORY;
@@ -454,8 +493,11 @@ mw_insertion_result mw__insert_edge(mw_insertion *in, uint32_t t, uint32_t k)
 {
     const mw_triangle *tri = &in->tri[t];
     uint32_t q = tri->v[k], p = tri->v[mw__next(k)], r = tri->v[mw__prev(k)], found = 0;
-    insertion_search s = {
-        .in = in, .q = q, .p = p, .r = r, .worst = mw__angle(in->point[p], in->point[q], in->point[r])};
+    insertion_search s = {.in = in,
+                          .q = q,
+                          .p = p,
+                          .r = r,
+                          .worst = mw__angle(in->point[p], in->point[q], in->point[r])};
     search_set_turn(&s);
     mw_insertion_result result = search_find(&s, tri->link[mw__next(k)], &found);
     return result == MW_INSERTION_DONE ? search_exchange(&s, t, k, found) : result;

@@ -32,7 +32,8 @@ typedef struct mw_insertion {
 typedef enum mw_insertion_result {
     MW_INSERTION_NONE,
     MW_INSERTION_DONE,
-    MW_INSERTION_SPENT, /* not decided: most_work or most_seen is reached; no triangle has changed */
+    /* not decided: most_work or most_seen is reached; no triangle has changed */
+    MW_INSERTION_SPENT,
     MW_INSERTION_MEMORY
 } mw_insertion_result;
 

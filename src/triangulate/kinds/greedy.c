@@ -1,12 +1,18 @@
 /* greedy.c - the greedy triangulation: edges by increasing length, each taken unless it crosses one
  * taken before.
  *
- *            z            It grows in a constrained Delaunay triangulation of the edges taken so far. (The Delaunay
- *         . : : ` .       triangulation leads to it in linear time [Levcopoulos, Krznaric 1999], less simply.) Say an edge
- *       a---------b       is open if it is not taken, crosses no edge taken, and has no vertex inside. The shortest open
- *          :  :           edge ab comes next, and it is found where few look: it is an edge of the triangulation, or cuts
- *          q1 q2          off a corner z between two taken edges za and zb that follow each other round z, with an angle of
- *                         90 degrees or more.
+ *            z
+ *         . : : ` .
+ *       a---------b
+ *          :  :
+ *          q1 q2
+ *
+ * It grows in a constrained Delaunay triangulation of the edges taken so far. (The Delaunay
+ * triangulation leads to it in linear time [Levcopoulos, Krznaric 1999], less simply.) Say an edge
+ * is open if it is not taken, crosses no edge taken, and has no vertex inside. The shortest open
+ * edge ab comes next, and it is found where few look: it is an edge of the triangulation, or cuts
+ * off a corner z between two taken edges za and zb that follow each other round z, with an angle of
+ * 90 degrees or more.
  *
  * Why: if no vertex on or in the circle with diameter ab is visible from inside ab, then ab is an
  * edge of each constrained Delaunay triangulation. Otherwise let z be such a vertex. A rubber band
@@ -108,8 +114,8 @@ static bool greedy_add_corners(greedy *g, uint32_t half)
                            mw__half_end(g->net.tri, after)))
         return false;
     return !greedy_is_taken(g, before) ||
-           greedy_add_corner(g, mw__half_start(g->net.tri, before), mw__half_start(g->net.tri, half),
-                             mw__half_end(g->net.tri, half));
+           greedy_add_corner(g, mw__half_start(g->net.tri, before),
+                             mw__half_start(g->net.tri, half), mw__half_end(g->net.tri, half));
 }
 
 /* Add the open edges of a triangle: each from one of its two triangles only. */
@@ -118,7 +124,9 @@ static bool greedy_add_edges(greedy *g, uint32_t t)
     for (uint32_t k = 0; k < 3; k++) {
         uint32_t half = mw__link(t, k);
         if (half > mw__half_link(g->net.tri, half) || greedy_is_taken(g, half)) continue;
-        if (!mw__greedy_push(&g->heap, mw__half_start(g->net.tri, half), mw__half_end(g->net.tri, half))) return false;
+        if (!mw__greedy_push(&g->heap, mw__half_start(g->net.tri, half),
+                             mw__half_end(g->net.tri, half)))
+            return false;
     }
     return true;
 }
@@ -132,7 +140,8 @@ static bool greedy_gather(greedy *g)
         memcpy(g->seen[t], g->net.tri[t].v, sizeof g->seen[t]);
         if (!greedy_add_edges(g, t)) return false;
         for (uint32_t k = 0; k < 3; k++)
-            if (greedy_is_taken(g, mw__link(t, k)) && !greedy_add_corners(g, mw__link(t, k))) return false;
+            if (greedy_is_taken(g, mw__link(t, k)) && !greedy_add_corners(g, mw__link(t, k)))
+                return false;
     }
     g->limit = g->heap.count + g->net.tri_count / 2;
     return true;
@@ -158,7 +167,8 @@ static bool greedy_add_changes(greedy *g, uint32_t half)
     greedy_visit(g, half, &count);
     for (uint32_t i = 0; i < count; i++) {
         if (!greedy_add_edges(g, g->changed[i])) return false;
-        for (uint32_t k = 0; k < 3; k++) greedy_visit(g, mw__half_link(g->net.tri, mw__link(g->changed[i], k)), &count);
+        for (uint32_t k = 0; k < 3; k++)
+            greedy_visit(g, mw__half_link(g->net.tri, mw__link(g->changed[i], k)), &count);
     }
     return true;
 }
@@ -170,16 +180,19 @@ static bool greedy_take(greedy *g, mw_greedy_edge edge)
 {
     uint32_t from = edge.low, to = edge.high, taken = g->net.subsegment_count;
     mw_subsegment subsegment;
-    if (mw__insert_subsegment(&g->net, &from, &to, &subsegment) == MW_SUBSEGMENT_MEMORY) return false;
+    if (mw__insert_subsegment(&g->net, &from, &to, &subsegment) == MW_SUBSEGMENT_MEMORY)
+        return false;
     if (g->net.subsegment_count == taken) return true;
-    uint32_t half = greedy_half_between(g, subsegment.from, subsegment.to), twin = mw__half_link(g->net.tri, half);
+    uint32_t half = greedy_half_between(g, subsegment.from, subsegment.to),
+             twin = mw__half_link(g->net.tri, half);
     return greedy_add_corners(g, half) && (twin == MW_NONE || greedy_add_corners(g, twin)) &&
            greedy_add_changes(g, half);
 }
 
 static bool greedy_create(greedy *g, mw_triangulation *t)
 {
-    bool created = mw__segment_insertion_create(&g->net, t->point, t->point_count, t->tri, t->tri_count);
+    bool created =
+        mw__segment_insertion_create(&g->net, t->point, t->point_count, t->tri, t->tri_count);
     g->heap.point = t->point;
     g->seen = mw__alloc(t->tri_count, sizeof *g->seen);
     g->changed = mw__alloc(t->tri_count, sizeof *g->changed);
@@ -194,7 +207,8 @@ static void greedy_release(greedy *g)
     free(g->changed);
 }
 
-mw_status mw__make_greedy(mw_triangulation *t, const mw_kind_options *options, mw_kind_report *report, mw_error *error)
+mw_status mw__make_greedy(mw_triangulation *t, const mw_kind_options *options,
+                          mw_kind_report *report, mw_error *error)
 {
     (void)options;
     (void)report;
@@ -203,8 +217,9 @@ mw_status mw__make_greedy(mw_triangulation *t, const mw_kind_options *options, m
     bool done = greedy_create(&g, t) && greedy_gather(&g);
     mw__job_stage(t->job, "taking the shortest edges", 0.9);
     while (done && g.heap.count > 0) {
-        done = greedy_take(&g, mw__greedy_pop(&g.heap)) &&
-               mw__job_step(t->job, g.net.subsegment_count, t->tri_count + (uint64_t)t->tri_count / 2);
+        done =
+            greedy_take(&g, mw__greedy_pop(&g.heap)) &&
+            mw__job_step(t->job, g.net.subsegment_count, t->tri_count + (uint64_t)t->tri_count / 2);
         if (done && g.heap.count > g.limit) done = greedy_gather(&g);
     }
     greedy_release(&g);

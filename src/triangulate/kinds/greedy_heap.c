@@ -2,7 +2,8 @@
 #include "triangulate/kinds/greedy_heap.h"
 
 /* The rounded squares decide nearly always. */
-static bool heap_edge_precedes(const mw_greedy_heap *heap, const mw_greedy_edge *e, const mw_greedy_edge *f)
+static bool heap_edge_precedes(const mw_greedy_heap *heap, const mw_greedy_edge *e,
+                               const mw_greedy_edge *f)
 {
     if (mw__surely_shorter(e->square, f->square)) return true;
     if (mw__surely_shorter(f->square, e->square)) return false;
@@ -28,7 +29,8 @@ static bool heap_reserve(mw_greedy_heap *heap)
 bool mw__greedy_push(mw_greedy_heap *heap, uint32_t a, uint32_t b)
 {
     if (!heap_reserve(heap)) return false;
-    mw_greedy_edge edge = {mw__square_length(heap->point[a], heap->point[b]), a < b ? a : b, a < b ? b : a};
+    mw_greedy_edge edge = {mw__square_length(heap->point[a], heap->point[b]), a < b ? a : b,
+                           a < b ? b : a};
     size_t i = heap->count++;
     for (; i > 0 && heap_edge_precedes(heap, &edge, &heap->item[(i - 1) / 2]); i = (i - 1) / 2)
         heap->item[i] = heap->item[(i - 1) / 2];
@@ -42,7 +44,8 @@ mw_greedy_edge mw__greedy_pop(mw_greedy_heap *heap)
     size_t i = 0;
     for (;;) {
         size_t child = 2 * i + 1;
-        if (child + 1 < heap->count && heap_edge_precedes(heap, &item[child + 1], &item[child])) child++;
+        if (child + 1 < heap->count && heap_edge_precedes(heap, &item[child + 1], &item[child]))
+            child++;
         if (child >= heap->count || !heap_edge_precedes(heap, &item[child], &last)) break;
         item[i] = item[child];
         i = child;

@@ -64,8 +64,8 @@ typedef enum mw_lmt_result { MW_LMT_DONE, MW_LMT_SPENT, MW_LMT_MEMORY } mw_lmt_r
 
 /* Append, from each of the vertices, the edges to others that may have the diamond property: an
  * edge that has it is appended twice, once from each end. */
-mw_lmt_result mw__diamond(const mw_scaled *s, const uint32_t *vertex, uint32_t vertex_count, mw_effort *effort,
-                          mw_edge_list *list);
+mw_lmt_result mw__diamond(const mw_scaled *s, const uint32_t *vertex, uint32_t vertex_count,
+                          mw_effort *effort, mw_edge_list *list);
 
 /* --- skeleton --- */
 
@@ -73,12 +73,18 @@ mw_lmt_result mw__diamond(const mw_scaled *s, const uint32_t *vertex, uint32_t v
 typedef struct mw_lmt {
     const mw_scaled *points;
     uint32_t edge_count;
-    uint32_t *from;       /* per half: the vertex that it leaves                                               */
-    uint32_t *first;      /* per vertex: where its halves begin in `ring`; one more for the end                */
-    uint32_t *ring;       /* halves, counter-clockwise round each vertex                                       */
-    uint32_t *ring_index; /* per half: where in `ring` it is                                                   */
-    uint8_t *state;       /* per edge, see below                                                               */
-    uint32_t *queue;      /* of edges, a ring buffer                                                           */
+    /* per half: the vertex that it leaves */
+    uint32_t *from;
+    /* per vertex: where its halves begin in `ring`; one more for the end */
+    uint32_t *first;
+    /* halves, counter-clockwise round each vertex */
+    uint32_t *ring;
+    /* per half: where in `ring` it is */
+    uint32_t *ring_index;
+    /* per edge, see below */
+    uint8_t *state;
+    /* of edges, a ring buffer */
+    uint32_t *queue;
 } mw_lmt;
 
 enum { MW_LMT_ALIVE = 1, MW_LMT_KNOWN = 2, MW_LMT_QUEUED = 4 };
@@ -89,8 +95,8 @@ mw_lmt_result mw__lmt_create(mw_lmt *lmt, const mw_scaled *points, const mw_edge
 void mw__lmt_release(mw_lmt *lmt);
 
 /* Remove edges, but those that are known, that no pair of empty triangles makes locally minimal,
- * until there are none, the effort is spent, or the job is cancelled. What remains holds every triangulation of least
- * weight that the list held. */
+ * until there are none, the effort is spent, or the job is cancelled. What remains holds every
+ * triangulation of least weight that the list held. */
 void mw__lmt_reduce(mw_lmt *lmt, mw_effort *effort);
 
 /* --- faces --- */
@@ -113,7 +119,8 @@ bool mw__polygon_steps(const mw_polygon *polygon, uint64_t *steps);
 
 /* Triangulate with chords of least total length, by dynamic programming [Gilbert 1979; Klincsek
  * 1980]. The chords must hold a triangulation. Writes three corners, counter-clockwise, for each of
- * corner_count - 2 triangles. Steps of the present stage. False when out of memory, or cancelled. */
+ * corner_count - 2 triangles. Steps of the present stage. False when out of memory, or cancelled.
+ * */
 bool mw__polygon_fill(const mw_polygon *polygon, mw_job *job, uint32_t *corners);
 
 #endif

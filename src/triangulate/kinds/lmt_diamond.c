@@ -1,13 +1,20 @@
 /* lmt_diamond.c - edges with the diamond property: candidates for a triangulation of least weight.
  *
- *            apex            An edge pq of a triangulation of least weight has no point in one, at least, of the two
- *           /    \           isosceles triangles with base pq and base angle a = pi / 4.6
- *         /  r     \         [Das, Joseph 1989; Drysdale, McElfresh, Snoeyink 2001].
- *       p ---------- q       A point r at distance d from p, in direction t, lies in the left triangle of every edge
- *         \        /         from p that leaves between the directions t - a and t and is longer than 2 d cos a, and
- *           \    /           likewise in the right triangle of those between t and t + a. So each point makes two arcs
- *            apex            of directions dead on one side; what lies in a direction that is dead on both sides, far
- *                            enough away, is no candidate [Beirouti, Snoeyink 1998; Haas 2018].
+ *            apex
+ *           /    \
+ *         /  r     \
+ *       p ---------- q
+ *         \        /
+ *           \    /
+ *            apex
+ *
+ * An edge pq of a triangulation of least weight has no point in one, at least, of the two isosceles
+ * triangles with base pq and base angle a = pi / 4.6 [Das, Joseph 1989; Drysdale, McElfresh,
+ * Snoeyink 2001]. A point r at distance d from p, in direction t, lies in the left triangle of
+ * every edge from p that leaves between the directions t - a and t and is longer than 2 d cos a,
+ * and likewise in the right triangle of those between t and t + a. So each point makes two arcs of
+ * directions dead on one side; what lies in a direction that is dead on both sides, far enough
+ * away, is no candidate [Beirouti, Snoeyink 1998; Haas 2018].
  *
  * From each vertex the others are visited by increasing distance, in a tree of boxes; boxes that
  * lie in dead directions are left out whole. What is found so is tested once more against the
@@ -66,7 +73,8 @@ typedef struct seeker {
     uint32_t node_count, first_leaf;
     seek_item *heap;
     uint32_t heap_count;
-    seen_point *seen; /* points visited, not before `active` of them have made their directions dead */
+    /* points visited, not before `active` of them have made their directions dead */
+    seen_point *seen;
     uint32_t seen_count, active;
     dead_arcs left, right;
     mw_point nearest[NEAREST]; /* as seen from the vertex */
@@ -98,7 +106,8 @@ static double seeker_coordinate(const seeker *s, uint32_t i, int axis)
 
 /* Order begin..end so that what is before `middle` is not above what comes from it on [Hoare
  * 1961]. */
-static void seeker_select_middle(const seeker *s, uint32_t begin, uint32_t end, uint32_t middle, int axis)
+static void seeker_select_middle(const seeker *s, uint32_t begin, uint32_t end, uint32_t middle,
+                                 int axis)
 {
     int64_t low = begin, high = (int64_t)end - 1;
     while (low < high) {
@@ -140,7 +149,8 @@ static void seeker_build(seeker *s, uint32_t vertex_count)
         box_bound(s, b);
         if (i >= s->first_leaf) continue;
         uint32_t middle = b->begin + (b->end - b->begin) / 2;
-        seeker_select_middle(s, b->begin, b->end, middle, b->high[0] - b->low[0] < b->high[1] - b->low[1]);
+        seeker_select_middle(s, b->begin, b->end, middle,
+                             b->high[0] - b->low[0] < b->high[1] - b->low[1]);
         s->node[2 * i + 1].reach = s->node[2 * i + 2].reach = INFINITY;
         s->node[2 * i + 1].begin = b->begin;
         s->node[2 * i + 1].end = s->node[2 * i + 2].begin = middle;
@@ -176,7 +186,8 @@ static bool seeker_prepare(seeker *s, const uint32_t *vertex, uint32_t vertex_co
 static void seeker_push(seeker *s, seek_item it)
 {
     uint32_t i = s->heap_count++;
-    for (; i > 0 && s->heap[(i - 1) / 2].square > it.square; i = (i - 1) / 2) s->heap[i] = s->heap[(i - 1) / 2];
+    for (; i > 0 && s->heap[(i - 1) / 2].square > it.square; i = (i - 1) / 2)
+        s->heap[i] = s->heap[(i - 1) / 2];
     s->heap[i] = it;
 }
 
@@ -194,7 +205,8 @@ static seek_item seeker_pop(seeker *s)
     return top;
 }
 
-/* --- dead directions: arcs within -pi..pi; one that goes beyond is cut there; 4 and -4 stand for no end --- */
+/* --- dead directions: arcs within -pi..pi; one that goes beyond is cut there --- */
+/* 4 and -4 stand for no end. */
 
 static void arcs_add(dead_arcs *a, double from, double to)
 {
@@ -206,7 +218,8 @@ static void arcs_add(dead_arcs *a, double from, double to)
         } else {
             i++;
         }
-    if (a->count == ARCS) return; /* cannot be: arcs apart from each other are at least half a radian long, but two */
+    /* cannot be: arcs apart from each other are at least half a radian long, but two */
+    if (a->count == ARCS) return;
     a->arc[a->count].from = from;
     a->arc[a->count++].to = to;
 }
@@ -244,7 +257,8 @@ static bool seeker_is_all_dead(const seeker *s, double from, double to)
  * from there on. */
 static void seeker_activate(seeker *s, double square)
 {
-    for (; s->active < s->seen_count && s->seen[s->active].square * s->stretch + TINY < square; s->active++) {
+    for (; s->active < s->seen_count && s->seen[s->active].square * s->stretch + TINY < square;
+         s->active++) {
         double angle = s->seen[s->active].angle;
         arcs_make_dead(&s->left, angle - BASE_ANGLE, angle);
         arcs_make_dead(&s->right, angle, angle + BASE_ANGLE);
@@ -289,7 +303,8 @@ static void seeker_open_box(seeker *s, uint32_t p, uint32_t number)
     mw_point at = s->points->scaled[p];
     const seek_box *b = &s->node[number];
     if (box_is_hidden(s, at, b)) return;
-    for (uint32_t child = 2 * number + 1; number < s->first_leaf && child <= 2 * number + 2; child++) {
+    for (uint32_t child = 2 * number + 1; number < s->first_leaf && child <= 2 * number + 2;
+         child++) {
         double square = box_square(&s->node[child], at);
         if (square <= s->node[child].reach) seeker_push(s, (seek_item){square, child, true});
     }
@@ -303,8 +318,8 @@ static void seeker_open_box(seeker *s, uint32_t p, uint32_t number)
 /* Is b, another point than a and c, on the way from a to c? Exact. */
 static bool diamond_point_is_between(mw_point a, mw_point b, mw_point c)
 {
-    return fmin(a.x, c.x) <= b.x && b.x <= fmax(a.x, c.x) && fmin(a.y, c.y) <= b.y && b.y <= fmax(a.y, c.y) &&
-           mw__orient2d(a, b, c) == 0;
+    return fmin(a.x, c.x) <= b.x && b.x <= fmax(a.x, c.x) && fmin(a.y, c.y) <= b.y &&
+           b.y <= fmax(a.y, c.y) && mw__orient2d(a, b, c) == 0;
 }
 
 /* Is a point near by on the way from p to q, or do such points lie surely in both triangles of that
@@ -317,10 +332,13 @@ static bool diamond_fails(const seeker *s, uint32_t p, uint32_t q, mw_point u, d
         mw_point w = s->nearest[i];
         double a = u.x * w.y, b = u.y * w.x, height = fabs(a - b), along = u.x * w.x + u.y * w.y;
         if (height <= LENGTH_MARGIN * (fabs(a) + fabs(b)) + TINY) {
-            if (along > 0 && diamond_point_is_between(point[p], point[s->nearest_number[i]], point[q])) return true;
+            if (along > 0 &&
+                diamond_point_is_between(point[p], point[s->nearest_number[i]], point[q]))
+                return true;
             continue;
         }
-        bool inside = height < s->tangent * along && height < s->tangent * (square - along - LENGTH_MARGIN * square);
+        bool inside = height < s->tangent * along &&
+                      height < s->tangent * (square - along - LENGTH_MARGIN * square);
         left |= inside && a > b;
         right |= inside && a < b;
     }
@@ -340,10 +358,12 @@ static bool diamond_is_sharp(const seeker *s, uint32_t p, uint32_t q, mw_point u
  * nothing. */
 static bool seeker_visit(seeker *s, uint32_t p, seek_item it)
 {
-    mw_point from = s->points->scaled[p], to = s->points->scaled[it.number], u = {to.x - from.x, to.y - from.y};
+    mw_point from = s->points->scaled[p], to = s->points->scaled[it.number],
+             u = {to.x - from.x, to.y - from.y};
     double angle = atan2(u.y, u.x);
     bool sharp = diamond_is_sharp(s, p, it.number, u);
-    bool candidate = !seeker_is_all_dead(s, angle, angle) && !(sharp && diamond_fails(s, p, it.number, u, it.square));
+    bool candidate = !seeker_is_all_dead(s, angle, angle) &&
+                     !(sharp && diamond_fails(s, p, it.number, u, it.square));
     if (!sharp) return candidate;
     s->seen[s->seen_count++] = (seen_point){it.square, angle};
     if (s->nearest_count < NEAREST) {
@@ -354,7 +374,8 @@ static bool seeker_visit(seeker *s, uint32_t p, seek_item it)
 }
 
 /* Collect the candidates from p, unless more than `most` points come before it is closed. */
-static mw_lmt_result seeker_seek(seeker *s, uint32_t p, uint32_t most, mw_effort *effort, mw_edge_list *list)
+static mw_lmt_result seeker_seek(seeker *s, uint32_t p, uint32_t most, mw_effort *effort,
+                                 mw_edge_list *list)
 {
     size_t before = list->count;
     s->heap_count = s->seen_count = s->active = s->nearest_count = 0;
@@ -391,12 +412,13 @@ static void seeker_spread_reach(seeker *s)
         if (i < s->first_leaf)
             b->reach = fmax(s->node[2 * i + 1].reach, s->node[2 * i + 2].reach);
         else
-            for (uint32_t k = b->begin; k < b->end; k++) b->reach = fmax(b->reach, s->reach[s->order[k]]);
+            for (uint32_t k = b->begin; k < b->end; k++)
+                b->reach = fmax(b->reach, s->reach[s->order[k]]);
     }
 }
 
-mw_lmt_result mw__diamond(const mw_scaled *points, const uint32_t *vertex, uint32_t vertex_count, mw_effort *effort,
-                          mw_edge_list *list)
+mw_lmt_result mw__diamond(const mw_scaled *points, const uint32_t *vertex, uint32_t vertex_count,
+                          mw_effort *effort, mw_edge_list *list)
 {
     seeker s = {.points = points};
     mw_lmt_result result = seeker_prepare(&s, vertex, vertex_count) ? MW_LMT_DONE : MW_LMT_MEMORY;
@@ -407,9 +429,10 @@ mw_lmt_result mw__diamond(const mw_scaled *points, const uint32_t *vertex, uint3
     if (result == MW_LMT_DONE) seeker_spread_reach(&s);
     for (uint32_t i = 0; result == MW_LMT_DONE && i < vertex_count; i++)
         if (s.reach[s.order[i]] == INFINITY)
-            result = mw__job_step(effort->job, (uint64_t)vertex_count + i, 2 * (uint64_t)vertex_count)
-                         ? seeker_seek(&s, s.order[i], UINT32_MAX, effort, list)
-                         : MW_LMT_MEMORY;
+            result =
+                mw__job_step(effort->job, (uint64_t)vertex_count + i, 2 * (uint64_t)vertex_count)
+                    ? seeker_seek(&s, s.order[i], UINT32_MAX, effort, list)
+                    : MW_LMT_MEMORY;
     free(s.reach);
     free(s.order);
     free(s.node);

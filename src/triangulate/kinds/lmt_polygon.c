@@ -59,7 +59,8 @@ static bool table_sort_chords(chord_table *t, const mw_polygon *p)
         for (size_t c = p->chord_count; c-- > 0;) by_high[--first[p->chord[c].high]] = (uint32_t)c;
         for (size_t c = 0; c < p->chord_count; c++) t->first_up[p->chord[c].low]++;
         table_prefix_sums(t->first_up, n);
-        for (size_t c = p->chord_count; c-- > 0;) t->up[--t->first_up[p->chord[by_high[c]].low]] = by_high[c];
+        for (size_t c = p->chord_count; c-- > 0;)
+            t->up[--t->first_up[p->chord[by_high[c]].low]] = by_high[c];
     }
     free(by_high);
     free(first);
@@ -76,11 +77,13 @@ static bool table_create(chord_table *t, const mw_polygon *p)
     t->up = mw__alloc(p->chord_count, sizeof *t->up);
     t->down = mw__alloc(p->chord_count + n + 1, sizeof *t->down);
     t->row = mw__alloc(n, sizeof *t->row);
-    if (!t->first_up || !t->first_down || !t->down_count || !t->up || !t->down || !t->row) return false;
+    if (!t->first_up || !t->first_down || !t->down_count || !t->up || !t->down || !t->row)
+        return false;
     if (!table_sort_chords(t, p)) return false;
     /* to each corner: its chords, the border before it, and the border that closes the polygon */
     for (size_t c = 0; c < p->chord_count; c++) t->first_down[p->chord[c].high + 1]++;
-    for (uint32_t j = 0; j < n; j++) t->first_down[j + 1] += t->first_down[j] + (j > 0) + (j == n - 1);
+    for (uint32_t j = 0; j < n; j++)
+        t->first_down[j + 1] += t->first_down[j] + (j > 0) + (j == n - 1);
     for (uint32_t i = 0; i < n; i++) t->row[i] = INFINITY;
     return true;
 }
@@ -114,7 +117,8 @@ static bool table_fill(chord_table *t, const mw_polygon *p, mw_job *job)
             chord_close(t, i, p->chord[t->up[k]].high, p->chord[t->up[k]].length);
         if (i == 0) chord_close(t, 0, n - 1, 0);
         t->row[i + 1] = INFINITY;
-        for (size_t k = t->first_up[i]; k < t->first_up[i + 1]; k++) t->row[p->chord[t->up[k]].high] = INFINITY;
+        for (size_t k = t->first_up[i]; k < t->first_up[i + 1]; k++)
+            t->row[p->chord[t->up[k]].high] = INFINITY;
     }
     return true;
 }
@@ -162,7 +166,8 @@ bool mw__polygon_steps(const mw_polygon *polygon, uint64_t *steps)
     if (!count) return false;
     for (size_t c = 0; c < polygon->chord_count; c++) count[polygon->chord[c].high]++;
     *steps = 0;
-    for (uint32_t j = 0; j < polygon->corner_count; j++) *steps += (uint64_t)count[j] * (count[j] + 1) / 2 + 1;
+    for (uint32_t j = 0; j < polygon->corner_count; j++)
+        *steps += (uint64_t)count[j] * (count[j] + 1) / 2 + 1;
     free(count);
     return true;
 }

@@ -1,11 +1,17 @@
 /* lmt_skeleton.c - the LMT skeleton: candidate edges that cannot be locally minimal are removed,
  * until none is left.
  *
- *          l               In a triangulation of least weight each inner edge ab is the diagonal of two empty triangles abl
- *        / | \             and bar, and where these make a strictly convex quadrilateral it is no longer than the other
- *      a --+-- b           diagonal lr. An edge that has no two such triangles with sides among the candidates is in no
- *        \ | /             triangulation of least weight, and is removed; which may leave others without triangles. An
- *          r               edge that no remaining one crosses is in all of them [Dickerson, Keil, Montague 1997].
+ *          l
+ *        / | \
+ *      a --+-- b
+ *        \ | /
+ *          r
+ *
+ * In a triangulation of least weight each inner edge ab is the diagonal of two empty triangles abl
+ * and bar, and where these make a strictly convex quadrilateral it is no longer than the other
+ * diagonal lr. An edge that has no two such triangles with sides among the candidates is in no
+ * triangulation of least weight, and is removed; which may leave others without triangles. An edge
+ * that no remaining one crosses is in all of them [Dickerson, Keil, Montague 1997].
  *
  * A triangle is taken for empty if none of the candidate edges from one of its corners ends in it;
  * that one inside may be overlooked keeps edges, and removes none. So does every other limit
@@ -84,7 +90,8 @@ static void skeleton_sort_ring(mw_lmt *lmt, uint32_t v, spoke *spokes)
     qsort(spokes, n, sizeof *spokes, spokes_compare);
     for (uint32_t i = 0; i < n; i++) {
         uint32_t half = spokes[i].half, j = i;
-        for (; j > 0 && neighbour_is_before(lmt, v, half_target(lmt, half), half_target(lmt, lmt->ring[begin + j - 1]));
+        for (; j > 0 && neighbour_is_before(lmt, v, half_target(lmt, half),
+                                            half_target(lmt, lmt->ring[begin + j - 1]));
              j--)
             lmt->ring[begin + j] = lmt->ring[begin + j - 1];
         lmt->ring[begin + j] = half;
@@ -116,7 +123,8 @@ mw_lmt_result mw__lmt_create(mw_lmt *lmt, const mw_scaled *points, const mw_edge
     lmt->first = mw__calloc((size_t)n + 1, sizeof *lmt->first);
     lmt->state = mw__calloc(list->count, sizeof *lmt->state);
     lmt->queue = mw__alloc(list->count, sizeof *lmt->queue);
-    if (!lmt->from || !lmt->ring || !lmt->ring_index || !lmt->first || !lmt->state || !lmt->queue) return MW_LMT_MEMORY;
+    if (!lmt->from || !lmt->ring || !lmt->ring_index || !lmt->first || !lmt->state || !lmt->queue)
+        return MW_LMT_MEMORY;
     for (uint32_t e = 0; e < lmt->edge_count; e++) {
         lmt->from[2 * e] = mw__edge_low(list->key[e]);
         lmt->from[2 * e + 1] = mw__edge_high(list->key[e]);
@@ -151,7 +159,8 @@ static uint32_t edge_find(const mw_lmt *lmt, uint32_t a, uint32_t b, uint64_t *s
     }
     for (uint32_t i = lmt->first[a]; i < lmt->first[a + 1]; i++) {
         ++*steps;
-        if (half_target(lmt, lmt->ring[i]) == b) return half_is_alive(lmt, lmt->ring[i]) ? lmt->ring[i] / 2 : MW_NONE;
+        if (half_target(lmt, lmt->ring[i]) == b)
+            return half_is_alive(lmt, lmt->ring[i]) ? lmt->ring[i] / 2 : MW_NONE;
     }
     return MW_NONE;
 }
@@ -194,7 +203,8 @@ static void half_find_apexes(const mw_lmt *lmt, uint32_t half, apexes *found, ui
     }
 }
 
-static bool edge_is_minimal(const mw_lmt *lmt, uint32_t e, const apexes *left, const apexes *right, uint64_t *steps)
+static bool edge_is_minimal(const mw_lmt *lmt, uint32_t e, const apexes *left, const apexes *right,
+                            uint64_t *steps)
 {
     if (left->overflow || right->overflow) return true;
     uint32_t a = lmt->from[2 * e], b = lmt->from[2 * e + 1];

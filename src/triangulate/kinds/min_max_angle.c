@@ -56,7 +56,8 @@ static bool entry_comes_before(const heap *h, const entry *e, const entry *f)
 
 static void heap_sift_up(heap *h, size_t i, entry e)
 {
-    for (; i > 0 && entry_comes_before(h, &e, &h->at[(i - 1) / 2]); i = (i - 1) / 2) h->at[i] = h->at[(i - 1) / 2];
+    for (; i > 0 && entry_comes_before(h, &e, &h->at[(i - 1) / 2]); i = (i - 1) / 2)
+        h->at[i] = h->at[(i - 1) / 2];
     h->at[i] = e;
 }
 
@@ -65,7 +66,8 @@ static entry heap_pop(heap *h)
     entry top = h->at[0], last = h->at[--h->count];
     size_t i = 0, child;
     for (; (child = 2 * i + 1) < h->count; i = child) {
-        if (child + 1 < h->count && entry_comes_before(h, &h->at[child + 1], &h->at[child])) child++;
+        if (child + 1 < h->count && entry_comes_before(h, &h->at[child + 1], &h->at[child]))
+            child++;
         if (!entry_comes_before(h, &h->at[child], &last)) break;
         h->at[i] = h->at[child];
     }
@@ -146,7 +148,8 @@ static bool improvement_fill(improvement *m)
 {
     m->heap.count = 0;
     for (uint32_t i = 0; i < m->t->tri_count; i++)
-        if (m->t->tri[i].user == MW_INSERTION_FREE && !heap_push(&m->heap, m->t->tri, i)) return false;
+        if (m->t->tri[i].user == MW_INSERTION_FREE && !heap_push(&m->heap, m->t->tri, i))
+            return false;
     return true;
 }
 
@@ -158,7 +161,8 @@ static bool improvement_add_made(improvement *m)
 
 /* Improve by edges that cross at most `reach` others, until nothing is left to try or a limit is
  * reached. *proved: an attempt has failed. */
-static mw_status improvement_run(improvement *m, uint32_t reach, mw_angle_limits limits, bool *proved)
+static mw_status improvement_run(improvement *m, uint32_t reach, mw_angle_limits limits,
+                                 bool *proved)
 {
     mw_triangle *tri = m->t->tri;
     mw_insertion_result result = MW_INSERTION_NONE;
@@ -188,7 +192,8 @@ static mw_status improvement_run(improvement *m, uint32_t reach, mw_angle_limits
 mw_status mw__min_max_angle_within(mw_triangulation *t, mw_angle_limits limits, bool *proved)
 {
     static const mw_angle_limits none = {UINT64_MAX, SIZE_MAX};
-    improvement m = {.t = t, .insertion = {.point = t->point, .tri = t->tri}, .heap = {.point = t->point}};
+    improvement m = {
+        .t = t, .insertion = {.point = t->point, .tri = t->tri}, .heap = {.point = t->point}};
     mw_status status = MW_OK;
     bool ignored;
     *proved = false;
@@ -202,15 +207,18 @@ mw_status mw__min_max_angle_within(mw_triangulation *t, mw_angle_limits limits, 
 /* A limit of the caller's is one on points only. */
 static mw_angle_limits triangulation_angle_limits(const mw_triangulation *t, uint32_t most_points)
 {
-    if (most_points == 0) return (mw_angle_limits){MOST_WORK, SIGHTS_PER_TRIANGLE * (size_t)t->tri_count + MORE_SIGHTS};
+    if (most_points == 0)
+        return (mw_angle_limits){MOST_WORK,
+                                 SIGHTS_PER_TRIANGLE * (size_t)t->tri_count + MORE_SIGHTS};
     return (mw_angle_limits){t->point_count <= most_points ? UINT64_MAX : 0, SIZE_MAX};
 }
 
-mw_status mw__make_min_max_angle(mw_triangulation *t, const mw_kind_options *options, mw_kind_report *report,
-                                 mw_error *error)
+mw_status mw__make_min_max_angle(mw_triangulation *t, const mw_kind_options *options,
+                                 mw_kind_report *report, mw_error *error)
 {
     bool proved;
-    mw_status status = mw__min_max_angle_within(t, triangulation_angle_limits(t, options->limit), &proved);
+    mw_status status =
+        mw__min_max_angle_within(t, triangulation_angle_limits(t, options->limit), &proved);
     report->optimal = proved;
     return status == MW_OK ? MW_OK : mw__fail_memory(error);
 }

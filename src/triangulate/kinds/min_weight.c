@@ -90,8 +90,10 @@ static void half_exchange(const weigher *w, uint32_t half)
 {
     uint32_t twin = mw__half_link(w->t->tri, half), a = mw__half_start(w->t->tri, half),
              b = mw__half_start(w->t->tri, twin);
-    uint32_t p = mw__half_start(w->t->tri, mw__half_prev(half)), q = mw__half_start(w->t->tri, mw__half_prev(twin));
-    uint32_t around[4] = {mw__half_link(w->t->tri, mw__half_prev(half)), mw__half_link(w->t->tri, mw__half_next(twin)),
+    uint32_t p = mw__half_start(w->t->tri, mw__half_prev(half)),
+             q = mw__half_start(w->t->tri, mw__half_prev(twin));
+    uint32_t around[4] = {mw__half_link(w->t->tri, mw__half_prev(half)),
+                          mw__half_link(w->t->tri, mw__half_next(twin)),
                           mw__half_link(w->t->tri, mw__half_prev(twin)),
                           mw__half_link(w->t->tri, mw__half_next(half))}; /* pa, aq, qb, bp */
     uint32_t s = mw__link_triangle(half), t = mw__link_triangle(twin);
@@ -99,7 +101,8 @@ static void half_exchange(const weigher *w, uint32_t half)
     w->t->tri[t] = (mw_triangle){{p, q, b, p}, {mw__link(s, 0), around[2], around[3]}, 0};
     for (uint32_t i = 0; i < 4; i++)
         if (around[i] != MW_NONE)
-            weigher_triangle(w, around[i])->link[mw__link_edge(around[i])] = mw__link(i < 2 ? s : t, 1 + i % 2);
+            weigher_triangle(w, around[i])->link[mw__link_edge(around[i])] =
+                mw__link(i < 2 ? s : t, 1 + i % 2);
 }
 
 static bool half_is_too_long(const weigher *w, uint32_t half)
@@ -107,15 +110,16 @@ static bool half_is_too_long(const weigher *w, uint32_t half)
     uint32_t twin = mw__half_link(w->t->tri, half);
     if (twin == MW_NONE) return false;
     uint32_t a = mw__half_start(w->t->tri, half), b = mw__half_start(w->t->tri, twin);
-    uint32_t p = mw__half_start(w->t->tri, mw__half_prev(half)), q = mw__half_start(w->t->tri, mw__half_prev(twin));
+    uint32_t p = mw__half_start(w->t->tri, mw__half_prev(half)),
+             q = mw__half_start(w->t->tri, mw__half_prev(twin));
     return mw__surely_longer(mw__square(&w->points, a, b), mw__square(&w->points, p, q)) &&
            weigher_vertex_side(w, p, a, q) > 0 && weigher_vertex_side(w, q, b, p) > 0;
 }
 
 enum { ALL_EDGES = 7, OUTER_EDGES = 6, ON_STACK = 8 };
 
-/* Each exchange makes the sum of lengths surely less, so this ends. It leaves no mark. Returns false
- * if the job is to stop. */
+/* Each exchange makes the sum of lengths surely less, so this ends. It leaves no mark. Returns
+ * false if the job is to stop. */
 static bool weigher_shorten(weigher *w)
 {
     uint32_t count = w->t->tri_count;
@@ -167,7 +171,8 @@ static uint32_t weigher_way_out(const weigher *w, uint32_t u, uint32_t v, uint64
         if (weigher_vertex_side(w, u, mw__half_start(w->t->tri, mw__half_next(half)), v) > 0 &&
             weigher_vertex_side(w, u, mw__half_start(w->t->tri, mw__half_prev(half)), v) < 0)
             return half;
-        uint32_t beyond = clockwise ? mw__half_link(w->t->tri, half) : mw__half_link(w->t->tri, mw__half_prev(half));
+        uint32_t beyond = clockwise ? mw__half_link(w->t->tri, half)
+                                    : mw__half_link(w->t->tri, mw__half_prev(half));
         if (beyond == MW_NONE && !clockwise) { /* the hull: turn the other way from the beginning */
             clockwise = true;
             half = first;
@@ -180,13 +185,15 @@ static uint32_t weigher_way_out(const weigher *w, uint32_t u, uint32_t v, uint64
 }
 
 /* Walk through T from u to v, no neighbour of it; false if there is a point on the way. */
-static bool weigher_walk(const weigher *w, uint32_t u, uint32_t v, bool marking, weigher_crossing *way, uint64_t *steps)
+static bool weigher_walk(const weigher *w, uint32_t u, uint32_t v, bool marking,
+                         weigher_crossing *way, uint64_t *steps)
 {
     uint32_t half = weigher_way_out(w, u, v, steps);
     if (half == MW_NONE) return false;
     way->from = half;
     for (half = mw__half_next(half);; ++*steps) {
-        uint32_t twin = mw__half_link(w->t->tri, half), apex = mw__half_start(w->t->tri, mw__half_prev(twin));
+        uint32_t twin = mw__half_link(w->t->tri, half),
+                 apex = mw__half_start(w->t->tri, mw__half_prev(twin));
         if (marking) {
             half_set_mark(w, half);
             half_set_mark(w, twin);
@@ -213,7 +220,8 @@ static bool weigher_push_known(weigher *w)
         for (uint32_t k = 0; k < 3; k++) {
             const mw_triangle *tri = &w->t->tri[t];
             if (tri->link[k] != MW_NONE && mw__link_triangle(tri->link[k]) < t) continue;
-            if (!mw__edge_push(&w->edges, mw__edge_key(tri->v[k], tri->v[k + 1]) | MW_EDGE_KNOWN)) return false;
+            if (!mw__edge_push(&w->edges, mw__edge_key(tri->v[k], tri->v[k + 1]) | MW_EDGE_KNOWN))
+                return false;
         }
     return true;
 }
@@ -230,7 +238,8 @@ static bool weigher_sift(weigher *w, mw_effort *effort)
             last = list->key[next];
         weigher_crossing way;
         if (last == edge ||
-            (next - i == 2 && weigher_walk(w, mw__edge_low(edge), mw__edge_high(edge), false, &way, &steps)))
+            (next - i == 2 &&
+             weigher_walk(w, mw__edge_low(edge), mw__edge_high(edge), false, &way, &steps)))
             list->key[kept++] = last;
         if (effort->steps <= steps) return false;
         effort->steps -= steps;
@@ -282,9 +291,10 @@ static mw_lmt_result weigher_make_skeleton(weigher *w, uint32_t limit)
 {
     uint64_t n = w->t->point_count, most = limit < n ? limit : n;
     if (most > LIMIT_THAT_COUNTS) most = LIMIT_THAT_COUNTS;
-    mw_effort effort = {STEPS_AT_LEAST + STEPS_PER_POINT * n, CANDIDATES_AT_LEAST + CANDIDATES_PER_POINT * n,
-                        w->t->job};
-    mw_effort extended = {effort.steps + most * most * most, effort.candidates + most * most, w->t->job};
+    mw_effort effort = {STEPS_AT_LEAST + STEPS_PER_POINT * n,
+                        CANDIDATES_AT_LEAST + CANDIDATES_PER_POINT * n, w->t->job};
+    mw_effort extended = {effort.steps + most * most * most, effort.candidates + most * most,
+                          w->t->job};
     mw_lmt_result result = weigher_find_candidates(w, extended);
     if (result == MW_LMT_DONE) {
         result = mw__lmt_create(&w->lmt, &w->points, &w->edges);
@@ -349,7 +359,8 @@ static bool crossing_stays_inside(const weigher *w, const weigher_crossing *way)
 {
     uint32_t u = mw__half_start(w->t->tri, way->from), v = mw__half_start(w->t->tri, way->to);
     for (uint32_t half = mw__half_next(way->from); half_has_mark(w, half);) {
-        uint32_t twin = mw__half_link(w->t->tri, half), apex = mw__half_start(w->t->tri, mw__half_prev(twin));
+        uint32_t twin = mw__half_link(w->t->tri, half),
+                 apex = mw__half_start(w->t->tri, mw__half_prev(twin));
         if (apex == v) return true;
         half = weigher_vertex_side(w, u, v, apex) > 0 ? mw__half_next(twin) : mw__half_prev(twin);
     }
@@ -362,7 +373,8 @@ static void face_number_corners(weigher *w, const skeleton_face *f)
 {
     uint32_t half = MW_NONE, number = 0;
     for (uint32_t k = 0; k < 3; k++) /* the last triangle found is a leaf of the tree */
-        if (!weigher_edge_is_marked(w, w->list[f->triangles - 1], k)) half = mw__link(w->list[f->triangles - 1], k);
+        if (!weigher_edge_is_marked(w, w->list[f->triangles - 1], k))
+            half = mw__link(w->list[f->triangles - 1], k);
     for (uint32_t i = 0; i < f->border; i++) {
         number = number + 1 == f->border ? 0 : number + 1;
         w->vertex[number] = mw__half_start(w->t->tri, mw__half_next(half));
@@ -400,13 +412,14 @@ static size_t face_gather_chords(const weigher *w, const skeleton_face *f, mw_ch
         for (uint32_t k = 0; k < 3; k++) {
             uint32_t half = mw__link(t, k);
             if (half_has_mark(w, half) && mw__link_triangle(mw__half_link(w->t->tri, half)) > t)
-                chord[count++] =
-                    weigher_make_chord(w, weigher_corner_at(w, half), weigher_corner_at(w, mw__half_next(half)));
+                chord[count++] = weigher_make_chord(w, weigher_corner_at(w, half),
+                                                    weigher_corner_at(w, mw__half_next(half)));
         }
         for (uint32_t c = w->chain[t]; c != MW_NONE; c = w->crossing[c].next) {
             const weigher_crossing *way = &w->crossing[c];
             if (!f->is_cut || crossing_stays_inside(w, way))
-                chord[count++] = weigher_make_chord(w, weigher_corner_at(w, way->from), weigher_corner_at(w, way->to));
+                chord[count++] = weigher_make_chord(w, weigher_corner_at(w, way->from),
+                                                    weigher_corner_at(w, way->to));
         }
     }
     return count;
@@ -520,7 +533,8 @@ static bool weigher_prepare(weigher *w)
     w->mark = mw__alloc(w->t->tri_count, sizeof *w->mark);
     w->list = mw__alloc(w->t->tri_count, sizeof *w->list);
     if (!w->scaled || !w->at || !w->mark || !w->list) return false;
-    for (uint32_t v = 0; v < n; v++) most = fmax(most, fmax(fabs(w->t->point[v].x), fabs(w->t->point[v].y)));
+    for (uint32_t v = 0; v < n; v++)
+        most = fmax(most, fmax(fabs(w->t->point[v].x), fabs(w->t->point[v].y)));
     frexp(most, &exponent);
     for (uint32_t v = 0; v < n; v++) {
         w->scaled[v].x = ldexp(w->t->point[v].x, 500 - exponent);
@@ -544,8 +558,8 @@ static void weigher_release(weigher *w)
     free(w->vertex);
 }
 
-mw_status mw__make_min_weight(mw_triangulation *t, const mw_kind_options *options, mw_kind_report *report,
-                              mw_error *error)
+mw_status mw__make_min_weight(mw_triangulation *t, const mw_kind_options *options,
+                              mw_kind_report *report, mw_error *error)
 {
     weigher w = {.t = t};
     mw_job_span outer = mw__job_part(t->job, 0.15);
@@ -560,7 +574,8 @@ mw_status mw__make_min_weight(mw_triangulation *t, const mw_kind_options *option
         if (result == MW_LMT_DONE) result = weigher_make_skeleton(&w, options->limit);
     }
     if (result == MW_LMT_SPENT) weigher_mark_all(&w);
-    if (result != MW_LMT_MEMORY && !weigher_make_faces(&w, options->limit, report)) result = MW_LMT_MEMORY;
+    if (result != MW_LMT_MEMORY && !weigher_make_faces(&w, options->limit, report))
+        result = MW_LMT_MEMORY;
     weigher_release(&w);
     return result == MW_LMT_MEMORY ? mw__fail_memory(error) : MW_OK;
 }

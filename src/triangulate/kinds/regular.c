@@ -29,10 +29,11 @@ static void regular_points_release(regular_points *p)
 static bool regular_points_make(regular_points *p, const mw_triangulation *t, const double *weights)
 {
     uint32_t n = t->point_count;
-    *p = (regular_points){mw__alloc(n, sizeof *p->number), mw__brio_order(n), mw__alloc_lines(n, sizeof *p->point),
-                          mw__alloc(n, sizeof *p->weight)};
+    *p = (regular_points){mw__alloc(n, sizeof *p->number), mw__brio_order(n),
+                          mw__alloc_lines(n, sizeof *p->point), mw__alloc(n, sizeof *p->weight)};
     mw_job_span outer = mw__job_part(t->job, 0.1);
-    bool done = p->number && p->order && p->point && p->weight && mw__points_order(t->point, n, t->job, p->number);
+    bool done = p->number && p->order && p->point && p->weight &&
+                mw__points_order(t->point, n, t->job, p->number);
     mw__job_part_end(t->job, outer);
     for (uint32_t i = 0; done && i < n; i++) {
         p->point[i] = t->point[p->number[i]];
@@ -84,14 +85,17 @@ static void regular_tell_hidden(const mw_triangulation *t, uint8_t *hidden)
         for (uint32_t k = 0; k < 3; k++) hidden[t->tri[i].v[k]] = 0;
 }
 
-static mw_status regular_check_weights(const mw_triangulation *t, const double *weight, mw_error *error)
+static mw_status regular_check_weights(const mw_triangulation *t, const double *weight,
+                                       mw_error *error)
 {
     for (uint32_t i = 0; weight && i < t->point_count; i++)
-        if (!isfinite(weight[i])) return mw__fail_at(error, -1, i, "the weight of point %u is not finite", i);
+        if (!isfinite(weight[i]))
+            return mw__fail_at(error, -1, i, "the weight of point %u is not finite", i);
     return MW_OK;
 }
 
-mw_status mw__make_regular(mw_triangulation *t, const mw_kind_options *options, mw_kind_report *report, mw_error *error)
+mw_status mw__make_regular(mw_triangulation *t, const mw_kind_options *options,
+                           mw_kind_report *report, mw_error *error)
 {
     mw_regular r = {0};
     mw_status status = regular_check_weights(t, options->weights, error);
@@ -99,7 +103,8 @@ mw_status mw__make_regular(mw_triangulation *t, const mw_kind_options *options, 
     regular_points p;
     uint8_t *hidden = mw__alloc(t->point_count, 1);
     bool done = regular_points_make(&p, t, options->weights) && hidden &&
-                mw__regular_create(&r, p.point, p.weight, p.number, t->point_count) && regular_insert_all(&r, t, &p);
+                mw__regular_create(&r, p.point, p.weight, p.number, t->point_count) &&
+                regular_insert_all(&r, t, &p);
     if (done) {
         regular_collect(&r, t);
         regular_tell_hidden(t, hidden);

@@ -29,10 +29,12 @@ typedef struct mw_regular_edge {
 
 /* --- memory --- */
 
-bool mw__regular_create(mw_regular *r, const mw_point *point, const double *weight, const uint32_t *number, uint32_t n)
+bool mw__regular_create(mw_regular *r, const mw_point *point, const double *weight,
+                        const uint32_t *number, uint32_t n)
 {
     size_t facets = 2 * (size_t)n + 2;
-    *r = (mw_regular){.point = point, .weight = weight, .number = number, .point_count = n, .random = 1};
+    *r = (mw_regular){
+        .point = point, .weight = weight, .number = number, .point_count = n, .random = 1};
     r->facet = mw__alloc_lines(facets, sizeof *r->facet);
     r->freed = mw__alloc(facets, sizeof *r->freed);
     r->facet_at = mw__alloc((size_t)n + 1, sizeof *r->facet_at);
@@ -70,8 +72,10 @@ void mw__regular_begin(mw_regular *r, uint32_t a, uint32_t b, uint32_t c)
         ghost[k] = facet_new(r, v[k + 1], v[k], MW_NONE);
         facet_link(r, mw__link(t, k), mw__link(ghost[k], 0));
     }
-    /* edge 1 of a ghost goes from the start of its edge of the triangle to infinity, edge 2 comes back to the end */
-    for (uint32_t k = 0; k < 3; k++) facet_link(r, mw__link(ghost[k], 2), mw__link(ghost[mw__next(k)], 1));
+    /* edge 1 of a ghost goes from the start of its edge of the triangle to infinity, edge 2 comes
+     * back to the end */
+    for (uint32_t k = 0; k < 3; k++)
+        facet_link(r, mw__link(ghost[k], 2), mw__link(ghost[mw__next(k)], 1));
     r->last = t;
 }
 
@@ -96,8 +100,8 @@ static bool facet_is_above(const mw_regular *r, uint32_t t, uint32_t p)
     const mw_triangle *f = &r->facet[t];
     uint32_t infinite = facet_infinite_corner(f);
     if (infinite == 3) {
-        mw_weighted_point w[4] = {weighted_point(r, f->v[0]), weighted_point(r, f->v[1]), weighted_point(r, f->v[2]),
-                                  weighted_point(r, p)};
+        mw_weighted_point w[4] = {weighted_point(r, f->v[0]), weighted_point(r, f->v[1]),
+                                  weighted_point(r, f->v[2]), weighted_point(r, p)};
         return mw__power(w) > 0;
     }
     uint32_t a = f->v[mw__next(infinite)], b = f->v[mw__prev(infinite)];
@@ -152,7 +156,8 @@ static uint32_t facets_dig(mw_regular *r, uint32_t first, uint32_t p, uint32_t *
                 r->facet[next].user = mark;
                 r->cavity[count++] = next;
             } else {
-                r->edge[(*edges)++] = (mw_regular_edge){r->facet[t].v[k], r->facet[t].v[k + 1], outer};
+                r->edge[(*edges)++] =
+                    (mw_regular_edge){r->facet[t].v[k], r->facet[t].v[k + 1], outer};
             }
         }
     return count;
@@ -198,7 +203,8 @@ static void vertex_take_over(mw_regular *r, uint32_t t, uint32_t p)
         mw_triangle *f = &r->facet[mw__link_triangle(half)];
         f->v[mw__link_edge(half)] = p;
         f->v[3] = f->v[0];
-        half = mw__half_link(r->facet, mw__half_prev(half)); /* the edge that comes in, from beyond: it leaves */
+        /* the edge that comes in, from beyond: it leaves */
+        half = mw__half_link(r->facet, mw__half_prev(half));
     } while (mw__link_triangle(half) != t);
 }
 

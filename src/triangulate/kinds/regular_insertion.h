@@ -26,7 +26,8 @@ typedef struct mw_regular {
 #define MW_REGULAR_FREED MW_NONE
 
 /* Room for n points. False when out of memory; to be released in either case. */
-bool mw__regular_create(mw_regular *r, const mw_point *point, const double *weight, const uint32_t *number, uint32_t n);
+bool mw__regular_create(mw_regular *r, const mw_point *point, const double *weight,
+                        const uint32_t *number, uint32_t n);
 void mw__regular_release(mw_regular *r);
 
 /* The first triangle, of three points that turn left. */

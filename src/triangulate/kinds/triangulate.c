@@ -13,7 +13,8 @@ static const struct {
     const char *name, *source, *help;
     mw_make_kind *make;
 } kinds[MW_KIND_COUNT] = {
-#define MW_KIND_ENTRY(id, symbol, name, source, help) [MW_KIND_##id] = {name, source, help, mw__make_##symbol},
+#define MW_KIND_ENTRY(id, symbol, name, source, help)                                              \
+    [MW_KIND_##id] = {name, source, help, mw__make_##symbol},
 #include <meshwalk/kinds.def>
 };
 
@@ -32,8 +33,8 @@ const char *mw_kind_help(mw_triangulation_kind kind)
     return (unsigned)kind < MW_KIND_COUNT ? kinds[kind].help : NULL;
 }
 
-mw_status mw__make_delaunay(mw_triangulation *t, const mw_kind_options *options, mw_kind_report *report,
-                            mw_error *error)
+mw_status mw__make_delaunay(mw_triangulation *t, const mw_kind_options *options,
+                            mw_kind_report *report, mw_error *error)
 {
     (void)t;
     (void)options;
@@ -72,7 +73,8 @@ static void triangulation_measure(const mw_triangulation *t, mw_kind_report *rep
     for (uint32_t i = 0; i < t->tri_count; i++)
         for (uint32_t k = 0; k < 3; k++) {
             const mw_triangle *tri = &t->tri[i];
-            mw_point a = t->point[tri->v[k]], b = t->point[tri->v[k + 1]], c = t->point[tri->v[mw__prev(k)]];
+            mw_point a = t->point[tri->v[k]], b = t->point[tri->v[k + 1]],
+                     c = t->point[tri->v[mw__prev(k)]];
             bool twice = tri->link[k] != MW_NONE && mw__link_triangle(tri->link[k]) < i;
             if (!twice) report->edge_length += hypot(b.x - a.x, b.y - a.y);
             least = fmin(least, angle_cotangent(a, b, c));
@@ -105,14 +107,16 @@ static bool triangulation_lay_out(mw_triangulation *t)
 }
 
 /* The mesh is a Delaunay triangulation: make it one of the kind. */
-static mw_status kind_convert(mw_triangulation_kind kind, mw_mesh *mesh, const mw_kind_options *options, mw_job *job,
-                              mw_kind_report *report, mw_error *error)
+static mw_status kind_convert(mw_triangulation_kind kind, mw_mesh *mesh,
+                              const mw_kind_options *options, mw_job *job, mw_kind_report *report,
+                              mw_error *error)
 {
     mw_triangulation t = {mesh->point, mesh->point_count, mesh->tri, mesh->tri_count, job};
     mw_job_span outer = mw__job_part(job, 0.9);
     mw_status status = kinds[kind].make(&t, options, report, error);
     mw__job_part_end(job, outer);
-    if (status == MW_OK && kind != MW_KIND_DELAUNAY && !triangulation_lay_out(&t)) status = mw__fail_memory(error);
+    if (status == MW_OK && kind != MW_KIND_DELAUNAY && !triangulation_lay_out(&t))
+        status = mw__fail_memory(error);
     mesh->tri = t.tri;
     mesh->tri_count = t.tri_count;
     if (status == MW_OK) triangulation_measure(&t, report);
@@ -126,13 +130,14 @@ typedef struct given_points {
 } given_points;
 
 /* For a Delaunay triangulation that is most of the work, for other kinds little of it. */
-static mw_status kind_make(mw_triangulation_kind kind, const given_points *given, const mw_kind_options *options,
-                           mw_job *job, uint32_t *duplicate_of, mw_kind_report *report, mw_mesh **out, mw_error *error)
+static mw_status kind_make(mw_triangulation_kind kind, const given_points *given,
+                           const mw_kind_options *options, mw_job *job, uint32_t *duplicate_of,
+                           mw_kind_report *report, mw_mesh **out, mw_error *error)
 {
     const bool plain = kind == MW_KIND_DELAUNAY;
     mw_job_span outer = mw__job_part(job, plain ? 0.9 : 0.2);
-    mw_status status = mw__delaunay_mesh(job, plain, given->points, given->count, given->stride, duplicate_of,
-                                         &report->delaunay, out, error);
+    mw_status status = mw__delaunay_mesh(job, plain, given->points, given->count, given->stride,
+                                         duplicate_of, &report->delaunay, out, error);
     mw__job_part_end(job, outer);
     outer = mw__job_part(job, plain ? 0.05 : 0.75);
     if (!status) status = kind_convert(kind, *out, options, job, report, error);
@@ -144,20 +149,22 @@ static mw_status kind_make(mw_triangulation_kind kind, const given_points *given
 }
 
 mw_status mw_triangulate(mw_triangulation_kind kind, const double *points, size_t n, size_t stride,
-                         const mw_kind_options *options, uint32_t *duplicate_of, mw_kind_report *report, mw_mesh **out,
-                         mw_error *error)
+                         const mw_kind_options *options, uint32_t *duplicate_of,
+                         mw_kind_report *report, mw_mesh **out, mw_error *error)
 {
     static const mw_kind_options defaults;
     mw_kind_report made = {.optimal = 1};
     if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "out is NULL");
     *out = NULL;
-    if ((unsigned)kind >= MW_KIND_COUNT) return mw__fail(error, MW_ERROR_ARGUMENT, "unknown kind of triangulation");
+    if ((unsigned)kind >= MW_KIND_COUNT)
+        return mw__fail(error, MW_ERROR_ARGUMENT, "unknown kind of triangulation");
     if (!options) options = &defaults;
     mw_status status = MW_RESERVED_CHECK(mw_kind_options, options, error);
     if (status) return status;
     mw_job job = mw__job(options->threads, options->progress);
     const given_points given = {points, n, stride};
-    status = mw__job_end(&job, kind_make(kind, &given, options, &job, duplicate_of, &made, out, error), error);
+    status = mw__job_end(
+        &job, kind_make(kind, &given, options, &job, duplicate_of, &made, out, error), error);
     if (status) {
         mw_mesh_destroy(*out);
         *out = NULL;
