@@ -272,7 +272,7 @@ static int ray_queries_run(ray_queries *r, const char *path)
     };
     if (s->lonlat)
         asked.columns = (query_columns){.axes = QUERY_LONLAT, .names = {"lon", "lat"}, .count = 2};
-    if (s->lonlat) asked.ground = GROUND_SPHERE;
+    if (s->lonlat) asked.domain = QUERIES_BY_LONLAT;
     asked.shown = asked.columns.count;
     return query_stream_run(&asked, path);
 }

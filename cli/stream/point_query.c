@@ -354,8 +354,8 @@ static void point_query_report(const void *self, report *r)
 {
     const point_query_context *context = self;
     const point_query_settings *settings = context->query->settings;
-    if (context->query->tally) context->query->tally(context->self, r);
-    for (int i = 0; i < MW_WHERE_COUNT && !context->query->tally; i++)
+    if (context->query->count_rows) context->query->count_rows(context->self, r);
+    for (int i = 0; i < MW_WHERE_COUNT && !context->query->count_rows; i++)
         report_count(r, mw_where_name((mw_where)i), context->statistics.where[i]);
     report_string(r, "walk", walk_name(settings->walk));
     report_string(r, "start", start_name(settings->start));
@@ -375,7 +375,7 @@ int point_query_run(const point_query *q, const char *points, const char *const 
         .begin = q->begin,
         .doing = "locating",
         .columns = {.axes = QUERY_PLANE, .names = {"x", "y"}, .count = 2},
-        .ground = GROUND_PLANE,
+        .domain = QUERIES_IN_PLANE,
         .mesh = q->path,
         .mesh_crs = q->crs,
         .shown = 2,

@@ -29,7 +29,7 @@ extern const choices point_query_walks, point_query_starts, point_query_descents
 int point_query_check_index(uint32_t cells, uint32_t layers);
 
 /* Add to a report how many points got which status. `self` is the command's own data. */
-typedef void point_query_tally(const void *self, report *r);
+typedef void point_query_count_rows(const void *self, report *r);
 
 /* Values at the points of a block. They are interpolated together, since each look-up waits for
  * memory. */
@@ -55,7 +55,7 @@ typedef struct point_query {
     char *crs;                  /* its coordinate system; NULL: not known */
     extent extent;              /* of its vertices */
     double begin;               /* monotonic_seconds when the command began */
-    point_query_tally *tally;   /* NULL: tell how many points got which mw_where */
+    point_query_count_rows *count_rows;   /* NULL: tell how many points got which mw_where */
     point_query_values *values; /* NULL: no values are asked for */
 } point_query;
 

@@ -82,7 +82,7 @@ static bool rows_write(const point_query *q, const void *self, const double poin
     return count > 0;
 }
 
-static void rows_tally(const void *self, report *r)
+static void polygon_rows_count(const void *self, report *r)
 {
     const polygon_rows *rows = self;
     report_count(r, "inside", atomic_load(&rows->counts->inside));
@@ -141,7 +141,7 @@ int polygon_query_run(const point_query_settings *settings, const polygon_file_s
     if (end == 0) end = polygon_file_read(&file, polygons, &settings->stream.common);
     if (end == 0)
         end = point_query_prepare(&q, mw_polygons_mesh(file.polygons), polygons->path, file.crs);
-    q.tally = rows_tally;
+    q.count_rows = polygon_rows_count;
     if (end == 0) end = rows_run(&q, &(polygon_rows){&file, &counts, details}, points);
     point_query_release(&q);
     polygon_file_release(&file);

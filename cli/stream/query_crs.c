@@ -25,7 +25,7 @@ int query_crs_check(const char *mesh_option, const char *points_option)
 query_preference query_crs_prefers(const query_crs_settings *s)
 {
     const char *crs = s->option && !option_means_mesh(s->option) ? s->option : s->mesh_crs;
-    if (s->ground != GROUND_PLANE || !crs) return PREFER_NOTHING;
+    if (s->domain != QUERIES_IN_PLANE || !crs) return PREFER_NOTHING;
     return crs_is_lonlat(crs) ? PREFER_LONLAT : PREFER_OTHERS;
 }
 
@@ -129,10 +129,10 @@ int query_crs_open(query_crs *c, const query_crs_settings *s, const char *path,
         c->told = s->mesh_crs != NULL;
         return 0;
     }
-    if (s->ground == GROUND_PLANE) return query_crs_open_plane(c, s, points, source);
+    if (s->domain == QUERIES_IN_PLANE) return query_crs_open_plane(c, s, points, source);
     c->of_rows = crs_of_source(s, points, source);
     c->told = c->of_rows != NULL;
-    if (s->ground == GROUND_SPACE || !c->of_rows || crs_is_lonlat(c->of_rows)) return 0;
+    if (s->domain == QUERIES_IN_SPACE || !c->of_rows || crs_is_lonlat(c->of_rows)) return 0;
     return query_crs_join(c, s, points, CRS_LONLAT);
 }
 

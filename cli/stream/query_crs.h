@@ -7,14 +7,14 @@
 #include "cli/input/query_source.h"
 
 /* What a command asks about, as far as coordinate systems go. */
-typedef enum query_ground {
-    GROUND_SPACE,  /* a surface in space: coordinates are taken as they are */
-    GROUND_SPHERE, /* directions by longitude and latitude, of whatever datum */
-    GROUND_PLANE,  /* a mesh, which may have a coordinate system */
-} query_ground;
+typedef enum query_domain {
+    QUERIES_IN_SPACE,  /* a surface in space: coordinates are taken as they are */
+    QUERIES_BY_LONLAT, /* directions by longitude and latitude, of whatever datum */
+    QUERIES_IN_PLANE,  /* a mesh, which may have a coordinate system */
+} query_domain;
 
 typedef struct query_crs_settings {
-    query_ground ground;
+    query_domain domain;
     const char *mesh, *mesh_crs; /* the path of the mesh, and its system; NULL: not known */
     const char *option;          /* --points-crs; NULL: not given */
     bool quiet;

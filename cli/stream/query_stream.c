@@ -247,7 +247,7 @@ static int pipeline_run_blocks(query_pipeline *p)
 static int pipeline_open_source(query_pipeline *p)
 {
     const query_stream *s = p->stream;
-    query_crs_settings crs = {.ground = s->ground,
+    query_crs_settings crs = {.domain = s->domain,
                               .mesh = files_is_standard(s->mesh) ? "standard input" : s->mesh,
                               .mesh_crs = s->mesh_crs,
                               .option = s->settings->source.crs,

@@ -48,8 +48,8 @@ typedef struct query_stream {
     double begin;      /* monotonic_seconds when the command began */
     const char *doing; /* for the progress: "locating" */
     query_columns columns;
-    query_ground ground;
-    const char *mesh, *mesh_crs; /* on GROUND_PLANE: its path, and its coordinate system or NULL */
+    query_domain domain;
+    const char *mesh, *mesh_crs; /* on QUERIES_IN_PLANE: its path, and its coordinate system or NULL */
     size_t shown;                /* columns of the query that --only-answers writes */
     const char *const *answers;  /* names of the answers' columns; NULL ends them */
     const char *kinds;           /* what these hold: 't' text, 'i' integer, 'r' real */

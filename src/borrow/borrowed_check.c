@@ -4,7 +4,7 @@
 #include <inttypes.h>
 #include <pthread.h>
 
-typedef struct borrowed_survey {
+typedef struct borrowed_scan {
     const mw_borrowed *mesh;
     pthread_mutex_t lock; /* of what follows */
     uint32_t bad;         /* the first triangle that breaks a promise, or MW_NONE */
@@ -12,7 +12,7 @@ typedef struct borrowed_survey {
     /* a triangle with an area that has no neighbour opposite to this corner */
     uint32_t border, corner;
     bool flat_pair; /* two flat triangles are neighbours */
-} borrowed_survey;
+} borrowed_scan;
 
 /* --- one triangle --- */
 
@@ -131,30 +131,30 @@ static mw_status check_links(const mw_borrowed *mesh, uint32_t t, const mw_borro
     return MW_OK;
 }
 
-static mw_status check_triangle(borrowed_survey *survey, uint32_t t, mw_error *error)
+static mw_status check_triangle(borrowed_scan *scan, uint32_t t, mw_error *error)
 {
-    const mw_borrowed *mesh = survey->mesh;
+    const mw_borrowed *mesh = scan->mesh;
     mw_borrowed_tile tile;
     mw_status status = check_corners(mesh, t, &tile, error);
     if (status) return status;
     double area = mw__orient2d(tile.p[0], tile.p[1], tile.p[2]);
     status = check_links(mesh, t, &tile, area, error);
     if (status) return status;
-    survey->flat += area == 0;
-    survey->reversed += area < 0;
+    scan->flat += area == 0;
+    scan->reversed += area < 0;
     for (uint32_t k = 0; k < 3; k++) {
         if (mw__borrowed_across(mesh, t, k) != MW_NONE) continue;
-        survey->borders++;
+        scan->borders++;
         if (area == 0) continue;
-        survey->border = t;
-        survey->corner = k;
+        scan->border = t;
+        scan->corner = k;
     }
-    return area == 0 ? check_flat(mesh, t, &tile, &survey->flat_pair, error) : MW_OK;
+    return area == 0 ? check_flat(mesh, t, &tile, &scan->flat_pair, error) : MW_OK;
 }
 
 /* --- all of them --- */
 
-static void survey_add(borrowed_survey *sum, const borrowed_survey *more)
+static void borrowed_scan_add(borrowed_scan *sum, const borrowed_scan *more)
 {
     pthread_mutex_lock(&sum->lock);
     if (more->bad < sum->bad) sum->bad = more->bad;
@@ -169,28 +169,28 @@ static void survey_add(borrowed_survey *sum, const borrowed_survey *more)
     pthread_mutex_unlock(&sum->lock);
 }
 
-static void survey_range(void *work, uint64_t from, uint64_t to)
+static void borrowed_scan_range(void *work, uint64_t from, uint64_t to)
 {
-    borrowed_survey *sum = work;
-    borrowed_survey some = {.mesh = sum->mesh, .bad = MW_NONE, .border = MW_NONE};
+    borrowed_scan *sum = work;
+    borrowed_scan some = {.mesh = sum->mesh, .bad = MW_NONE, .border = MW_NONE};
     for (uint32_t t = (uint32_t)from; t < to && some.bad == MW_NONE; t++)
         if (check_triangle(&some, t, NULL)) some.bad = t;
-    survey_add(sum, &some);
+    borrowed_scan_add(sum, &some);
 }
 
 mw_status mw__borrowed_check(mw_borrowed *mesh, mw_job *job, mw_error *error)
 {
-    borrowed_survey survey = {.mesh = mesh, .bad = MW_NONE, .border = MW_NONE};
-    pthread_mutex_init(&survey.lock, NULL);
+    borrowed_scan scan = {.mesh = mesh, .bad = MW_NONE, .border = MW_NONE};
+    pthread_mutex_init(&scan.lock, NULL);
     mw__job_stage(job, "checking neighbours", 0.9);
-    bool done = mw__job_ranges(job, mesh->tri_count, survey_range, &survey);
-    pthread_mutex_destroy(&survey.lock);
-    if (survey.bad != MW_NONE) return check_triangle(&survey, survey.bad, error);
+    bool done = mw__job_ranges(job, mesh->tri_count, borrowed_scan_range, &scan);
+    pthread_mutex_destroy(&scan.lock);
+    if (scan.bad != MW_NONE) return check_triangle(&scan, scan.bad, error);
     if (!done) return mw__fail_memory(error);
     mw__job_stage(job, "following the border", 0.1);
-    mesh->flat_count = survey.flat;
-    mesh->reversed_count = survey.reversed;
-    mesh->convex = survey.border != MW_NONE && !survey.flat_pair &&
-                   mw__borrowed_is_convex(mesh, survey.border, survey.corner, survey.borders);
+    mesh->flat_count = scan.flat;
+    mesh->reversed_count = scan.reversed;
+    mesh->convex = scan.border != MW_NONE && !scan.flat_pair &&
+                   mw__borrowed_is_convex(mesh, scan.border, scan.corner, scan.borders);
     return MW_OK;
 }

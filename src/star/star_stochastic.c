@@ -20,9 +20,9 @@ static MW_INLINE uint32_t stochastic_choose_edge(uint32_t beyond, uint32_t entry
     return beyond >> k & 1 ? k : other;
 }
 
-/* The step for walks in flight, on the same path: it makes all three tests, and no branch depends
+/* The step for interleaved walks, on the same path: it makes all three tests, and no branch depends
  * on their results. */
-static MW_INLINE mw_star_verdict star_stochastic_step_in_flight(mw_star_walk *w, mw_star_policy P)
+static MW_INLINE mw_star_verdict star_stochastic_step_interleaved(mw_star_walk *w, mw_star_policy P)
 {
     uint64_t coin = mw__toss(&w->random);
     uint32_t beyond = star_edges_beyond(w);
@@ -31,7 +31,7 @@ static MW_INLINE mw_star_verdict star_stochastic_step_in_flight(mw_star_walk *w,
 
 static MW_INLINE mw_star_verdict star_stochastic_step(mw_star_walk *w, mw_star_policy P)
 {
-    if (P.lanes) return star_stochastic_step_in_flight(w, P);
+    if (P.lanes) return star_stochastic_step_interleaved(w, P);
     uint64_t coin = mw__toss(&w->random);
     if (w->e == MW_STAR_NO_EDGE) {
         uint32_t k = (uint32_t)(coin * 3 >> 32);

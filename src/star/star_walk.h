@@ -116,8 +116,8 @@ static MW_INLINE mw_star_verdict star_leave(mw_star_walk *w, uint32_t e, mw_star
     return star_beyond(w, e, P) ? star_cross(w, e, P) : MW_STAR_FOUND;
 }
 
-/* Leave through edge `first`, else through edge `second`; otherwise the ray is here. Many walks in
- * flight hide the time of a second test, but not that of a mispredicted branch. */
+/* Leave through edge `first`, else through edge `second`; otherwise the ray is here. Many interleaved
+ * walks hide the time of a second test, but not that of a mispredicted branch. */
 static MW_INLINE mw_star_verdict star_leave_either(mw_star_walk *w, uint32_t first, uint32_t second,
                                                    mw_star_policy P)
 {
@@ -147,7 +147,7 @@ static MW_INLINE mw_star_verdict mw__star_drive(mw_star_walk *walk,
     return verdict;
 }
 
-/* Many walks in flight: while one waits for memory, the others continue. After a step the cache
+/* Many interleaved walks: while one waits for memory, the others continue. After a step the cache
  * line of the new facet is prefetched. After the last step the vertices are prefetched, which the
  * conclusion reads one lap later. */
 static MW_INLINE void

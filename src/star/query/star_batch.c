@@ -1,4 +1,4 @@
-/* star_batch.c - many queries. A thread has many walks of its chunk in flight. */
+/* star_batch.c - many queries. A thread interleaves many walks of its chunk. */
 #include "batch/batch.h"
 #include "base/random.h"
 #include "star/query/star_locate.h"
@@ -46,7 +46,7 @@ static void star_batch_in_turn(const star_batch *b, uint32_t first, uint32_t end
     }
 }
 
-/* --- many in flight --- */
+/* --- many interleaved --- */
 
 /* Each lane answers a part of the chunk, one query after the other. */
 typedef struct star_batch_feed {
@@ -90,7 +90,7 @@ static bool star_batch_deliver(mw_star_feed *base, uint32_t lane, mw_star_walk *
     return false;
 }
 
-static void star_batch_in_flight(const star_batch *b, uint32_t first, uint32_t count,
+static void star_batch_interleaved(const star_batch *b, uint32_t first, uint32_t count,
                                  uint32_t lanes)
 {
     star_batch_feed f = {.base = {star_batch_deliver}, .b = b};
@@ -115,7 +115,7 @@ static mw_counters star_batch_answer(const mw_batch *queries, uint32_t first, ui
     mw_counters counters = {0};
     uint32_t parts = count / LEAST_PART < MW_STAR_LANES ? count / LEAST_PART : MW_STAR_LANES;
     if (parts > 1 && !b->cursor.count && !b->star->surface->rwlock) {
-        star_batch_in_flight(b, first, count, parts);
+        star_batch_interleaved(b, first, count, parts);
         return counters;
     }
     if (parts == 0) parts = 1;

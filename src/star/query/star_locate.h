@@ -7,7 +7,7 @@
 /* Can the query be answered: is q finite and not the centre, and the star up to date? */
 bool mw__star_answerable(const mw_star *star, const double q[3]);
 
-/* --- a query in two halves, for several walks in flight --- */
+/* --- a query in two halves, for several interleaved walks --- */
 
 /* Start the walk of a query that can be answered, by the cursor's start. `last`: where the previous
  * query ended, or MW_NONE. Counts in *work, unless that is NULL. */

@@ -94,17 +94,17 @@ static int points_lattice(const mw_point *points, uint32_t from, uint32_t to)
 }
 
 /* What there is to know of the points before they are sorted. */
-typedef struct point_survey {
+typedef struct point_scan {
     const mw_point *points;
     pthread_mutex_t lock; /* of what follows */
     mw_extent extent;
     int lattice;
     uint32_t bad; /* the first point that is not finite; MW_NONE: all are */
-} point_survey;
+} point_scan;
 
-static void points_survey(void *work, uint64_t from, uint64_t to)
+static void points_scan(void *work, uint64_t from, uint64_t to)
 {
-    point_survey *s = work;
+    point_scan *s = work;
     mw_extent extent;
     uint32_t stop = points_extent(s->points, (uint32_t)from, (uint32_t)to, &extent);
     int lattice = points_lattice(s->points, (uint32_t)from, stop);
@@ -117,13 +117,13 @@ static void points_survey(void *work, uint64_t from, uint64_t to)
 
 static mw_status delaunay_measure(delaunay *d, mw_error *error)
 {
-    point_survey s = {.points = d->given,
+    point_scan s = {.points = d->given,
                       .extent = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}},
                       .lattice = INT_MAX,
                       .bad = MW_NONE};
     mw__job_stage(d->job, "measuring the extent", 0.02);
     pthread_mutex_init(&s.lock, NULL);
-    bool done = mw__job_ranges(d->job, d->arrays.n, points_survey, &s);
+    bool done = mw__job_ranges(d->job, d->arrays.n, points_scan, &s);
     pthread_mutex_destroy(&s.lock);
     if (!done) return mw__fail_memory(error);
     if (s.bad != MW_NONE) return mw__fail_at(error, -1, s.bad, "point %u is not finite", s.bad);

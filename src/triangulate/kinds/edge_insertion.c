@@ -254,15 +254,15 @@ static mw_insertion_result insertion_look(mw_insertion *in, mw_visible_triangle 
 {
     if (in->seen_count >= in->most_seen || in->seen_count >= MW_INSERTION_MOST_SEEN)
         return MW_INSERTION_SPENT;
-    mw_visible_triangle *sight =
-        insertion_array_with_room(in->seen, &in->seen_room, in->seen_count + 1, sizeof *sight);
-    if (!sight) return MW_INSERTION_MEMORY;
-    in->seen = sight;
+    mw_visible_triangle *visible =
+        insertion_array_with_room(in->seen, &in->seen_room, in->seen_count + 1, sizeof *visible);
+    if (!visible) return MW_INSERTION_MEMORY;
+    in->seen = visible;
     in->seen[in->seen_count++] = next;
     return MW_INSERTION_NONE;
 }
 
-/* Pass w, the apex beyond half-edge `half` of sight i: leave it on the given side, whose chain it
+/* Pass w, the apex beyond half-edge `half` of visible triangle i: leave it on the given side, whose chain it
  * joins. */
 static mw_insertion_result search_pass(insertion_search *s, uint32_t i, uint32_t w, hand side)
 {
@@ -325,7 +325,7 @@ static mw_insertion_result search_begin(insertion_search *s, uint32_t half)
     return search_is_open(s, &first, s->r, s->p) ? insertion_look(in, first) : MW_INSERTION_NONE;
 }
 
-/* The sight beyond which lies an s that makes things better. Chains are cut in full as long as the
+/* The visible triangle beyond which lies an s that makes things better. Chains are cut in full as long as the
  * work is not spent, and none is used after. */
 static mw_insertion_result search_find(insertion_search *s, uint32_t half, uint32_t *found)
 {
@@ -374,7 +374,7 @@ static bool path_room(mw_insertion *in, uint32_t n)
     return made && placed && edge_list;
 }
 
-/* made[] = the triangles to be removed, from t to that beyond sight `found`. */
+/* made[] = the triangles to be removed, from t to that beyond visible triangle `found`. */
 static bool path_list(mw_insertion *in, uint32_t t, uint32_t found)
 {
     uint32_t n = 1;
