@@ -49,11 +49,12 @@ typedef struct query_stream {
     const char *doing; /* for the progress: "locating" */
     query_columns columns;
     query_domain domain;
-    const char *mesh, *mesh_crs; /* on QUERIES_IN_PLANE: its path, and its coordinate system or NULL */
-    size_t shown;                /* columns of the query that --only-answers writes */
-    const char *const *answers;  /* names of the answers' columns; NULL ends them */
-    const char *kinds;           /* what these hold: 't' text, 'i' integer, 'r' real */
-    size_t answer_size;          /* bytes of the answer to one query */
+    /* on QUERIES_IN_PLANE: its path, and its coordinate system or NULL */
+    const char *mesh, *mesh_crs;
+    size_t shown;               /* columns of the query that --only-answers writes */
+    const char *const *answers; /* names of the answers' columns; NULL ends them */
+    const char *kinds;          /* what these hold: 't' text, 'i' integer, 'r' real */
+    size_t answer_size;         /* bytes of the answer to one query */
     query_stream_answer *answer;
     query_stream_row *row;
     query_stream_report *report;

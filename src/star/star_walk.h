@@ -116,8 +116,8 @@ static MW_INLINE mw_star_verdict star_leave(mw_star_walk *w, uint32_t e, mw_star
     return star_beyond(w, e, P) ? star_cross(w, e, P) : MW_STAR_FOUND;
 }
 
-/* Leave through edge `first`, else through edge `second`; otherwise the ray is here. Many interleaved
- * walks hide the time of a second test, but not that of a mispredicted branch. */
+/* Leave through edge `first`, else through edge `second`; otherwise the ray is here. Many
+ * interleaved walks hide the time of a second test, but not that of a mispredicted branch. */
 static MW_INLINE mw_star_verdict star_leave_either(mw_star_walk *w, uint32_t first, uint32_t second,
                                                    mw_star_policy P)
 {

@@ -91,7 +91,7 @@ static bool star_batch_deliver(mw_star_feed *base, uint32_t lane, mw_star_walk *
 }
 
 static void star_batch_interleaved(const star_batch *b, uint32_t first, uint32_t count,
-                                 uint32_t lanes)
+                                   uint32_t lanes)
 {
     star_batch_feed f = {.base = {star_batch_deliver}, .b = b};
     for (uint32_t i = 0; i < lanes; i++) {

@@ -118,9 +118,9 @@ static void points_scan(void *work, uint64_t from, uint64_t to)
 static mw_status delaunay_measure(delaunay *d, mw_error *error)
 {
     point_scan s = {.points = d->given,
-                      .extent = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}},
-                      .lattice = INT_MAX,
-                      .bad = MW_NONE};
+                    .extent = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}},
+                    .lattice = INT_MAX,
+                    .bad = MW_NONE};
     mw__job_stage(d->job, "measuring the extent", 0.02);
     pthread_mutex_init(&s.lock, NULL);
     bool done = mw__job_ranges(d->job, d->arrays.n, points_scan, &s);

@@ -262,8 +262,8 @@ static mw_insertion_result insertion_look(mw_insertion *in, mw_visible_triangle 
     return MW_INSERTION_NONE;
 }
 
-/* Pass w, the apex beyond half-edge `half` of visible triangle i: leave it on the given side, whose chain it
- * joins. */
+/* Pass w, the apex beyond half-edge `half` of visible triangle i: leave it on the given side,
+ * whose chain it joins. */
 static mw_insertion_result search_pass(insertion_search *s, uint32_t i, uint32_t w, hand side)
 {
     mw_insertion *in = s->in;
@@ -325,8 +325,8 @@ static mw_insertion_result search_begin(insertion_search *s, uint32_t half)
     return search_is_open(s, &first, s->r, s->p) ? insertion_look(in, first) : MW_INSERTION_NONE;
 }
 
-/* The visible triangle beyond which lies an s that makes things better. Chains are cut in full as long as the
- * work is not spent, and none is used after. */
+/* The visible triangle beyond which lies an s that makes things better. Chains are cut in full as
+ * long as the work is not spent, and none is used after. */
 static mw_insertion_result search_find(insertion_search *s, uint32_t half, uint32_t *found)
 {
     mw_insertion *in = s->in;
