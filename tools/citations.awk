@@ -39,7 +39,7 @@ END {
 }
 
 # The citations in brackets; keeps what an open bracket begins.
-function take(    inside, link)
+function take(    inside)
 {
     while (match(body, /\[[^][]*[a-z.,)] (19|20)[0-9][0-9][^][]*\]/)) {
         inside = substr(body, RSTART + 1, RLENGTH - 2)

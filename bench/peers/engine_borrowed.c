@@ -1,4 +1,5 @@
 #include "bench/peers/engine_borrowed.h"
+#include "bench/peers/found_locations.h"
 #include "cli/frame/monotonic_clock.h"
 
 #include <meshwalk/meshwalk.h>
@@ -9,8 +10,7 @@
 typedef struct borrowed_engine {
     uint32_t *neighbours;
     mw_borrowed *mesh;
-    mw_location *found;
-    size_t room;
+    found_locations found;
 } borrowed_engine;
 
 void engine_borrowed_destroy(void *self)
@@ -19,7 +19,7 @@ void engine_borrowed_destroy(void *self)
     if (!o) return;
     mw_borrowed_release(o->mesh);
     free(o->neighbours);
-    free(o->found);
+    free(o->found.at);
     free(o);
 }
 
@@ -66,34 +66,18 @@ size_t engine_borrowed_bytes(const void *self)
     return info.bytes;
 }
 
-/* Memory for the answers, touched: not the system's time is to be measured. */
-static bool borrowed_engine_make_room(borrowed_engine *o, size_t n)
-{
-    if (n <= o->room) return true;
-    free(o->found);
-    o->found = malloc(n * sizeof *o->found);
-    o->room = o->found ? n : 0;
-    if (o->found) memset(o->found, 0xff, n * sizeof *o->found);
-    return o->found;
-}
-
-static void borrowed_engine_take_answers(const borrowed_engine *o, size_t n, uint64_t *answers)
-{
-    for (size_t i = 0; i < n; i++)
-        answers[i] = o->found[i].triangle == MW_NONE ? ENGINE_NONE : o->found[i].triangle;
-}
-
 double engine_borrowed_locate(void *self, const double *queries, size_t n, unsigned threads,
                               uint64_t *answers)
 {
     borrowed_engine *o = self;
     mw_borrowed_query_options options = {.threads = threads};
-    if (!borrowed_engine_make_room(o, n)) return ENGINE_FAILED;
+    if (!found_locations_reserve(&o->found, n)) return ENGINE_FAILED;
     double clock = monotonic_seconds();
-    if (mw_borrowed_locate_batch(o->mesh, queries, n, 2, &options, o->found, NULL, NULL) != MW_OK)
+    if (mw_borrowed_locate_batch(o->mesh, queries, n, 2, &options, o->found.at, NULL, NULL) !=
+        MW_OK)
         return ENGINE_FAILED;
     double seconds = monotonic_seconds() - clock;
-    borrowed_engine_take_answers(o, n, answers);
+    found_locations_take(&o->found, n, answers);
     return seconds;
 }
 
@@ -103,11 +87,11 @@ double engine_borrowed_locate_single(void *self, const double *queries, size_t n
     borrowed_engine *o = self;
     mw_borrowed_cursor cursor = {0};
     (void)threads;
-    if (!borrowed_engine_make_room(o, n)) return ENGINE_FAILED;
+    if (!found_locations_reserve(&o->found, n)) return ENGINE_FAILED;
     double clock = monotonic_seconds();
     for (size_t i = 0; i < n; i++)
-        o->found[i] = mw_borrowed_locate(o->mesh, &cursor, queries[2 * i], queries[2 * i + 1]);
+        o->found.at[i] = mw_borrowed_locate(o->mesh, &cursor, queries[2 * i], queries[2 * i + 1]);
     double seconds = monotonic_seconds() - clock;
-    borrowed_engine_take_answers(o, n, answers);
+    found_locations_take(&o->found, n, answers);
     return seconds;
 }

@@ -1,4 +1,5 @@
 #include "bench/peers/engine_meshwalk.h"
+#include "bench/peers/found_locations.h"
 #include "bench/peers/engine_borrowed.h"
 #include "cli/frame/monotonic_clock.h"
 
@@ -11,8 +12,7 @@ typedef struct meshwalk_engine {
     mw_mesh *mesh;
     mw_locator *locator;
     mw_index *index; /* or NULL */
-    mw_location *found;
-    size_t room;
+    found_locations found;
 } meshwalk_engine;
 
 static const char *meshwalk_version(void)
@@ -27,7 +27,7 @@ static void meshwalk_engine_destroy(void *self)
     mw_index_destroy(o->index);
     mw_locator_destroy(o->locator);
     mw_mesh_destroy(o->mesh);
-    free(o->found);
+    free(o->found.at);
     free(o);
 }
 
@@ -87,34 +87,17 @@ static size_t meshwalk_engine_bytes(const void *self)
     return mw_mesh_bytes(o->mesh) + locator.bytes + index.bytes;
 }
 
-/* Memory for the answers, touched: not the system's time is to be measured. */
-static bool meshwalk_engine_make_room(meshwalk_engine *o, size_t n)
-{
-    if (n <= o->room) return true;
-    free(o->found);
-    o->found = malloc(n * sizeof *o->found);
-    o->room = o->found ? n : 0;
-    if (o->found) memset(o->found, 0xff, n * sizeof *o->found);
-    return o->found;
-}
-
-static void meshwalk_engine_take_answers(const meshwalk_engine *o, size_t n, uint64_t *answers)
-{
-    for (size_t i = 0; i < n; i++)
-        answers[i] = o->found[i].triangle == MW_NONE ? ENGINE_NONE : o->found[i].triangle;
-}
-
 static double meshwalk_locate_batch(void *self, const double *queries, size_t n, unsigned threads,
                                     uint64_t *answers)
 {
     meshwalk_engine *o = self;
     mw_query_options options = {.threads = threads, .index = o->index};
-    if (!meshwalk_engine_make_room(o, n)) return ENGINE_FAILED;
+    if (!found_locations_reserve(&o->found, n)) return ENGINE_FAILED;
     double clock = monotonic_seconds();
-    if (mw_locate_batch(o->locator, queries, n, 2, &options, o->found, NULL, NULL) != MW_OK)
+    if (mw_locate_batch(o->locator, queries, n, 2, &options, o->found.at, NULL, NULL) != MW_OK)
         return ENGINE_FAILED;
     double seconds = monotonic_seconds() - clock;
-    meshwalk_engine_take_answers(o, n, answers);
+    found_locations_take(&o->found, n, answers);
     return seconds;
 }
 
@@ -123,14 +106,14 @@ static double meshwalk_locate_one_by_one(meshwalk_engine *o, const double *queri
 {
     mw_cursor cursor;
     mw_query_options options = {.start = start, .index = o->index};
-    if (!meshwalk_engine_make_room(o, n) ||
+    if (!found_locations_reserve(&o->found, n) ||
         mw_cursor_init(o->locator, &options, &cursor, NULL) != MW_OK)
         return ENGINE_FAILED;
     double clock = monotonic_seconds();
     for (size_t i = 0; i < n; i++)
-        o->found[i] = mw_locate(o->locator, &cursor, queries[2 * i], queries[2 * i + 1]);
+        o->found.at[i] = mw_locate(o->locator, &cursor, queries[2 * i], queries[2 * i + 1]);
     double seconds = monotonic_seconds() - clock;
-    meshwalk_engine_take_answers(o, n, answers);
+    found_locations_take(&o->found, n, answers);
     return seconds;
 }
 

@@ -29,16 +29,11 @@ typedef struct query_block {
 } query_block;
 
 /* What a command does for its stream. `self` is the command's own data.
- *   _answer
- *   _row
- *
- *
- *   _report
- *
- * answers a block; returns 0, or an exit code after a complaint writes the cells of one answer,
- * each behind a comma; returns false if there is none. The query is in the coordinate system of the
- * mesh, as for _answer. Several threads call it at the same time adds to the report of --stats,
- * which has the number of points and the times already */
+ *   _answer  answers a block; returns 0, or an exit code after a complaint
+ *   _row     writes the cells of one answer, each behind a comma; returns false if there is none.
+ *            The query is in the coordinate system of the mesh, as for _answer. Several threads
+ *            call it at the same time
+ *   _report  adds to the report of --stats, which has the number of points and the times already */
 typedef int query_stream_answer(void *self, const query_block *block, void *answers);
 typedef bool query_stream_row(const void *self, const double *query, const void *answer, text *out);
 typedef void query_stream_report(const void *self, report *r);

@@ -139,9 +139,8 @@ static mw_verdict walk_hand_over(const mw_tiling *tiling, mw_walk *walk, mw_verd
     mw_walk end = mw__walk_begin(tiling, walk->q, walk->t, 0, 0, counted ? &more : NULL);
     if (!tiling->border_loops) end.stage = MW_STAGE_FINAL;
     mw_verdict verdict = mw__walk_surely(&end, counted);
-    bool round = tiling->border_loops &&
-                 /* it may have gone round from another edge of the same border */
-                 verdict == MW_VERDICT_LEFT;
+    /* it may have gone round from another edge of the same border */
+    bool round = tiling->border_loops && verdict == MW_VERDICT_LEFT;
     *changed = verdict != before || (end.t != walk->t && !round);
     if (*changed && counted) work_add_final(walk->work, &more);
     walk->t = end.t;

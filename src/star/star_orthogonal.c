@@ -10,7 +10,6 @@
  *                              tested: the ray is there or close, and the stochastic walk ends the
  *                              search.
  *
- *
  * The walk does not know that longitudes -pi and pi are the same. So it also ends in a facet of the
  * seam: one that lies across longitude pi or contains a pole, or any other that has the wrong
  * orientation in the plane. a is the centroid. The printed case, q to the north-east of a (or

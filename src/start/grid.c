@@ -27,8 +27,8 @@
  * Number of cells: with more of them walks are shorter, but time hardly is, since the grid itself
  * has to come from memory. 10^6 uniform points, one thread, ns per query, cells per vertex:
  *     1/8  alone 519, in a batch 82
- *
- * 1/2  alone 453, in a batch 69        1  alone 430, in a batch 63
+ *     1/2  alone 453, in a batch 69
+ *     1    alone 430, in a batch 63
  * So one cell for two vertices: 2 bytes a vertex. */
 #include "start/grid.h"
 

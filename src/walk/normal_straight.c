@@ -3,19 +3,16 @@
  *
  *      l               . n
  *      |\              .
- *
- * The line leads from p, the middle of the edge of the first tile that faces the vertex s nearest
- * to q, to q; n is its normal at q. With l and r the left and right ends of the edge
  *    p *-\- - - - - - - q
- *
- * just crossed and s the third vertex: where s is past n, the walk is close to q and ends.
  *      |  \            .
  *      |___s           .
  *      r
  *
- * Otherwise the line leaves over rs where s lies to its left, over sl where not. Two positions by
- * the equations of two fixed lines a tile, no orientation test; then an exact walk goes the last
- * steps.
+ * The line leads from p, the middle of the edge of the first tile that faces the vertex s nearest
+ * to q, to q; n is its normal at q. With l and r the left and right ends of the edge just crossed
+ * and s the third vertex: where s is past n, the walk is close to q and ends. Otherwise the line
+ * leaves over rs where s lies to its left, over sl where not. Two positions by the equations of
+ * two fixed lines a tile, no orientation test; then an exact walk goes the last steps.
  *
  * Departures from the printed pseudocode. The normal has the minus sign that eq. 7 lost (slip 1),
  * and over which edge the line leaves is as in the prose of App. A and in Alg. 5 (slip 2). Both

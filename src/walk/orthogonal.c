@@ -16,17 +16,18 @@
  * short of a, a lies beyond it: two comparisons; then orient2d of the edge and a tells. In the tile
  * that holds a, turn, and follow the vertical line to q in the same way.
  * Departures from the printed pseudocode.
- *   Slip 3: a lies beyond the edge from r to l where orient2d(r, l, a) < 0; printed, the walk goes
+ * - Slip 3: a lies beyond the edge from r to l where orient2d(r, l, a) < 0; printed, the walk goes
  *   on where a is inside.
- *   The turn: printed, it looks at one end of the exit edge. Here the sides of all three vertices
- *   are compared with the vertical line; it leaves over the edge that runs from right to left.
- *   This covers every case of l and r. The other directions, "analogous" in print, are the same
- *   code in turned coordinates: axis.h. Leaving the hull, only told in the text. First, q may lie
- *   beyond the hull edge itself: then it is outside, by an exact test. Else a horizontal leg is
- *   followed by a vertical one along another line, through an inner point of the tile (between its
- *   centroid and its vertex nearest to q), and whatever ends that leg, the walk runs again from
- *   there, from the vertex nearest to q. In a thin hull askew to the axes all this does not help;
- *   so after RESTARTS it is left to an exact walk.
+ * - The turn: printed, it looks at one end of the exit edge. Here the sides of all three vertices
+ *   are compared with the vertical line; it leaves over the edge that runs from right to left. This
+ *   covers every case of l and r.
+ * - The other directions, "analogous" in print, are the same code in turned coordinates: axis.h.
+ * - Leaving the hull, only told in the text. First, q may lie beyond the hull edge itself: then it
+ *   is outside, by an exact test. Else a horizontal leg is followed by a vertical one along
+ *   another line, through an inner point of the tile (between its centroid and its vertex nearest
+ *   to q), and whatever ends that leg, the walk runs again from there, from the vertex nearest to
+ *   q. In a thin hull askew to the axes all this does not help; so after RESTARTS it is left to an
+ *   exact walk.
  * Edge cases. q = p: the first tile is the answer. q above or below p: there is only the vertical
  * leg, from p. q at the height of p: a is q, and the horizontal leg finds it. A vertex on the line
  * of a leg counts as right of it, but where the walk turns to the right, as left

@@ -2,17 +2,15 @@
  *
  *           q---s
  *         / |  / \
- *
- * The triangles that the segment a->b crosses form a channel. It is emptied and filled again on
- * both sides of the new edge: ears are cut off the boundary, those with a short base first, then
- * put
- *       a...|./...w--b back in the opposite order, with flips that keep the Delaunay property
- *       [Lawson 1977]. The subsegment
+ *       a...|./...w--b
  *         \ | /  /
  *           p---'
  *
- * ends at the first vertex w on the segment. The right boundary runs a, p, ..., w, the left
- * boundary w, s, q, ..., a: the channel lies to their left.
+ * The triangles that the segment a->b crosses form a channel. It is emptied and filled again on
+ * both sides of the new edge: ears are cut off the boundary, those with a short base first, then
+ * put back in the opposite order, with flips that keep the Delaunay property [Lawson 1977]. The
+ * subsegment ends at the first vertex w on the segment. The right boundary runs a, p, ..., w, the
+ * left boundary w, s, q, ..., a: the channel lies to their left.
  *
  * Why one may cut off an ear p, q, r wherever the boundary turns left: every vertex of the boundary
  * sees a point of the segment across the channel, and these points follow each other as the
@@ -261,9 +259,8 @@ static void channel_find_mates(mw_segment_insertion *c, const segment_channel *c
         for (size_t i = 0; i < counts[r]; i++) {
             uint32_t outer = boundaries[r][i].outer;
             if (outer == MW_NONE || c->tri[mw__link_triangle(outer)].user != IN_CHANNEL) continue;
-            boundaries[r][i].mate =
-                /* no edge lies on both sides of the segment */
-                &boundaries[r][mw__half_start(c->tri, outer)];
+            /* no edge lies on both sides of the segment */
+            boundaries[r][i].mate = &boundaries[r][mw__half_start(c->tri, outer)];
             boundaries[r][i].half = MW_NONE;
         }
     for (size_t i = 0; i < ch->triangle_count; i++) c->tri[c->channel[i]].user = 0;
