@@ -122,7 +122,7 @@ typedef struct mw_check_options {
  *         MW_CANCELLED.
  *
  * Thread-safe. O(n) for local defects; O(b log^2 b) expected for b border edges, whether they
- * cross or not (docs/guarantees.md).
+ * cross or not (docs/proofs/tilings.md).
  */
 MW_API mw_status mw_check_arrays(const mw_arrays *arrays, const mw_check_options *options,
                                  mw_check *check, mw_error *error);

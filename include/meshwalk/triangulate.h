@@ -136,7 +136,7 @@ typedef struct mw_kind_options {
  * corner. A point on the hull that is no corner is hidden or not by the order of insertion. Equal
  * weights give a Delaunay triangulation. About 2 us and 250 bytes per point.
  *
- * docs/guarantees.md says what is optimal and what makes it slow.
+ * docs/proofs/optimal-triangulations.md says what is optimal and what makes it slow.
  *
  * @param kind          the kind
  * @param points        as for mw_delaunay()
@@ -254,7 +254,7 @@ MW_API void mw_constrained_edges_release(mw_constrained_edges *edges);
  *         cross in k^2 / 2 points), or 2^32 - 2 segments; MW_ERROR_MEMORY, MW_CANCELLED.
  *
  * Thread-safe. One thread after the Delaunay triangulation; time about proportional to the
- * triangles that segments cross (docs/guarantees.md).
+ * triangles that segments cross (docs/proofs/delaunay.md).
  */
 MW_API mw_status mw_constrained_delaunay(const mw_constraints *constraints,
                                          const mw_constrain_options *options,

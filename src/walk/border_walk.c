@@ -25,9 +25,10 @@
  * Where nothing is beyond any border, as on tiles that fill their hull, q is outside as soon as the
  * line leaves.
  * Ends on every embedding: each time the line comes back it does so farther on than it left. But it
- * may come back very often, and go along the same border each time. So its steps are limited, and a
- * second form takes over, which goes all along a border and on where the line comes back last: if
- * it ever leaves over the same border again, it is for good. docs/guarantees.md has the proofs. */
+ * may come back very often, and go along the same border each time. So its steps are limited. If
+ * they do not suffice, a second form takes over: it goes all along a border, and continues where
+ * the line comes back last. If the line leaves over that border again, it does not come back.
+ * Proof: docs/proofs/walks.md. */
 #include "walk/drive.h"
 
 /* phases; round: where the border's last vertex lies */
