@@ -1,9 +1,9 @@
-#include "cli/input/traced_constraints.h"
+#include "cli/vertices/traced_constraints.h"
 #include "cli/frame/message.h"
 #include "cli/frame/progress.h"
 #include "cli/frame/text.h"
-#include "cli/input/constraint_file.h"
-#include "cli/input/vertex_crs.h"
+#include "cli/constraints/constraint_file.h"
+#include "cli/vertices/vertex_crs.h"
 
 #include <inttypes.h>
 #include <stdbool.h>

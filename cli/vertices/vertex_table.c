@@ -1,9 +1,9 @@
-#include "cli/input/vertex_table.h"
+#include "cli/vertices/vertex_table.h"
 #include "cli/frame/files.h"
 #include "cli/frame/message.h"
 #include "cli/frame/progress.h"
 #include "cli/frame/text.h"
-#include "cli/input/las_classes.h"
+#include "cli/vertices/las_classes.h"
 #include "cli/input/query_columns.h"
 
 #include <inttypes.h>

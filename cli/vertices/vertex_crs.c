@@ -1,4 +1,4 @@
-#include "cli/input/vertex_crs.h"
+#include "cli/vertices/vertex_crs.h"
 #include "cli/frame/files.h"
 #include "cli/frame/message.h"
 #include "cli/gdal/gdal_crs.h"
