@@ -71,7 +71,7 @@ typedef enum mw_defect_kind {
     MW_DEFECT_COUNT
 } mw_defect_kind;
 
-/** One defect and its place. Members that do not apply are MW_NONE; edges 255. */
+/** One defect and where it is. Members that do not apply are MW_NONE; edges 255. */
 typedef struct mw_defect {
     mw_defect_kind kind;
     uint32_t triangle, other;

@@ -10,7 +10,7 @@
  *
  * Walk along the line from a point p of the first tile's edge to q, as the straight walk does.
  * Where the line leaves the mesh, go along the border, turning round its vertices through tiles,
- * until an edge is met by which the line comes back ("in") behind the place where it left ("out")
+ * until an edge is met by which the line comes back ("in") behind the point where it left ("out")
  * and not behind q: there the walk goes on. If all the border from the way out round to itself has
  * no such edge, q lies on the far side of it: outside, or in the hole that it bounds.
  * Departures from the printed pseudocode (slip 6). A vertex on the line counts as one to its right,
