@@ -244,7 +244,7 @@ fi
 # Real files: what comes out is sound, keeps its constraints apart from the hull, and crossings are named.
 data=${MW_SHARED:-/nowhere}/domain
 for file in "$data"/*.poly "$data"/*.geojson*; do
-    [[ -f $file ]] || continue
+    [[ -f $file ]] || { left_out "there is no ../shared/data"; continue; }
     [[ $file == *.poly || $geojson == true ]] || continue
     run triangulate --constraints "$file" -q -o real.off
     holds "taken, or refused with a reason" test $code == 0 -o $code == 3

@@ -285,7 +285,7 @@ fi
 shared=${MW_SHARED:-}
 "$meshwalk" triangulate "$source_tree/data/jacksboro.csv" -q -o terrain.ply
 for mesh in terrain.ply "$shared/domain/greenland.node.gz"; do
-    [[ -r $mesh ]] || continue
+    [[ -r $mesh ]] || { left_out "there is no ../shared/data"; continue; }
     run info --json "$mesh"
     read -r box < <(perl -MJSON::PP -e 'local $/; my $i = decode_json(<STDIN>); print "@{$i->{low}} @{$i->{high}}\n"' <"$logs/out")
     awk -v box="$box" 'BEGIN { srand(5); split(box, b, " ")

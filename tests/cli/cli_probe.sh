@@ -212,7 +212,7 @@ holds "one thread and two print the same" same_text 1.csv 2.csv
 
 # Real surfaces, where they are at hand: what walks find, certain probes find, or something nearer.
 data=${MW_SHARED:-}/surface
-[[ -d $data ]] || finish
+[[ -d $data ]] || { left_out "there is no ../shared/data"; finish; }
 for file in bunny_closed.off.gz pawn.obj knot2.off.gz shark_holes.off.gz plate_holes.stl bunny_zipper.ply.gz; do
     run info --as surface --json "$data/$file"; exits 0
     perl -MJSON::PP -e 'local $/; my $f = decode_json(<STDIN>); my ($l, $h) = @{$f}{qw(low high)}; srand 5;

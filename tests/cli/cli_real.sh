@@ -16,7 +16,7 @@ awk -F, -v CONVFMT=%.17g 'FNR == 1 { next } NR == FNR { z[($1 + 0) "," ($2 + 0)]
     z[($1 + 0) "," ($2 + 0)] != $3 + 0 { print; exit }' "$terrain" "$logs/out" >"$logs/differ"
 holds "each height is the one in the file: $(<"$logs/differ")" test ! -s "$logs/differ"
 
-[[ -d $data ]] || finish
+[[ -d $data ]] || { left_out "there is no ../shared/data"; finish; }
 printf '0 0\n' >q.xyz
 printf '0 0 1\n' >ray.xyz
 printf '0 0 9 0 0 -1\n' >probe.xyz
