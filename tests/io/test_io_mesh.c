@@ -151,8 +151,8 @@ static void test_polygons(void **state)
 {
     (void)state;
     static const uint32_t three[] = {0, 0, 0}, two[] = {0, 0};
-    CUT("a.off", "OFF\n5 1 0\n2 2 0\n0 2 0\n-1 1 0\n0 0 0\n2 0 0\n5 2 3 4 0 1\n", 3, three, 0, 1,
-        2, 0, 2, 3, 0, 3, 4);
+    CUT("a.off", "OFF\n5 1 0\n2 2 0\n0 2 0\n-1 1 0\n0 0 0\n2 0 0\n5 2 3 4 0 1\n", 3, three, 0, 1, 2,
+        0, 2, 3, 0, 3, 4);
     /* from vertex 0, the triangle 0 1 2 would be flat */
     CUT("a.off", "OFF\n5 1 0\n0 0 0\n1 0 0\n2 0 0\n2 2 0\n0 2 0\n5 0 1 2 3 4\n", 3, three, 1, 2, 3,
         1, 3, 4, 1, 4, 0);
@@ -432,14 +432,19 @@ static void test_standard_input(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_off),        cmocka_unit_test(test_obj),
-        cmocka_unit_test(test_ply_ascii),  cmocka_unit_test(test_quadrilaterals),
+        cmocka_unit_test(test_off),
+        cmocka_unit_test(test_obj),
+        cmocka_unit_test(test_ply_ascii),
+        cmocka_unit_test(test_quadrilaterals),
         cmocka_unit_test(test_polygons),
         cmocka_unit_test(test_concave),
         cmocka_unit_test(test_ply_strips),
-        cmocka_unit_test(test_ply_binary), cmocka_unit_test(test_ply_crlf_header),
-        cmocka_unit_test(test_stl),        cmocka_unit_test(test_node_ele),
-        cmocka_unit_test(test_line_ends),  cmocka_unit_test(test_standard_input),
+        cmocka_unit_test(test_ply_binary),
+        cmocka_unit_test(test_ply_crlf_header),
+        cmocka_unit_test(test_stl),
+        cmocka_unit_test(test_node_ele),
+        cmocka_unit_test(test_line_ends),
+        cmocka_unit_test(test_standard_input),
     };
     return cmocka_run_group_tests(tests, files_enter, files_leave);
 }

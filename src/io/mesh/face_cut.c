@@ -21,8 +21,8 @@ static mw_point cut_point(const cut_view *f, size_t i)
 /* The side to which the face turns at corner i: 1 left, -1 right, 0 neither. */
 static int cut_turn(const cut_view *f, size_t i)
 {
-    double turn = mw__orient2d(cut_point(f, i + f->count - 1), cut_point(f, i),
-                               cut_point(f, i + 1));
+    double turn =
+        mw__orient2d(cut_point(f, i + f->count - 1), cut_point(f, i), cut_point(f, i + 1));
     return (turn > 0) - (turn < 0);
 }
 

@@ -18,7 +18,6 @@
  * count - 2 triangles, which turn as the face does. `points` holds x, y, z of every vertex.
  * Returns false if the face is not convex. A face without area, or with coordinates that are
  * not finite, is cut as a fan: what is wrong with it is seen in its triangles. */
-bool mw__face_cut(const double *points, const uint32_t *corners, size_t count,
-                  uint32_t *triangles);
+bool mw__face_cut(const double *points, const uint32_t *corners, size_t count, uint32_t *triangles);
 
 #endif
