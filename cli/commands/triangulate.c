@@ -47,7 +47,7 @@ static const char *keep_help(int i)
         "inside, where there are polygons or holes, or FILE is a .poly; else hull",
         "all triangles of the convex hull",
         "those inside a polygon, or without polygons those that constraints part from the outside "
-        "and from the places of holes"}[i];
+        "and from the points of holes"}[i];
 }
 static const choices kind_choices = {"kind of triangulation", kind_name, kind_help};
 static const choices keep_choices = {"part to keep", keep_name, keep_help};

@@ -73,7 +73,7 @@ static void vertices_add(gdal_vertices *v, size_t column)
     v->values[v->width++] = (vertex_value){.column = column, .number = number};
 }
 
-static int vertices_select(gdal_vertices *v, const char *list)
+static int vertices_choose(gdal_vertices *v, const char *list)
 {
     for (const char *item = list;; item++) {
         size_t length = strcspn(item, ",");
@@ -102,7 +102,7 @@ int gdal_vertices_open(gdal_vertices **vertices, const char *path,
     v->values = calloc(v->layer.column_count, sizeof *v->values);
     if (!v->values) return fail_memory();
     v->all = v->layer.gdal->OGR_L_GetFeatureCount(v->layer.layer, 0);
-    if (options->columns) return vertices_select(v, options->columns);
+    if (options->columns) return vertices_choose(v, options->columns);
     for (size_t c = 0; c < v->layer.column_count; c++) vertices_add(v, c);
     return 0;
 }

@@ -18,27 +18,29 @@ struct vertex_source {
 
 /* --- opening ---------------------------------------------------------------------------------- */
 
-static int source_refuse(const char *path, const char *why)
+static int vertex_source_refuse(const char *path, const char *why)
 {
     complain("%s: %s", files_is_standard(path) ? "standard input" : path, why);
     return END_USAGE;
 }
 
-static int source_open_features(vertex_source *s, const char *path,
-                                const vertex_source_options *options)
+static int vertex_source_open_features(vertex_source *s, const char *path,
+                                       const vertex_source_options *options)
 {
     const gdal_vertices_options how = {options->layer, options->where, options->columns};
-    if (options->classes) return source_refuse(path, "option '--class' is for LAS");
+    if (options->classes) return vertex_source_refuse(path, "option '--class' is for LAS");
     return gdal_vertices_open(&s->features, path, &how);
 }
 
-static int source_open_table(vertex_source *s, const char *path,
-                             const vertex_source_options *options)
+static int vertex_source_open_table(vertex_source *s, const char *path,
+                                    const vertex_source_options *options)
 {
     mw_error error;
     mw_point_reader_options how = {.columns = options->columns, .texts = 1};
-    if (options->layer) return source_refuse(path, "option '--layer' is for files that GDAL reads");
-    if (options->where) return source_refuse(path, "option '--where' is for files that GDAL reads");
+    if (options->layer)
+        return vertex_source_refuse(path, "option '--layer' is for files that GDAL reads");
+    if (options->where)
+        return vertex_source_refuse(path, "option '--where' is for files that GDAL reads");
     int end = options->classes ? las_classes_parse(options->classes, how.classes) : 0;
     if (end) return end;
     if (mw_point_reader_open(path, &how, &s->reader, &error) != MW_OK) return fail_reading(&error);
@@ -52,8 +54,8 @@ int vertex_source_open(vertex_source **source, const char *path,
     vertex_source *s = *source = calloc(1, sizeof *s);
     if (!s) return fail_memory();
     s->chosen = options->columns != NULL;
-    return gdal_points_known(path) ? source_open_features(s, path, options)
-                                   : source_open_table(s, path, options);
+    return gdal_points_known(path) ? vertex_source_open_features(s, path, options)
+                                   : vertex_source_open_table(s, path, options);
 }
 
 void vertex_source_close(vertex_source *s)
@@ -149,8 +151,9 @@ static size_t table_height(const vertex_source *s)
     if (name_means_z(vertex_source_column(s, 2))) return 2;
     size_t height = columns_only(s, 2, name_means_height);
     if (height != SIZE_MAX) return height;
-    size_t x = mw_point_reader_place(s->reader, 0), y = mw_point_reader_place(s->reader, 1);
-    size_t third = mw_point_reader_place(s->reader, 2);
+    size_t x = mw_point_reader_column_number(s->reader, 0),
+           y = mw_point_reader_column_number(s->reader, 1);
+    size_t third = mw_point_reader_column_number(s->reader, 2);
     return width == 3 && third > x && third > y ? 2 : SIZE_MAX;
 }
 
