@@ -340,7 +340,7 @@ MW_API mw_status mw_point_reader_select(mw_point_reader *reader, const size_t *c
  * @param column  number of the value within a point, from 0
  * @return the number of the column in mw_point_table, from 0; SIZE_MAX = no such value.
  *         Thread-safe. */
-MW_API size_t mw_point_reader_place(const mw_point_reader *reader, size_t column);
+MW_API size_t mw_point_reader_column_number(const mw_point_reader *reader, size_t column);
 
 /** Tell how many cells that were read held a text where a number belongs. Such a cell is a missing
  * value, NaN, in columns beyond x, y and z of a reader that was opened with `texts`; elsewhere it

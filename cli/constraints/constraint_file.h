@@ -1,8 +1,8 @@
 /* constraint_file.h - files of constraints: how commands read them, and complaints about them. */
-#ifndef MW_CLI_INPUT_CONSTRAINT_FILE_H
-#define MW_CLI_INPUT_CONSTRAINT_FILE_H
+#ifndef MW_CLI_CONSTRAINTS_CONSTRAINT_FILE_H
+#define MW_CLI_CONSTRAINTS_CONSTRAINT_FILE_H
 
-#include "cli/input/gdal_constraints.h"
+#include "cli/constraints/gdal_constraints.h"
 
 #include <meshwalk/meshwalk.h>
 #include <stdbool.h>

@@ -1,4 +1,4 @@
-#include "cli/input/missing_values.h"
+#include "cli/vertices/missing_values.h"
 #include "cli/frame/message.h"
 #include "cli/frame/progress.h"
 

@@ -1,4 +1,4 @@
-#include "cli/input/gdal_constraints.h"
+#include "cli/constraints/gdal_constraints.h"
 #include "cli/frame/message.h"
 #include "cli/frame/text.h"
 #include "cli/gdal/gdal_crs.h"

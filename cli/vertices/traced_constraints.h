@@ -1,6 +1,6 @@
 /* traced_constraints.h - the edges of a mesh along the constraints that it was made with. */
-#ifndef MW_CLI_INPUT_TRACED_CONSTRAINTS_H
-#define MW_CLI_INPUT_TRACED_CONSTRAINTS_H
+#ifndef MW_CLI_VERTICES_TRACED_CONSTRAINTS_H
+#define MW_CLI_VERTICES_TRACED_CONSTRAINTS_H
 
 #include "cli/frame/options.h"
 

@@ -1,6 +1,6 @@
 /* las_classes.h - the classes of LAS points, by name or number. */
-#ifndef MW_CLI_INPUT_LAS_CLASSES_H
-#define MW_CLI_INPUT_LAS_CLASSES_H
+#ifndef MW_CLI_VERTICES_LAS_CLASSES_H
+#define MW_CLI_VERTICES_LAS_CLASSES_H
 
 #include <stdint.h>
 

@@ -1,9 +1,9 @@
 /* vertex_crs.h - points and constraints of a triangulation, brought into one coordinate system. */
-#ifndef MW_CLI_INPUT_VERTEX_CRS_H
-#define MW_CLI_INPUT_VERTEX_CRS_H
+#ifndef MW_CLI_VERTICES_VERTEX_CRS_H
+#define MW_CLI_VERTICES_VERTEX_CRS_H
 
 #include "cli/frame/options.h"
-#include "cli/input/vertex_table.h"
+#include "cli/vertices/vertex_table.h"
 
 /* The options --crs, --points-crs and --constraints-crs; NULL: not given. */
 typedef struct vertex_crs_settings {

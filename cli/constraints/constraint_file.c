@@ -1,4 +1,4 @@
-#include "cli/input/constraint_file.h"
+#include "cli/constraints/constraint_file.h"
 #include "cli/frame/files.h"
 #include "cli/frame/message.h"
 #include "cli/frame/progress.h"

@@ -1,4 +1,4 @@
-#include "cli/input/feature_values.h"
+#include "cli/constraints/feature_values.h"
 #include "cli/frame/message.h"
 
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-#include "cli/input/las_classes.h"
+#include "cli/vertices/las_classes.h"
 #include "cli/frame/message.h"
 #include "cli/frame/spelling.h"
 

@@ -1,9 +1,9 @@
 /* missing_values.h - heights and fields of vertices whose file has none: those of constraints, and
  * those added where constraints cross. */
-#ifndef MW_CLI_INPUT_MISSING_VALUES_H
-#define MW_CLI_INPUT_MISSING_VALUES_H
+#ifndef MW_CLI_VERTICES_MISSING_VALUES_H
+#define MW_CLI_VERTICES_MISSING_VALUES_H
 
-#include "cli/input/vertex_table.h"
+#include "cli/vertices/vertex_table.h"
 
 /* Fill in the missing values (NaN) of the vertices that are not from POINTS:
  *   1. vertices with equal coordinates take each other's values;

@@ -1,7 +1,7 @@
 /* vertex_table.h - the vertices of a triangulation to be made, with their values. First come the
  * points of POINTS, then those of the constraints, then those added where constraints cross. */
-#ifndef MW_CLI_INPUT_VERTEX_TABLE_H
-#define MW_CLI_INPUT_VERTEX_TABLE_H
+#ifndef MW_CLI_VERTICES_VERTEX_TABLE_H
+#define MW_CLI_VERTICES_VERTEX_TABLE_H
 
 #include <meshwalk/meshwalk.h>
 #include <stdbool.h>

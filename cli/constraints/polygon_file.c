@@ -1,7 +1,7 @@
-#include "cli/input/polygon_file.h"
+#include "cli/constraints/polygon_file.h"
 #include "cli/frame/message.h"
 #include "cli/frame/progress.h"
-#include "cli/input/constraint_file.h"
+#include "cli/constraints/constraint_file.h"
 
 #include <inttypes.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 /* feature_values.h - the attributes of features that were asked for, as text. */
-#ifndef MW_CLI_INPUT_FEATURE_VALUES_H
-#define MW_CLI_INPUT_FEATURE_VALUES_H
+#ifndef MW_CLI_CONSTRAINTS_FEATURE_VALUES_H
+#define MW_CLI_CONSTRAINTS_FEATURE_VALUES_H
 
 #include "cli/frame/text.h"
 

@@ -1,10 +1,10 @@
 /* polygon_file.h - a file of polygons, ready for queries: its features, and their attributes. */
-#ifndef MW_CLI_INPUT_POLYGON_FILE_H
-#define MW_CLI_INPUT_POLYGON_FILE_H
+#ifndef MW_CLI_CONSTRAINTS_POLYGON_FILE_H
+#define MW_CLI_CONSTRAINTS_POLYGON_FILE_H
 
 #include "cli/frame/options.h"
 #include "cli/frame/report.h"
-#include "cli/input/feature_values.h"
+#include "cli/constraints/feature_values.h"
 
 #include <meshwalk/meshwalk.h>
 

@@ -1,9 +1,9 @@
-#include "cli/input/traced_constraints.h"
+#include "cli/vertices/traced_constraints.h"
 #include "cli/frame/message.h"
 #include "cli/frame/progress.h"
 #include "cli/frame/text.h"
-#include "cli/input/constraint_file.h"
-#include "cli/input/vertex_crs.h"
+#include "cli/constraints/constraint_file.h"
+#include "cli/vertices/vertex_crs.h"
 
 #include <inttypes.h>
 #include <stdbool.h>
@@ -95,14 +95,14 @@ typedef struct constraint_tracer {
 static int tracer_fail_missing(const constraint_tracer *s, size_t segment, const char *what,
                                const double at[2])
 {
-    text place = {0};
-    text_double(&place, at[0]);
-    text_string(&place, " ");
-    text_double(&place, at[1]);
+    text position = {0};
+    text_double(&position, at[0]);
+    text_string(&position, " ");
+    text_double(&position, at[1]);
     complain("%s: %s %" PRIu32 ": %s %.*s is not in %s", s->path, s->file->record_name,
-             s->file->record[segment], what, (int)place.size, place.failed ? "" : place.bytes,
-             s->mesh_path);
-    text_release(&place);
+             s->file->record[segment], what, (int)position.size,
+             position.failed ? "" : position.bytes, s->mesh_path);
+    text_release(&position);
     return END_INPUT;
 }
 

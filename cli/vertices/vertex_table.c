@@ -1,9 +1,9 @@
-#include "cli/input/vertex_table.h"
+#include "cli/vertices/vertex_table.h"
 #include "cli/frame/files.h"
 #include "cli/frame/message.h"
 #include "cli/frame/progress.h"
 #include "cli/frame/text.h"
-#include "cli/input/las_classes.h"
+#include "cli/vertices/las_classes.h"
 #include "cli/input/query_columns.h"
 
 #include <inttypes.h>
@@ -125,8 +125,9 @@ static size_t columns_find_height(const mw_point_reader *reader, bool chosen)
     if (name_means_z(mw_point_reader_column(reader, 2))) return 2;
     size_t height = columns_only(reader, name_means_height);
     if (height != SIZE_MAX) return height;
-    size_t x = mw_point_reader_place(reader, 0), y = mw_point_reader_place(reader, 1);
-    size_t third = mw_point_reader_place(reader, 2);
+    size_t x = mw_point_reader_column_number(reader, 0),
+           y = mw_point_reader_column_number(reader, 1);
+    size_t third = mw_point_reader_column_number(reader, 2);
     return width == 3 && third > x && third > y ? 2 : SIZE_MAX;
 }
 

@@ -1,8 +1,8 @@
 /* gdal_constraints.h - constraints from any vector file that GDAL reads. */
-#ifndef MW_CLI_INPUT_GDAL_CONSTRAINTS_H
-#define MW_CLI_INPUT_GDAL_CONSTRAINTS_H
+#ifndef MW_CLI_CONSTRAINTS_GDAL_CONSTRAINTS_H
+#define MW_CLI_CONSTRAINTS_GDAL_CONSTRAINTS_H
 
-#include "cli/input/feature_values.h"
+#include "cli/constraints/feature_values.h"
 
 #include <meshwalk/meshwalk.h>
 #include <stdbool.h>

@@ -1,4 +1,4 @@
-#include "cli/input/vertex_crs.h"
+#include "cli/vertices/vertex_crs.h"
 #include "cli/frame/files.h"
 #include "cli/frame/message.h"
 #include "cli/gdal/gdal_crs.h"
@@ -70,7 +70,7 @@ static int located_file_move(const located_file *f, const located_file *mesh,
         lost += gdal_transform_points(t, more, more_count, 2, common->threads);
     gdal_transform_close(t);
     if (lost == 0) return end;
-    complain("%s: %" PRIu64 " of its points have no place in %s", f->path, lost,
+    complain("%s: %" PRIu64 " of its points have no position in %s", f->path, lost,
              crs_name(mesh->crs, names[0]));
     return END_INPUT;
 }
