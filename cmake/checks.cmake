@@ -2,13 +2,15 @@
 # the data came from.
 
 # Blocks of code in the documentation: C blocks become programs, the shell blocks of a page one test.
-file(GLOB pages CONFIGURE_DEPENDS README.md docs/*.md)
+file(GLOB pages CONFIGURE_DEPENDS README.md docs/*.md docs/proofs/*.md docs/measurements/*.md)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${pages} tools/doc_blocks.awk)
 set(blocks_dir ${PROJECT_BINARY_DIR}/documentation)
 file(REMOVE_RECURSE ${blocks_dir})
 file(MAKE_DIRECTORY ${blocks_dir})
 foreach(page IN LISTS pages)
-  get_filename_component(name ${page} NAME_WE)
+  file(RELATIVE_PATH name ${PROJECT_SOURCE_DIR} ${page})
+  string(REGEX REPLACE "^docs/|\\.md$" "" name ${name})
+  string(REPLACE "/" "_" name ${name})
   execute_process(COMMAND awk -f ${PROJECT_SOURCE_DIR}/tools/doc_blocks.awk -v prefix=${blocks_dir}/${name} ${page}
     OUTPUT_VARIABLE blocks OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
   string(REPLACE "\n" ";" blocks "${blocks}")
@@ -46,6 +48,7 @@ add_test(NAME arrows_self_test COMMAND ${PROJECT_SOURCE_DIR}/tools/test_check_ar
 add_test(NAME calls COMMAND ${PROJECT_SOURCE_DIR}/tools/check_calls $<TARGET_FILE:meshwalk_static>)
 add_test(NAME man3 COMMAND ${PROJECT_SOURCE_DIR}/tools/check_man3 ${PROJECT_SOURCE_DIR}/include ${PROJECT_BINARY_DIR}/man3)
 add_test(NAME citations COMMAND ${PROJECT_SOURCE_DIR}/tools/check_citations)
+add_test(NAME links COMMAND ${PROJECT_SOURCE_DIR}/tools/check_links)
 add_test(NAME columns COMMAND ${PROJECT_SOURCE_DIR}/tools/check_columns)
 add_test(NAME names COMMAND ${PROJECT_SOURCE_DIR}/tools/check_names)
 add_test(NAME symbols COMMAND ${PROJECT_SOURCE_DIR}/tools/check_symbols ${PROJECT_SOURCE_DIR}/include

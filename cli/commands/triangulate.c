@@ -5,10 +5,10 @@
 #include "cli/frame/monotonic_clock.h"
 #include "cli/frame/progress.h"
 #include "cli/frame/report.h"
-#include "cli/input/constraint_file.h"
-#include "cli/input/missing_values.h"
-#include "cli/input/vertex_crs.h"
-#include "cli/input/vertex_table.h"
+#include "cli/constraints/constraint_file.h"
+#include "cli/vertices/missing_values.h"
+#include "cli/vertices/vertex_crs.h"
+#include "cli/vertices/vertex_table.h"
 #include "cli/output/border_peel.h"
 #include "cli/output/mesh_output.h"
 #include "cli/output/side_outputs.h"
@@ -46,7 +46,7 @@ static const char *keep_help(int i)
         "inside, where there are polygons or holes, or FILE is a .poly; else hull",
         "all triangles of the convex hull",
         "those inside a polygon, or without polygons those that constraints part from the outside "
-        "and from the places of holes"}[i];
+        "and from the points of holes"}[i];
 }
 static const choices kind_choices = {"kind of triangulation", kind_name, kind_help};
 static const choices keep_choices = {"part to keep", keep_name, keep_help};

@@ -289,7 +289,7 @@ static void pipeline_remark_lost(const query_pipeline *p)
 {
     if (p->crs.lost == 0 || p->stream->settings->common.quiet) return;
     complain("%s: remark: %" PRIu64
-             " points have no place in the coordinate system of the mesh; their status is bad",
+             " points have no position in the coordinate system of the mesh; their status is bad",
              files_is_standard(p->path) ? "standard input" : p->path, p->crs.lost);
 }
 

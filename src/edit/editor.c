@@ -137,7 +137,7 @@ mw_status mw_editor_create(const mw_mesh *mesh, const mw_editor_options *options
                            mw_error *error)
 {
     static const mw_editor_options defaults;
-    if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "no place for the editor");
+    if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "the pointer to the new editor is NULL");
     *out = NULL;
     if (!mesh) return mw__fail(error, MW_ERROR_ARGUMENT, "no mesh");
     if (!options) options = &defaults;

@@ -9,7 +9,7 @@
  * The vertex to go down at is the nearest one, which takes three distances; or, on request, that of
  * the largest orientation coordinate of q, which the direct and the barycentric walk know already,
  * and others compute [thesis App. C, sec. 3]. The nearest is nearer: walks by the other are longer
- * (docs/published-tables.md, C2). */
+ * (docs/measurements/published-tables.md, C2). */
 #include "start/layers.h"
 
 #include "base/random.h"

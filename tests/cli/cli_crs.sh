@@ -76,7 +76,7 @@ if grep -Eq 'built with GDAL|cannot be loaded' "$logs/err"; then
 fi
 exits 0
 says 'gps\.csv: remark: its longitudes and latitudes are taken as WGS 84 \(EPSG:4326\); --points-crs tells another system'
-says 'gps\.csv: remark: 1 points have no place in the coordinate system of the mesh; their status is bad'
+says 'gps\.csv: remark: 1 points have no position in the coordinate system of the mesh; their status is bad'
 prints_line '^id,lon,lat,z,status$'; prints_line '^a,7.438632421,46.951082725,(99\.9|100\.0)[0-9]*,inside$'
 prints_line '^b,NA,46,,bad$'; prints_line '^c,0,46,,outside$'; prints_line '^d,7.438632421,1e300,,bad$'
 cp "$logs/out" told.txt
@@ -164,7 +164,7 @@ run triangulate survey.csv --crs EPSG:2056 --constraints brook.geojson -o v.ply;
 holds "--crs tells the system of points that do not" same_text t.ply v.ply
 run triangulate survey.csv --crs EPSG:4326 --points-crs EPSG:2056 --constraints brook.geojson -o w.ply; exits 0; says_nothing
 run info w.ply; prints_line '^crs +EPSG:4326'; prints_line '^high +7\.4399.* 46\.95198'
-run triangulate gps.csv --points-crs EPSG:4326 --crs EPSG:2056 -o x.ply; refused 3 'gps\.csv: 1 of its points have no place in EPSG:2056'
+run triangulate gps.csv --points-crs EPSG:4326 --crs EPSG:2056 -o x.ply; refused 3 'gps\.csv: 1 of its points have no position in EPSG:2056'
 run triangulate --constraints brook.geojson --crs EPSG:2056 --keep hull -o x.ply; exits 3
 printf '%s\n' lon,lat,z 7.438,46.951,1 7.439,46.951,2 7.4385,46.952,3 >lonlat.csv
 run triangulate lonlat.csv -o x.ply; exits 0; says_nothing; run info x.ply; prints_line '^crs +not known$'

@@ -174,9 +174,9 @@ static unsigned las_epsg_of_keys(const unsigned char *bytes, size_t size)
     };
     unsigned model = 0, geographic = 0, projected = 0;
     for (size_t at = 8; at + 8 <= size; at += 8) {
-        unsigned key = mw__get_u16(bytes + at), place = mw__get_u16(bytes + at + 2),
+        unsigned key = mw__get_u16(bytes + at), tag = mw__get_u16(bytes + at + 2),
                  value = mw__get_u16(bytes + at + 6);
-        if (place != 0 || value >= USER_DEFINED) continue;
+        if (tag != 0 || value >= USER_DEFINED) continue;
         if (key == MODEL) model = value;
         if (key == GEOGRAPHIC) geographic = value;
         if (key == PROJECTED) projected = value;
@@ -312,8 +312,8 @@ static mw_status las_select_columns(mw_point_reader *reader, las_reader *l, cons
                             selection, shown, item);
         taken[found] = true;
         l->columns[reader->width] = (uint8_t)found;
-        size_t place = mw__table_header_find(&reader->header, item, length);
-        mw_status status = mw__point_reader_add(reader, column_names[found], place, error);
+        size_t column = mw__table_header_find(&reader->header, item, length);
+        mw_status status = mw__point_reader_add(reader, column_names[found], column, error);
         if (status) return status;
     }
     return MW_OK;
