@@ -10,7 +10,7 @@ _meshwalk_options() {
     case $1 in
         info) echo "--layer --as --centre --lonlat --weld --json $common" ;;
         check) echo "--fix --tolerance --numbers --format --as --centre --lonlat --weld --json $common" ;;
-        triangulate) echo "--constraints --boundary --keep --split --strict --max-edge --kind --weight --hidden --limit --format --columns --class --crs --points-crs --constraints-crs --json $common" ;;
+        triangulate) echo "--constraints --boundary --keep --split --strict --max-edge --kind --weight --hidden --limit --format --columns --class --layer --where --crs --points-crs --constraints-crs --json $common" ;;
         locate) echo "--details --polygons --attribute --polygon-layer $query $stream $common" ;;
         sample) echo "--field --outside --missing --nodata --status $query $stream $common" ;;
         edit)
@@ -49,7 +49,8 @@ _meshwalk_names() {
         --fix) echo 'weld orient drop split all' ;;
         --as) echo 'plane surface star' ;;
         --walk)
-            [[ $1 == star ]] && echo 'auto stochastic forgetful barycentric orthogonal straight' && return
+            [[ $1 == star ]] && echo 'auto stochastic forgetful barycentric orthogonal straight' &&
+                return
             echo 'auto lawson remembering stochastic forgetful fast-stochastic barycentric direct straight'
             echo 'normal-straight normal-straight-turn orthogonal improved-orthogonal improved-orthogonal-vertex'
             echo 'hybrid celestial border'
@@ -130,7 +131,7 @@ _meshwalk() {
     fi
     names=$(_meshwalk_names "$command" "$before")
     [[ $command == bench && $COMP_CWORD -eq 2 && $word != -* ]] &&
-        names='paper near-vertices peers scale edit'
+        names='paper near-vertices peers scale edit worst'
     [[ $command == bench && $before == paper ]] && names='A1 A2 B1 B2 C1 C2 D1 E1 E2 F1 F2 G1 G2 G3'
     [[ $command == bench && $before == @(peers|scale) ]] &&
         names='uniform grid gaussian clusters arcs rectangle rings slivers offset cadastre lidar'

@@ -2,7 +2,7 @@
 #include "io/points/point_file.h"
 #include "base/options.h"
 
-#include "io/mesh/mesh_formats.h"
+#include "io/formats/mesh_formats.h"
 #include "io/points/las.h"
 #include "io/points/point_table.h"
 

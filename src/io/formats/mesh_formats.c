@@ -1,4 +1,4 @@
-#include "io/mesh/mesh_formats.h"
+#include "io/formats/mesh_formats.h"
 
 #include "io/mesh/mesh_readers.h"
 #include "io/mesh/mesh_writers.h"

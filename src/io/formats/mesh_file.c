@@ -1,7 +1,7 @@
 /* Meshes in files: choosing the reader or the writer. */
 #include "base/options.h"
 #include "io/mesh/mesh_builder.h"
-#include "io/mesh/mesh_formats.h"
+#include "io/formats/mesh_formats.h"
 #include "io/mesh/mesh_readers.h"
 #include "io/mesh/node_ele.h"
 #include "io/text/byte_source.h"
@@ -28,26 +28,33 @@ static mw_status mesh_read_source(mw_source *source, mw_mesh_builder *builder, m
                     mw__source_name(source), names);
 }
 
-static mw_status mesh_read_path(const char *path, mw_job *job, mw_mesh_file *file, mw_error *error)
+static mw_status mesh_read_path(const char *path, mw_mesh_builder *builder, mw_error *error)
 {
-    mw_mesh_builder builder;
-    mw__build_start(&builder, file, NULL);
-    builder.job = job;
-    mw__job_stage(job, "reading", 1);
     const mw_mesh_format *format = mw__mesh_format_by_path(path);
-    if (format && format->read_path) return format->read_path(path, &builder, error);
+    if (format && format->read_path) return format->read_path(path, builder, error);
     mw_source source;
     mw_status status = mw__source_open(&source, path, error);
     bool pair = false;
     if (status == MW_ERROR_SYSTEM && mw__node_ele_exists(path, &pair, error) != MW_OK)
         return MW_ERROR_MEMORY;
-    if (pair) return mw__read_node_ele(path, &builder, error);
+    if (pair) return mw__read_node_ele(path, builder, error);
     if (status) return status;
-    builder.source = &source;
-    mw__source_watch(&source, job);
-    status = mesh_read_source(&source, &builder, error);
-    if (!status) status = mw__build_finish(&builder, error);
+    builder->source = &source;
+    mw__source_watch(&source, builder->job);
+    status = mesh_read_source(&source, builder, error);
+    if (!status) status = mw__build_finish(builder, error);
     mw__source_close(&source);
+    return status;
+}
+
+static mw_status mesh_read(const char *path, mw_job *job, mw_mesh_file *file, mw_error *error)
+{
+    mw_mesh_builder builder;
+    mw__build_start(&builder, file, NULL);
+    builder.job = job;
+    mw__job_stage(job, "reading", 1);
+    mw_status status = mesh_read_path(path, &builder, error);
+    mw__build_release(&builder);
     return status;
 }
 
@@ -61,7 +68,7 @@ mw_status mw_read_mesh(const char *path, const mw_file_options *options, mw_mesh
     mw_status status = MW_RESERVED_CHECK(mw_file_options, options, error);
     if (status) return status;
     mw_job job = mw__job(1, options->progress);
-    status = mw__job_end(&job, mesh_read_path(path, &job, file, error), error);
+    status = mw__job_end(&job, mesh_read(path, &job, file, error), error);
     if (!status && !file->crs) status = mw_read_prj(path, &file->crs, error);
     if (status) mw_mesh_file_release(file);
     return status;
@@ -73,6 +80,7 @@ void mw_mesh_file_release(mw_mesh_file *file)
     mw__fields_release(file->field_names, file->fields, file->field_count);
     free(file->points);
     free(file->triangles);
+    free(file->faces);
     free(file->crs);
     *file = (mw_mesh_file){0};
 }

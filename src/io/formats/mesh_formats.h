@@ -3,8 +3,8 @@
  * A new format is one file with its reader or writer, their lines in mesh_readers.h and
  * mesh_writers.h, and one row in mesh_formats.c; the program learns its name from there
  * (mw_mesh_format_name). */
-#ifndef MW_SRC_IO_MESH_MESH_FORMATS_H
-#define MW_SRC_IO_MESH_MESH_FORMATS_H
+#ifndef MW_SRC_IO_FORMATS_MESH_FORMATS_H
+#define MW_SRC_IO_FORMATS_MESH_FORMATS_H
 
 #include "io/mesh/mesh_builder.h"
 #include "io/text/byte_source.h"
