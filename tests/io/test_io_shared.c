@@ -120,7 +120,6 @@ static const struct {
     {"bad/mobius_strip.mesh", "no mesh in a format known here", -1},
     {"tet/box.node", "elements of 4 corners", 1},
     {"terrain/volcano.asc", "no mesh in a format known here", -1},
-    {"star/mpas_qu1920.nc.gz", "no mesh in a format known here", -1},
     {"terrain/1.2-with-color.las", "no mesh in a format known here", -1},
 };
 

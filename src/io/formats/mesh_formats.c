@@ -1,5 +1,6 @@
 #include "io/formats/mesh_formats.h"
 
+#include "io/layouts/netcdf_mesh.h"
 #include "io/mesh/mesh_readers.h"
 #include "io/mesh/mesh_writers.h"
 #include "io/text/file_head.h"
@@ -65,6 +66,10 @@ static const mw_mesh_format formats[] = {
      .first_word = is_solid,
      .read = mw__read_stl,
      .write = mw__write_stl},
+    {.name = "netcdf",
+     .endings = ".nc\0.nc4\0.cdf\0.sww\0",
+     .begins = mw__netcdf_begins,
+     .read = mw__read_netcdf},
     {.name = "csv", .endings = ".csv\0", .write = mw__write_csv},
     {.name = "vtk", .endings = ".vtk\0", .write = mw__write_vtk},
 };
@@ -105,6 +110,8 @@ static void head_first_word(const char *p, const char *end, char *word, size_t r
 
 const mw_mesh_format *mw__mesh_format_by_content(const char *head, size_t size)
 {
+    for (size_t i = 0; i < FORMAT_COUNT; i++)
+        if (formats[i].begins && formats[i].begins(head, size)) return &formats[i];
     char word[16];
     head_first_word(head, head + size, word, sizeof word);
     for (size_t i = 0; i < FORMAT_COUNT; i++)
