@@ -1,5 +1,5 @@
-/* test_operator.c - operators: from locations they give the bits of mw_interpolate, from entries the
- * sums of whole numbers, which are exact. */
+/* test_operator.c - operators: from locations they give the bits of mw_interpolate, from entries
+ * the sums of whole numbers, which are exact. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -142,7 +142,7 @@ static void test_bits_of_interpolation(void **state)
     (void)state;
     static const size_t counts[] = {1, 2, 3, 8, 13};
     for (int sorted = 0; sorted < 2; sorted++) {
-        located c = located_create(35000, sorted);
+        located c = located_create(20000, sorted);
         for (size_t i = 0; i < sizeof counts / sizeof *counts; i++)
             for (uint32_t threads = 1; threads < 4; threads++) located_try(&c, counts[i], threads);
         located_release(&c);

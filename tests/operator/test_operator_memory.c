@@ -1,5 +1,5 @@
-/* test_operator_memory.c - every allocation of an operator's calls fails once: the call says so, and
- * leaves nothing (leaks show in a build with the address sanitizer). */
+/* test_operator_memory.c - every allocation of an operator's calls fails once: the call says so,
+ * and leaves nothing (leaks show in a build with the address sanitizer). */
 /* wrap: malloc calloc realloc aligned_alloc */
 #include <stdarg.h>
 #include <stddef.h>
