@@ -160,7 +160,7 @@ static mw_status entries_check(const mw_operator_entries *in, mw_error *error)
     return status;
 }
 
-static void entries_fill(const mw_operator_entries *in, mw_sparse_rows *s)
+static void entries_into_rows(const mw_operator_entries *in, mw_sparse_rows *s)
 {
     for (size_t i = 0; i < in->count; i++) s->first[in->row[i] - in->base] += in->weight[i] != 0;
     mw__sparse_rows_open(s);
@@ -202,7 +202,7 @@ mw_status mw_operator_create_from_entries(const mw_operator_entries *entries,
     mw_job job = mw__job(options->threads, options->progress);
     mw__job_stage(&job, "sorting weights", 0.5);
     bool filled = mw__sparse_rows_init(&rows, entries->rows, entries->columns, entries->count);
-    if (filled) entries_fill(entries, &rows);
+    if (filled) entries_into_rows(entries, &rows);
     filled = filled && mw__job_step(&job, 1, 1);
     return entries_end(&rows, filled, &job, out, error);
 }
