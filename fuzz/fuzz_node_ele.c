@@ -28,6 +28,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     mw_status status = mw__read_node(&node, &builder, &error);
     if (!status) status = mw__read_ele(&ele, &builder, &error);
     if (!status) status = mw__build_finish(&builder, &error);
+    mw__build_release(&builder);
     if (status)
         require_error(status, &error, "input.");
     else

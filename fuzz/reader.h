@@ -48,6 +48,9 @@ static inline void require_mesh(const mw_mesh_file *file, size_t size)
             file->field_count <= MW_COLUMN_LIMIT);
     for (size_t i = 0; i < 3 * file->triangle_count; i++)
         require(file->triangles[i] < file->point_count);
+    require(file->face_count <= file->triangle_count);
+    for (size_t t = 0; file->faces && t < file->triangle_count; t++)
+        require(file->faces[t] < file->face_count);
     require_values(file->points, 3 * file->point_count);
     for (size_t f = 0; f < file->field_count; f++)
         require_values(file->fields[f], file->point_count);
@@ -67,6 +70,7 @@ static inline void fuzz_mesh_reader(mesh_reader *read, const char *name, const u
     mw__build_start(&builder, &file, &source);
     mw_status status = read(&source, &builder, &error);
     if (!status) status = mw__build_finish(&builder, &error);
+    mw__build_release(&builder);
     if (status)
         require_error(status, &error, name);
     else

@@ -17,7 +17,7 @@ typedef enum dataset_kind {
     /* the integers of a square, row by row: every cell's four corners on a circle */
     DATASET_GRID,
     DATASET_GAUSSIAN, /* normal in x and y, about the origin, deviation 1 */
-    /* in the unit square, 100 normal clusters of deviation 0.01 at random places */
+    /* in the unit square, 100 normal clusters of deviation 0.01 at random positions */
     DATASET_CLUSTERS,
     /* in the unit square, on 30 random arcs of circles, off them by a normal 0.001 */
     DATASET_ARCS,

@@ -190,7 +190,7 @@ static bool domain_is_free(const holed_domain *d, size_t i, const double p[2])
 
 #define DRAWN_IN_VAIN 500
 
-/* A hole that finds no place gets smaller. */
+/* A hole that fits nowhere gets smaller. */
 static void domain_place_hole(holed_domain *d, size_t i, double area, uint64_t *random)
 {
     star_polygon *s = &d->star[i];
@@ -210,7 +210,7 @@ static void domain_place_hole(holed_domain *d, size_t i, double area, uint64_t *
  * are many small sites. */
 #define DENSITY_WAVES 12
 #define DENSITY_DEVIATION 1.0 /* of the logarithm */
-#define DENSITY_MOST 2.0      /* times this: denser places are as dense as that */
+#define DENSITY_MOST 2.0      /* times this: denser parts are as dense as that */
 
 typedef struct point_density {
     double wave[DENSITY_WAVES][2], phase[DENSITY_WAVES];

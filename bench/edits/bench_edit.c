@@ -5,7 +5,7 @@
 #include "bench/edits/edit_comparison.h"
 #include "bench/edits/edit_engine_list.h"
 #include "bench/edits/edit_rebuild.h"
-#include "bench/edits/edit_session.h"
+#include "bench/edits/edit_aging.h"
 #include "cli/frame/files.h"
 #include "cli/frame/message.h"
 #include "cli/frame/spelling.h"
@@ -108,7 +108,7 @@ static void edit_leave_out_missing(edit_run *r)
 static int edit_run_task(edit_run *r, edit_task task)
 {
     if (task == EDIT_TASK_REBUILD) return edit_rebuild_measure(&r->plan, &r->table);
-    if (task == EDIT_TASK_SESSION) return edit_session_measure(&r->plan, &r->table);
+    if (task == EDIT_TASK_AGING) return edit_aging_measure(&r->plan, &r->table);
     return edit_comparison_measure(&r->plan, task, &r->table);
 }
 

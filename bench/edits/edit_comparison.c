@@ -14,15 +14,15 @@ typedef struct edit_comparison {
     edit_task task;
     edit_script script;
     uint64_t expected; /* of the triangulation */
-    uint64_t places;   /* of the triangles that were found, 0: not known yet */
+    uint64_t answers;  /* of the triangles that were found, 0: not known yet */
     double *corners;
     edit_engine_id engines[EDIT_ENGINES];
     size_t count;
 } edit_comparison;
 
-/* Were places located in triangles that hold them? Sets *hash, which is that of all the same
+/* Were points located in triangles that hold them? Sets *hash, which is that of all the same
  * triangles. */
-static bool places_are_right(const edit_comparison *c, uint64_t *hash)
+static bool answers_are_right(const edit_comparison *c, uint64_t *hash)
 {
     const double *corners = c->corners;
     *hash = 1;
@@ -40,10 +40,11 @@ static bool places_are_right(const edit_comparison *c, uint64_t *hash)
 
 static int edit_comparison_check(edit_comparison *c, edit_engine_id id, const void *self)
 {
-    uint64_t places;
-    bool right = edit_engine_code_of(id)->hash(self) == c->expected && places_are_right(c, &places);
-    if (right && c->places == 0) c->places = places;
-    if (right && places == c->places) return 0;
+    uint64_t answers;
+    bool right =
+        edit_engine_code_of(id)->hash(self) == c->expected && answers_are_right(c, &answers);
+    if (right && c->answers == 0) c->answers = answers;
+    if (right && answers == c->answers) return 0;
     complain("%s: %s is wrong after '%s'", c->plan->name, edit_engines[id].name,
              edit_task_name(c->task));
     return END_RESOURCE;

@@ -21,7 +21,7 @@ typedef enum edit_engine_id {
 typedef struct edit_engine_code {
     /* A triangulation of the points of a script; NULL where it fails. */
     void *(*build)(const edit_script *s);
-    /* Carry out the script; returns seconds. `corners`: six numbers for each place located, those
+    /* Carry out the script; returns seconds. `corners`: six numbers for each point located, those
      * of its triangle; or 0. */
     double (*run)(void *self, const edit_script *s, double *corners);
     /* The sum of triangle_hash over all triangles. */

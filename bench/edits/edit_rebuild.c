@@ -67,7 +67,7 @@ static int edit_rebuild_remove(edit_rebuild *r)
     return 0;
 }
 
-/* k edits: points inserted and vertices removed in turn; then the places. */
+/* k edits: points inserted and vertices removed in turn; then the queries. */
 static int edit_rebuild_run_leader(edit_rebuild *r, double *figures)
 {
     int end = 0;
@@ -120,7 +120,7 @@ static int edit_rebuild_take_arrays(edit_rebuild *r)
     return room ? 0 : fail_memory();
 }
 
-/* Answers that are no triangle with the place in it, or none where ours has
+/* Answers that are no triangle with the point in it, or none where ours has
  * one. */
 static double edit_rebuild_count_wrong(const edit_rebuild *r)
 {

@@ -1,6 +1,6 @@
 /* edit_rebuild.h - the task rebuild of 'bench edit'.
  *
- * A triangulation is edited, and after every k edits a thousand places are located: by walks in
+ * A triangulation is edited, and after every k edits a thousand points are located: by walks in
  * what has been edited, or by a tree that is rebuilt from its arrays. What the edits take is
  * counted only for those who follow them: somebody has to make the edits for the others, too. */
 #ifndef MW_BENCH_EDITS_EDIT_REBUILD_H

@@ -20,7 +20,7 @@ const char *edit_task_name(edit_task task)
         [EDIT_TASK_MOVE_FAR] = "move-far",
         [EDIT_TASK_MIXED] = "mixed",
         [EDIT_TASK_REBUILD] = "rebuild",
-        [EDIT_TASK_SESSION] = "session",
+        [EDIT_TASK_AGING] = "session",
     };
     return names[task];
 }
@@ -86,12 +86,12 @@ static void script_maker_add_move(script_maker *m, size_t i, bool near)
 
 static void script_maker_add_mixed(script_maker *m, size_t i)
 {
-    double place[2];
+    double point[2];
     if (i % 3 == 0) script_maker_add(m, EDIT_STEP_INSERT, 0, script_maker_point(m, i));
     if (i % 3 == 1) script_maker_add_removal(m);
     if (i % 3 == 2) {
-        dataset_draw(&m->data, place, 1, &m->random);
-        script_maker_add(m, EDIT_STEP_LOCATE, 0, place);
+        dataset_draw(&m->data, point, 1, &m->random);
+        script_maker_add(m, EDIT_STEP_LOCATE, 0, point);
     }
 }
 

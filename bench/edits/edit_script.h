@@ -1,4 +1,4 @@
-/* edit_script.h - what is done to a triangulation in 'bench edit': a script of edits and places to
+/* edit_script.h - what is done to a triangulation in 'bench edit': a script of edits and points to
  * locate, made from a seed. */
 #ifndef MW_BENCH_EDITS_EDIT_SCRIPT_H
 #define MW_BENCH_EDITS_EDIT_SCRIPT_H
@@ -45,11 +45,11 @@ typedef enum edit_task {
     EDIT_TASK_REMOVE,             /* random vertices */
     /* random vertices, each a tenth of the mean length of its edges */
     EDIT_TASK_MOVE_NEAR,
-    EDIT_TASK_MOVE_FAR, /* random vertices, each to the place of another point */
-    /* in turn: a point inserted, a vertex removed, a place located, all at random */
+    EDIT_TASK_MOVE_FAR, /* random vertices, each to the position of another point */
+    /* in turn: a point inserted, a vertex removed, a point located, all at random */
     EDIT_TASK_MIXED,
     EDIT_TASK_REBUILD, /* trees that are rebuilt after some edits */
-    EDIT_TASK_SESSION, /* location during a long session */
+    EDIT_TASK_AGING,   /* location while very many edits are made */
     EDIT_TASKS
 } edit_task;
 

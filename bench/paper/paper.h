@@ -13,7 +13,7 @@ typedef struct paper_result {
     size_t model_vertices;
     bool walks, whole; /* the parts of the outcome that it has */
     walk_outcome outcome;
-    walk_outcome spread; /* standard deviations over the seeds, where there are several */
+    walk_outcome deviation; /* standard deviations over the seeds, where there are several */
 } paper_result;
 
 typedef struct paper {

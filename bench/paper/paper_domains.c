@@ -1,6 +1,6 @@
 /* paper_domains.c - thesis, App. D, Table 1: walks in meshes with pockets and holes.
  *
- * A row of the table is a place that queries are uniform in, the mesh or its convex hull, and a
+ * A row of the table is a region that queries are uniform in, the mesh or its convex hull, and a
  * size of the sample that the first triangle is taken from, 1 or the cube root of the vertices. The
  * authors' meshes are not to be had: for each of them one is made that has as many vertices and
  * border edges, and fills as much of its hull. */
@@ -111,7 +111,7 @@ static int paper_measure_domain_row(paper *p, const measured_domain *d, const ch
              sampled ? "sample" : "random");
     walk_trial t = paper_trial(p, name, &d->corners, users_file);
     t.mesh = d->mesh;
-    t.place = in_hull ? d->hull : NULL;
+    t.region = in_hull ? d->hull : NULL;
     t.start = sampled ? "sample" : "random";
     t.sample = (uint32_t)lround(cbrt((double)d->corners.count));
     int end = paper_measure(p, &t, users_file);

@@ -18,19 +18,19 @@ typedef struct paper_figure {
     const paper_result *result;
     const algorithm *algorithm;
     quantity quantity;
-    double ours, spread, published, ratio; /* NaN: none */
+    double ours, deviation, published, ratio; /* NaN: none */
 } paper_figure;
 
 typedef void paper_figure_print(text *t, const paper_figure *f);
 
-static bool paper_has_spread(const paper *p)
+static bool paper_has_deviation(const paper *p)
 {
     return p->settings->seeds > 1;
 }
 
 static void paper_each_quantity(const paper *p, const paper_result *r, const algorithm *a,
-                                const double *value, const double *spread, uint64_t which, text *t,
-                                paper_figure_print *print)
+                                const double *value, const double *deviation, uint64_t which,
+                                text *t, paper_figure_print *print)
 {
     for (quantity q = 0; q < QUANTITIES; q++) {
         if (!(which >> q & 1) || (quantity_is_time(q) && p->settings->no_times)) continue;
@@ -39,7 +39,7 @@ static void paper_each_quantity(const paper *p, const paper_result *r, const alg
                           a,
                           q,
                           value_rounded(value[q]),
-                          paper_has_spread(p) ? value_rounded(spread[q]) : NAN,
+                          paper_has_deviation(p) ? value_rounded(deviation[q]) : NAN,
                           0,
                           0};
         f.published = paper_published_of(p, r, a, q);
@@ -53,10 +53,10 @@ static void paper_each_figure(const paper *p, const paper_result *r, text *t,
 {
     const paper_table *table = p->table;
     for (size_t i = 0; r->walks && table->algorithms[i]; i++)
-        paper_each_quantity(p, r, table->algorithms[i], r->outcome.value[i], r->spread.value[i],
+        paper_each_quantity(p, r, table->algorithms[i], r->outcome.value[i], r->deviation.value[i],
                             table->quantities, t, print);
     if (r->whole)
-        paper_each_quantity(p, r, table->whole, r->outcome.whole, r->spread.whole,
+        paper_each_quantity(p, r, table->whole, r->outcome.whole, r->deviation.whole,
                             table->whole_quantities, t, print);
 }
 
@@ -78,7 +78,7 @@ static void print_tsv_line(text *t, const paper_figure *f)
     print_tsv_number(t, f->ours);
     print_tsv_number(t, f->published);
     print_tsv_number(t, f->ratio);
-    if (paper_has_spread(f->paper)) print_tsv_number(t, f->spread);
+    if (paper_has_deviation(f->paper)) print_tsv_number(t, f->deviation);
     text_string(t, "\n");
 }
 
@@ -104,7 +104,7 @@ static void print_json_object(text *t, const paper_figure *f)
     print_json_number(t, "ours", f->ours);
     print_json_number(t, "published", f->published);
     print_json_number(t, "ratio", f->ratio);
-    if (paper_has_spread(f->paper)) print_json_number(t, "spread", f->spread);
+    if (paper_has_deviation(f->paper)) print_json_number(t, "spread", f->deviation);
     text_string(t, "}");
 }
 
@@ -144,7 +144,7 @@ static void print_table_line(text *t, const paper_figure *f)
     text_printf(t, "  %-26s %-4s %-21s", f->algorithm->name, f->algorithm->abbreviation,
                 quantity_name(f->quantity));
     print_cell(t, 10, decimals, f->ours);
-    if (paper_has_spread(f->paper)) print_cell(t, 10, decimals, f->spread);
+    if (paper_has_deviation(f->paper)) print_cell(t, 10, decimals, f->deviation);
     print_cell(t, 10, decimals, f->published);
     print_cell(t, 7, 3, f->ratio);
     print_end_line(t);
@@ -228,7 +228,7 @@ static void print_proportion_line(text *t, const paper *p, const paper_result *r
     text_printf(t, "  %-26s %-4s %-21s", p->table->algorithms[i]->name,
                 p->table->algorithms[i]->abbreviation, proportions[k].name);
     print_cell(t, 10, 3, ours);
-    if (paper_has_spread(p)) print_cell(t, 10, 3, NAN);
+    if (paper_has_deviation(p)) print_cell(t, 10, 3, NAN);
     if (r->users_file) {
         print_range(t, p, i, proportions[k].of);
     } else {
@@ -283,7 +283,7 @@ static void paper_print_table(text *t, const paper *p)
                 "%s: %s\n%" PRIu64
                 " queries on each set, from %s; means per query, times in microseconds\n",
                 p->table->name, p->table->title, p->queries, p->table->from);
-    if (paper_has_spread(p))
+    if (paper_has_deviation(p))
         text_printf(t, "means over %" PRIu32 " seeds, and the standard deviation of one\n",
                     p->settings->seeds);
     for (size_t i = 0; i < p->count; i++) {
@@ -293,7 +293,7 @@ static void paper_print_table(text *t, const paper *p)
         if (r->model) text_printf(t, "; published: the thesis' %s", r->model);
         text_string(t, "\n\n");
         text_printf(t, "  %-31s %-21s %10s", "algorithm", "quantity", "ours");
-        if (paper_has_spread(p)) text_printf(t, " %10s", "spread");
+        if (paper_has_deviation(p)) text_printf(t, " %10s", "spread");
         text_printf(t, " %10s %7s\n", "published", "ratio");
         paper_each_figure(p, r, t, print_table_line);
         if (!r->walks) continue;
@@ -307,7 +307,7 @@ void paper_print(const paper *p, text *t)
     switch (p->settings->format) {
     case FORMAT_TSV:
         text_string(t, "table\tdataset\tvertices\talgorithm\tquantity\tours\tpublished\tratio");
-        text_string(t, paper_has_spread(p) ? "\tspread\n" : "\n");
+        text_string(t, paper_has_deviation(p) ? "\tspread\n" : "\n");
         for (size_t i = 0; i < p->count; i++)
             paper_each_figure(p, &p->results[i], t, print_tsv_line);
         break;

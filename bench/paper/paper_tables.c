@@ -304,7 +304,7 @@ const paper_table *paper_table_named(const char *name)
 }
 
 /* Columns that are sums of our quantities: the first then means what the column does
- * (docs/published-tables.md). */
+ * (docs/measurements/published-tables.md). */
 static const struct {
     const char *table;
     const algorithm *algorithm;

@@ -21,7 +21,7 @@ typedef struct walk_measurement {
     mw_locator *locator[MW_KIND_COUNT][PREPARATIONS];
     double seconds[MW_KIND_COUNT][PREPARATIONS]; /* that it took to make them */
     /* the queries are in its mesh; NULL: in that of the trial */
-    mw_locator *place;
+    mw_locator *region;
     mw_index *index[DESCENTS]; /* of layers, by descent */
     double *queries;
     mw_location *answers, *locations;
@@ -35,7 +35,7 @@ static void walk_measurement_release(walk_measurement *s)
     free(s->answers);
     free(s->locations);
     for (int descent = 0; descent < DESCENTS; descent++) mw_index_destroy(s->index[descent]);
-    mw_locator_destroy(s->place);
+    mw_locator_destroy(s->region);
     for (int kind = 0; kind < MW_KIND_COUNT; kind++) {
         for (int k = 0; k < PREPARATIONS; k++) mw_locator_destroy(s->locator[kind][k]);
         if (s->mesh[kind] != s->trial->mesh) mw_mesh_destroy(s->mesh[kind]);
@@ -86,7 +86,7 @@ static int make_locators(walk_measurement *s)
         if (end == 0 && layers) end = make_layers(s, a->descent);
         if (end) return end;
     }
-    if (s->trial->place && mw_locator_create(s->trial->place, NULL, &s->place, &error) != MW_OK)
+    if (s->trial->region && mw_locator_create(s->trial->region, NULL, &s->region, &error) != MW_OK)
         return walk_trial_fail(s->trial, &error);
     return 0;
 }
@@ -171,10 +171,10 @@ static int walk_measurement_locate(walk_measurement *s, const mw_locator *locato
     return 0;
 }
 
-/* n queries in the place. */
+/* n queries in the region. */
 static int walk_measurement_draw(walk_measurement *s, size_t n)
 {
-    const mw_locator *place = s->place ? s->place : s->locator[0][FILLED];
+    const mw_locator *region = s->region ? s->region : s->locator[0][FILLED];
     size_t found = 0, drawn = 0;
     while (found < n) {
         if (drawn > 1000 * found + DRAWN_IN_VAIN) {
@@ -185,7 +185,7 @@ static int walk_measurement_draw(walk_measurement *s, size_t n)
         size_t more = n - found;
         double *queries = s->queries + 2 * found;
         dataset_draw(s->trial->data, queries, more, &s->random);
-        int end = walk_measurement_locate(s, place, queries, more, s->locations);
+        int end = walk_measurement_locate(s, region, queries, more, s->locations);
         if (end) return end;
         for (size_t i = 0; i < more; i++)
             if (in_mesh(&s->locations[i]))

@@ -2,7 +2,7 @@
  * mesh.
  *
  * All algorithms locate the same queries, drawn uniform in the domain of the points; one that falls
- * outside the mesh, or outside another place where such is given, is replaced. What they do is
+ * outside the mesh, or outside another region where one is given, is replaced. What they do is
  * counted in batches. How long they take is measured apart, in single queries on one thread, so
  * that counting and interleaving cost it nothing. */
 #ifndef MW_BENCH_PAPER_WALK_MEASUREMENT_H
@@ -39,7 +39,7 @@ typedef struct walk_trial {
     /* a mesh to be taken as it is; NULL: the points are triangulated */
     mw_mesh *mesh;
     /* queries are uniform in this mesh; NULL: in that of the trial */
-    const mw_mesh *place;
+    const mw_mesh *region;
     const algorithm *const *algorithms; /* NULL ends them */
     const char *walk;                   /* NULL, or the walk that all take instead of their own */
     const char *finish;                 /* walk that ends the cheap ones */

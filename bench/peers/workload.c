@@ -196,54 +196,54 @@ static int workload_draw_half_outside(workload *w, double *queries, size_t n)
     return end;
 }
 
-/* A query and the place of its triangle along a Hilbert curve. */
-typedef struct placed_query {
+/* A query and the rank of its triangle along a Hilbert curve. */
+typedef struct ranked_query {
     double query[2];
-    uint32_t place;
-} placed_query;
+    uint32_t rank;
+} ranked_query;
 
-static int placed_query_compare(const void *one, const void *other)
+static int ranked_query_compare(const void *one, const void *other)
 {
-    uint32_t a = ((const placed_query *)one)->place, b = ((const placed_query *)other)->place;
+    uint32_t a = ((const ranked_query *)one)->rank, b = ((const ranked_query *)other)->rank;
     return (a > b) - (a < b);
 }
 
-/* The place of each triangle along the curve; NULL after a complaint. */
-static uint32_t *workload_triangle_places(const workload *w)
+/* The rank of each triangle along the curve; NULL after a complaint. */
+static uint32_t *workload_triangle_ranks(const workload *w)
 {
     mw_error error;
     size_t count = w->mesh.triangle_count;
-    uint32_t *order = malloc(count * sizeof *order), *place = malloc(count * sizeof *place);
-    if (!order || !place)
+    uint32_t *order = malloc(count * sizeof *order), *rank = malloc(count * sizeof *rank);
+    if (!order || !rank)
         fail_memory();
     else if (mw_mesh_hilbert_order(w->drawn_in, order, NULL, &error) != MW_OK)
         workload_fail(w, &error);
     else {
-        for (size_t i = 0; i < count; i++) place[order[i]] = (uint32_t)i;
+        for (size_t i = 0; i < count; i++) rank[order[i]] = (uint32_t)i;
         free(order);
-        return place;
+        return rank;
     }
     free(order);
-    free(place);
+    free(rank);
     return NULL;
 }
 
 static int workload_draw_sorted(workload *w, double *queries, size_t n)
 {
-    uint32_t *place = workload_triangle_places(w);
+    uint32_t *rank = workload_triangle_ranks(w);
     mw_location *found = malloc(n * sizeof *found);
-    placed_query *all = malloc(n * sizeof *all);
-    int end = !place         ? END_RESOURCE
+    ranked_query *all = malloc(n * sizeof *all);
+    int end = !rank          ? END_RESOURCE
               : found && all ? workload_draw_inside(w, queries, n)
                              : fail_memory();
     if (end == 0) end = workload_locate(w, queries, n, found);
     for (size_t i = 0; i < n && end == 0; i++)
-        all[i] = (placed_query){{queries[2 * i], queries[2 * i + 1]}, place[found[i].triangle]};
+        all[i] = (ranked_query){{queries[2 * i], queries[2 * i + 1]}, rank[found[i].triangle]};
     if (end == 0) {
-        qsort(all, n, sizeof *all, placed_query_compare);
+        qsort(all, n, sizeof *all, ranked_query_compare);
         for (size_t i = 0; i < n; i++) memcpy(queries + 2 * i, all[i].query, 2 * sizeof *queries);
     }
-    free(place);
+    free(rank);
     free(found);
     free(all);
     return end;

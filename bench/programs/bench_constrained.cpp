@@ -52,16 +52,16 @@ double uniform(std::mt19937_64 &random)
 void shuffle(ConstrainedScene &s, std::mt19937_64 &random)
 {
     size_t n = s.points.size() / 2;
-    std::vector<uint32_t> place(n);
-    std::iota(place.begin(), place.end(), 0u);
-    for (size_t i = n; i > 1; i--) std::swap(place[i - 1], place[random() % i]);
+    std::vector<uint32_t> number(n);
+    std::iota(number.begin(), number.end(), 0u);
+    for (size_t i = n; i > 1; i--) std::swap(number[i - 1], number[random() % i]);
     Coordinates moved(2 * n);
     for (size_t i = 0; i < n; i++) {
-        moved[2 * place[i]] = s.points[2 * i];
-        moved[2 * place[i] + 1] = s.points[2 * i + 1];
+        moved[2 * number[i]] = s.points[2 * i];
+        moved[2 * number[i] + 1] = s.points[2 * i + 1];
     }
     s.points = moved;
-    for (uint32_t &end : s.segments) end = place[end];
+    for (uint32_t &end : s.segments) end = number[end];
 }
 
 // A closed line round the origin with bays of all sizes, in polar coordinates: it does not meet

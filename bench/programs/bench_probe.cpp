@@ -523,8 +523,8 @@ struct MovingSurface {
         mw_surface_end_update(scene.surface);
         own += end.seconds();
         Coordinates moved(points, points + count);
-        refit.place(moved);
-        rebuild.place(moved);
+        refit.set_points(moved);
+        rebuild.set_points(moved);
     }
     std::vector<SurfaceFollower> followers(uint64_t seed)
     {

@@ -357,17 +357,17 @@ void shorten(Coordinates &points)
     for (double &x : points) x = unit * std::round(x / unit);
 }
 
-// Does the facet touch the place that was found exactly?
-bool touches(const mw_surface *surface, const mw_location &place, uint32_t facet)
+// Does the facet touch the point that was found exactly?
+bool touches(const mw_surface *surface, const mw_location &found, uint32_t facet)
 {
     uint32_t own[3], other[3];
-    mw_surface_triangle(surface, place.triangle, own);
+    mw_surface_triangle(surface, found.triangle, own);
     mw_surface_triangle(surface, facet, other);
     auto shared = [&](size_t corner) {
         return std::find(other, other + 3, own[corner % 3]) != other + 3;
     };
-    return facet == place.triangle || (place.where == MW_ON_VERTEX && shared(place.local)) ||
-           (place.where == MW_ON_EDGE && shared(place.local) && shared(place.local + 1u));
+    return facet == found.triangle || (found.where == MW_ON_VERTEX && shared(found.local)) ||
+           (found.where == MW_ON_EDGE && shared(found.local) && shared(found.local + 1u));
 }
 
 void count_wrong(const Model &model, const std::string &given, const ProgramOptions &options,

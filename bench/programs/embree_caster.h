@@ -35,7 +35,7 @@ class EmbreeCaster
         void *triangles =
             rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                     3 * sizeof(uint32_t), model.triangle_count());
-        place(model.points);
+        set_points(model.points);
         std::copy(model.triangles.begin(), model.triangles.end(),
                   static_cast<uint32_t *>(triangles));
         rtcSetGeometryIntersectFilterFunction(geometry, filter);
@@ -62,7 +62,7 @@ class EmbreeCaster
     operator RTCScene() const { return scene; }
 
     // New coordinates of all vertices, and what then has to be done before the next ray.
-    void place(const Coordinates &points)
+    void set_points(const Coordinates &points)
     {
         std::transform(points.begin(), points.end(), vertices,
                        [](double x) { return static_cast<float>(x); });

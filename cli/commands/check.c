@@ -1,4 +1,4 @@
-/* check - every defect of a mesh, with its place; of a mesh in the plane, a surface or a
+/* check - every defect of a mesh, and where it is; of a mesh in the plane, a surface or a
  * star-shaped polyhedron. With --fix also a mesh in which they are mended. */
 #include "cli/commands/commands.h"
 #include "cli/frame/files.h"
@@ -141,14 +141,14 @@ static void check_json_begin(text *t, const char *path)
     report_quote(t, path);
 }
 
-/* A line for each defect; before each stands `place`. */
-static void check_as_text(text *t, const char *path, const char *place, const mw_check *check,
+/* A line for each defect; before each stands `prefix`. */
+static void check_as_text(text *t, const char *path, const char *prefix, const mw_check *check,
                           const check_outcome *o)
 {
     for (size_t i = 0; i < check->defect_count; i++) {
         char words[256];
         mw_defect_describe(&check->defects[i], words, sizeof words);
-        text_printf(t, "%s%s\n", place, words);
+        text_printf(t, "%s%s\n", prefix, words);
     }
     text_printf(t, "%s: %s\n", path, o->words);
 }
@@ -214,7 +214,7 @@ static void check_fix_tell(const check_settings *s, const char *path, const mend
                            text *t)
 {
     const char *output = s->mesh.common.output;
-    char place[512];
+    char prefix[512];
     if (s->mesh.json) {
         check_json_begin(t, path);
         text_string(t, ",\n \"output\": ");
@@ -224,10 +224,10 @@ static void check_fix_tell(const check_settings *s, const char *path, const mend
         check_as_json(t, check, o);
         return;
     }
-    snprintf(place, sizeof place, "%s: ", output);
+    snprintf(prefix, sizeof prefix, "%s: ", output);
     if (!s->mesh.common.quiet) mended_mesh_tell(m, file, t);
     mended_mesh_sum_up(m, path, t);
-    check_as_text(t, output, place, check, o);
+    check_as_text(t, output, prefix, check, o);
 }
 
 /* Check what was mended, write it, then tell about it. One of the files may take standard output.
@@ -296,7 +296,7 @@ const command check_command = {
     .operands = "MESH",
     .operand_count = 1,
     .summary = "list the defects of a mesh, and mend them",
-    .description = "Prints every defect of MESH with its place, one on a line, and then whether "
+    .description = "Prints every defect of MESH and where it is, one on a line, and then whether "
                    "the mesh is an "
                    "embedding: whether its triangles cover the plane without folds and overlaps. "
                    "Exits with 0 if it "

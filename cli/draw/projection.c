@@ -48,7 +48,7 @@ static void projection_measure(projection *p)
 }
 
 /* A point in the cube. */
-static void projection_place(const projection *p, const double *point, double cube[3])
+static void projection_project(const projection *p, const double *point, double cube[3])
 {
     for (int k = 0; k < 3; k++) cube[k] = (point[k] - p->middle[k]) / p->size;
 }
@@ -56,7 +56,8 @@ static void projection_place(const projection *p, const double *point, double cu
 static void triangle_corners_in_cube(const projection *p, uint32_t triangle, double corner[3][3])
 {
     const uint32_t *v = p->d->triangles + 3 * (size_t)triangle;
-    for (size_t k = 0; k < 3; k++) projection_place(p, p->d->points + 3 * (size_t)v[k], corner[k]);
+    for (size_t k = 0; k < 3; k++)
+        projection_project(p, p->d->points + 3 * (size_t)v[k], corner[k]);
 }
 
 /* Of length 1, on the front; zero where there is no area. */
@@ -71,7 +72,7 @@ static void projected_normal(const projection *p, uint32_t triangle, double n[3]
     vector_outer(a, b, n);
     if (!direction_normalise(n)) memset(n, 0, 3 * sizeof *n);
     if (p->d->view != VIEW_STAR) return;
-    projection_place(p, p->d->centre, c);
+    projection_project(p, p->d->centre, c);
     for (int k = 0; k < 3; k++) a[k] = corner[0][k] - c[k];
     if (vector_inner(a, n) < 0)
         for (int k = 0; k < 3; k++) n[k] = -n[k];
@@ -82,7 +83,7 @@ static void triangle_direction(const projection *p, uint32_t triangle, double n[
 {
     double corner[3][3], c[3];
     triangle_corners_in_cube(p, triangle, corner);
-    projection_place(p, p->d->centre, c);
+    projection_project(p, p->d->centre, c);
     for (int k = 0; k < 3; k++) n[k] = (corner[0][k] + corner[1][k] + corner[2][k]) / 3 - c[k];
     if (!direction_normalise(n)) memset(n, 0, 3 * sizeof *n);
 }
@@ -125,8 +126,8 @@ static void projection_choose_up(const projection *p, const double eye[3], doubl
 static void projection_step_aside(const projection *p, double eye[3])
 {
     double from[3], to[3], line[3], up[3], side[3];
-    projection_place(p, p->d->line, from);
-    projection_place(p, p->d->line + 3 * (p->d->line_count - 1), to);
+    projection_project(p, p->d->line, from);
+    projection_project(p, p->d->line + 3 * (p->d->line_count - 1), to);
     for (int k = 0; k < 3; k++) line[k] = to[k] - from[k];
     if (!direction_normalise(line) || fabs(vector_inner(line, eye)) < 0.85) return;
     projection_choose_up(p, eye, up);
@@ -162,7 +163,7 @@ projection projection_make(const drawing *d)
 page_point projection_at(const projection *p, const double *point)
 {
     double cube[3];
-    projection_place(p, point, cube);
+    projection_project(p, point, cube);
     if (p->d->view == VIEW_PLANE) return (page_point){cube[0], cube[1], 0};
     return (page_point){vector_inner(p->axis[0], cube), vector_inner(p->axis[1], cube),
                         vector_inner(p->axis[2], cube)};
@@ -180,8 +181,8 @@ bool projection_shows(const projection *p, const double *point)
 {
     double c[3], at[3];
     if (p->d->view != VIEW_STAR) return true;
-    projection_place(p, p->d->centre, c);
-    projection_place(p, point, at);
+    projection_project(p, p->d->centre, c);
+    projection_project(p, point, at);
     for (int k = 0; k < 3; k++) at[k] -= c[k];
     return vector_inner(at, p->axis[2]) >= 0;
 }

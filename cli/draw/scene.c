@@ -152,7 +152,7 @@ static int painted_compare(const void *a, const void *b)
 
 /* How many cells of the page a triangle is away from the walk. */
 typedef struct nearness {
-    uint16_t cells[CELLS + 2][CELLS + 2]; /* with a rim that is far away */
+    uint16_t cells[CELLS + 2][CELLS + 2]; /* with a margin that is far away */
 } nearness;
 
 #define FAR 0x7fff
@@ -183,7 +183,7 @@ static uint16_t nearness_closer(uint16_t here, uint16_t there)
 }
 
 /* Steps of a king, in two sweeps. */
-static void nearness_spread(nearness *near)
+static void nearness_sweep(nearness *near)
 {
     for (int y = 1; y <= CELLS; y++)
         for (int x = 1; x <= CELLS; x++) {
@@ -235,7 +235,7 @@ static bool scene_keep_near(scene *s)
     for (int y = 0; y < CELLS + 2; y++)
         for (int x = 0; x < CELLS + 2; x++) near->cells[y][x] = FAR;
     nearness_mark_walk(s, near);
-    nearness_spread(near);
+    nearness_sweep(near);
     for (size_t i = 0; i < s->count; i++) {
         uint32_t away = nearness_steps_away(s, near, s->painted[i].triangle);
         if (away <= CELLS) counts[away]++;

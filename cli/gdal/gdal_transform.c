@@ -92,7 +92,7 @@ void gdal_transform_close(gdal_transform *t)
 }
 
 /* GDAL chooses one way for all points of a call, by their mean: each point has a call of its own,
- * so that its place depends on nothing else. */
+ * so that its position depends on nothing else. */
 static bool transform_point(const gdal_transform *t, transform_member *m, double p[2])
 {
     int done = 0;

@@ -26,7 +26,7 @@ int gdal_transform_open(gdal_transform **transform, const gdal_transform_ends *e
 void gdal_transform_close(gdal_transform *transform); /* NULL is allowed */
 
 /* Transform points that are `stride` doubles apart, on up to so many threads (0: all). A point
- * without a place in the other system becomes NaN. Returns how many of the finite ones did. */
+ * without a position in the other system becomes NaN. Returns how many of the finite ones did. */
 uint64_t gdal_transform_points(gdal_transform *transform, double *points, size_t count,
                                size_t stride, uint32_t threads);
 

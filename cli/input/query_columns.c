@@ -217,7 +217,7 @@ static int columns_check_chosen(const query_columns *wanted, const mw_point_read
 {
     size_t width = mw_point_reader_width(reader);
     if (width != wanted->count) return columns_fail_count(wanted, width);
-    for (size_t k = 0; k < width; k++) index[k] = mw_point_reader_place(reader, k);
+    for (size_t k = 0; k < width; k++) index[k] = mw_point_reader_column_number(reader, k);
     return 0;
 }
 

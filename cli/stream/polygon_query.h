@@ -2,7 +2,7 @@
 #ifndef MW_CLI_STREAM_POLYGON_QUERY_H
 #define MW_CLI_STREAM_POLYGON_QUERY_H
 
-#include "cli/input/polygon_file.h"
+#include "cli/constraints/polygon_file.h"
 #include "cli/stream/point_query.h"
 
 /* Read the polygons and answer every point, with all statuses and numbers if `details`. Returns

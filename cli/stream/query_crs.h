@@ -17,6 +17,7 @@ typedef struct query_crs_settings {
     query_domain domain;
     const char *mesh, *mesh_crs; /* the path of the mesh, and its system; NULL: not known */
     const char *option;          /* --points-crs; NULL: not given */
+    bool heights;                /* are values of the mesh answered, which may be heights? */
     bool quiet;
 } query_crs_settings;
 
@@ -24,7 +25,7 @@ typedef struct query_crs {
     gdal_transform *transform; /* NULL: the queries are taken as they stand */
     const char *of_rows;       /* the system of the queries as they stand; NULL: not known */
     bool told;                 /* that system is told by a file or an option, not supposed */
-    uint64_t lost;             /* queries without a place in the system of the mesh */
+    uint64_t lost;             /* queries without a position in the system of the mesh */
 } query_crs;
 
 /* Refuse options before anything is read. Returns 0, or an exit code after a complaint. */

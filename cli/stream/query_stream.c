@@ -251,6 +251,7 @@ static int pipeline_open_source(query_pipeline *p)
                               .mesh = files_is_standard(s->mesh) ? "standard input" : s->mesh,
                               .mesh_crs = s->mesh_crs,
                               .option = s->settings->source.crs,
+                              .heights = s->heights,
                               .quiet = s->settings->common.quiet};
     query_columns columns = s->columns;
     columns.prefer = query_crs_prefers(&crs);
@@ -289,7 +290,7 @@ static void pipeline_remark_lost(const query_pipeline *p)
 {
     if (p->crs.lost == 0 || p->stream->settings->common.quiet) return;
     complain("%s: remark: %" PRIu64
-             " points have no place in the coordinate system of the mesh; their status is bad",
+             " points have no position in the coordinate system of the mesh; their status is bad",
              files_is_standard(p->path) ? "standard input" : p->path, p->crs.lost);
 }
 

@@ -164,7 +164,7 @@ MW_API mw_status mw_edit_apply(mw_editor *editor, const mw_edit *edit, mw_change
  *         fixed.
  *
  * Time: the walk to the point, from the previous edit if that was near, else from the locator's
- * guide; then proportional to the triangles in conflict, about six for spread points. Not
+ * guide; then proportional to the triangles in conflict, about six for scattered points. Not
  * thread-safe.
  */
 MW_API mw_status mw_edit_insert(mw_editor *editor, double x, double y, mw_change *change,

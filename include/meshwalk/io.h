@@ -20,8 +20,30 @@
 extern "C" {
 #endif
 
-/** A mesh as read. The structure owns its arrays; release with mw_mesh_file_release(). Faces with
- * more than three corners are divided into triangles, as a fan from the first corner. */
+/**
+ * Tell the version of libnetcdf, which reads and writes netCDF files and is loaded when it is
+ * needed.
+ *
+ * libnetcdf serves one thread at a time: calls of this library that read or write netCDF wait for
+ * one another, whatever the files. A program that calls libnetcdf itself must not do so while
+ * another thread is in such a call.
+ *
+ * @param text  receives the version, ended by NUL, empty if there is none; NULL is allowed
+ * @param size  bytes of `text`
+ * @return the length of the whole version; 0: libnetcdf is not found, and netCDF files are refused
+ *
+ * Thread-safe.
+ */
+MW_API size_t mw_netcdf_version(char *text, size_t size);
+
+/** A mesh as read. The structure owns its arrays; release with mw_mesh_file_release().
+ *
+ * Faces with more than three corners are cut into triangles: a quadrilateral along its shorter
+ * diagonal, of two equal ones along that with the lowest vertex number; a convex face with more
+ * corners as a fan from its lowest-numbered vertex (corners on a straight line between their
+ * neighbours may shift this, so that no triangle is flat). A face that is not convex is an error.
+ * Faces are looked at in the plane x, y; a face that is not convex there, as that of a wall, in
+ * the plane of two coordinates where its area is largest. */
 typedef struct mw_mesh_file {
     double *points;      /**< 3 per vertex: x, y, z; z is 0 if the file has none */
     uint32_t *triangles; /**< 3 vertices per triangle */
@@ -34,6 +56,11 @@ typedef struct mw_mesh_file {
     /** The coordinate system of x and y, as WKT or "EPSG:n"; NULL: unknown. PLY has it in a line
      * "comment crs ...", other files in a .prj file beside them. */
     char *crs;
+    /** Per triangle the face of the file that it is a part of, from 0 in the order of the file;
+     * NULL: each face is a triangle, and triangle i is face i. Ignored by mw_write_mesh(). */
+    uint32_t *faces;
+    size_t face_count;
+    int first_number; /**< what the file counts its vertices and faces from: 0 or 1 */
 } mw_mesh_file;
 
 /** Options of reading or writing a whole file. Zero-initialised options select the defaults. */
@@ -324,7 +351,7 @@ MW_API mw_status mw_point_reader_select(mw_point_reader *reader, const size_t *c
  * @param column  number of the value within a point, from 0
  * @return the number of the column in mw_point_table, from 0; SIZE_MAX = no such value.
  *         Thread-safe. */
-MW_API size_t mw_point_reader_place(const mw_point_reader *reader, size_t column);
+MW_API size_t mw_point_reader_column_number(const mw_point_reader *reader, size_t column);
 
 /** Tell how many cells that were read held a text where a number belongs. Such a cell is a missing
  * value, NaN, in columns beyond x, y and z of a reader that was opened with `texts`; elsewhere it

@@ -71,7 +71,7 @@ typedef enum mw_defect_kind {
     MW_DEFECT_COUNT
 } mw_defect_kind;
 
-/** One defect and its place. Members that do not apply are MW_NONE; edges 255. */
+/** One defect and where it is. Members that do not apply are MW_NONE; edges 255. */
 typedef struct mw_defect {
     mw_defect_kind kind;
     uint32_t triangle, other;
@@ -122,7 +122,7 @@ typedef struct mw_check_options {
  *         MW_CANCELLED.
  *
  * Thread-safe. O(n) for local defects; O(b log^2 b) expected for b border edges, whether they
- * cross or not (docs/guarantees.md).
+ * cross or not (docs/proofs/tilings.md).
  */
 MW_API mw_status mw_check_arrays(const mw_arrays *arrays, const mw_check_options *options,
                                  mw_check *check, mw_error *error);

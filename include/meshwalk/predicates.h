@@ -8,7 +8,7 @@
  *
  * A floating-point filter decides nearly every call. Exact expansion arithmetic decides the others
  * [Shewchuk 1997], and big integers decide where coordinates leave the range of expansions, which
- * docs/guarantees.md states.
+ * docs/promises.md states.
  *
  * The rounding mode must be to nearest and subnormal numbers must not be flushed to zero; both hold
  * unless a program changes them. Thread-safe. No allocation.

@@ -102,7 +102,7 @@ typedef struct mw_touch {
     /** Barycentric weights of the touched point: at least 0, sum 1 up to rounding, exactly 0 for a
      * vertex off an edge that the line meets. NaN without a touch. */
     double weight[3];
-    /** The caller's number, or MW_NONE. If several triangles are touched at one place: the lowest
+    /** The caller's number, or MW_NONE. If several triangles are touched at one point: the lowest
      * of those linked there; in certain mode the lowest of all. */
     uint32_t triangle;
     uint8_t state; /**< mw_touch_state */

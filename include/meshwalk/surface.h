@@ -142,7 +142,7 @@ MW_API double *mw_surface_points(mw_surface *surface);
  *
  * Triangle a b c with local edge ab and its neighbour b a d become, under the same numbers, c d b
  * and d c a. `triangle` keeps the corner c, the neighbour keeps d. With mw_surface_options.weld a
- * place may have different vertex numbers in the two triangles; then b is the number in
+ * point may have different vertex numbers in the two triangles; then b is the number in
  * `triangle`, a the number in its neighbour.
  *
  * @param surface     the surface

@@ -115,19 +115,19 @@ typedef struct mw_kind_options {
  * Triangulate points by any kind of rule.
  *
  * MW_KIND_GREEDY takes edges by increasing length (compared exactly; equal ones by the lower, then
- * the higher end) unless they cross an earlier edge. For spread points about as fast as sorting;
+ * the higher end) unless they cross an earlier edge. For scattered points about as fast as sorting;
  * quadratic in the degree at a vertex that sees thousands. 200 bytes per point.
  *
  * MW_KIND_MIN_WEIGHT minimises the sum of edge lengths. Sums are compared in doubles, so of
  * triangulations that differ in the last digits any may result. Faces that are too large for
  * dynamic programming, or that contain points, get a local optimum: no exchange of the diagonal of
  * a quadrilateral shortens it, and it is no longer than MW_KIND_GREEDY, up to rounding. About 70
- * us and 700 bytes per spread point, at most 3000 bytes per point.
+ * us and 700 bytes per scattered point, at most 3000 bytes per point.
  *
  * MW_KIND_MIN_MAX_ANGLE minimises the largest angle, compared exactly. The result is a local
  * optimum: no exchange of a diagonal makes the largest angle of its quadrilateral smaller. If
- * `optimal`, its largest angle is the least possible. About 10 us per spread point; the exchanges
- * that lead to the local optimum have no bound on time.
+ * `optimal`, its largest angle is the least possible. About 10 us per scattered point; the
+ * exchanges that lead to the local optimum have no bound on time.
  *
  * MW_KIND_REGULAR takes weighted points: circles round the points, with the weight as the square
  * of the radius. Point x of weight w is lifted to the height |x|^2 - w; the triangles are the
@@ -136,7 +136,7 @@ typedef struct mw_kind_options {
  * corner. A point on the hull that is no corner is hidden or not by the order of insertion. Equal
  * weights give a Delaunay triangulation. About 2 us and 250 bytes per point.
  *
- * docs/guarantees.md says what is optimal and what makes it slow.
+ * docs/proofs/optimal-triangulations.md says what is optimal and what makes it slow.
  *
  * @param kind          the kind
  * @param points        as for mw_delaunay()
@@ -168,7 +168,7 @@ typedef struct mw_constraints {
     const uint32_t *segments; /**< two points per segment; a segment with equal ends is ignored */
     size_t segment_count;
     /** NULL, or per segment the polygon whose ring it belongs to; MW_NONE: a line, which bounds
-     * nothing. A place is inside a polygon if a ray from it crosses an odd number of the polygon's
+     * nothing. A point is inside a polygon if a ray from it crosses an odd number of the polygon's
      * segments. So rings may come in any order and direction: outlines, holes, islands in holes. A
      * segment given twice counts twice. */
     const uint32_t *polygon;
@@ -254,7 +254,7 @@ MW_API void mw_constrained_edges_release(mw_constrained_edges *edges);
  *         cross in k^2 / 2 points), or 2^32 - 2 segments; MW_ERROR_MEMORY, MW_CANCELLED.
  *
  * Thread-safe. One thread after the Delaunay triangulation; time about proportional to the
- * triangles that segments cross (docs/guarantees.md).
+ * triangles that segments cross (docs/proofs/delaunay.md).
  */
 MW_API mw_status mw_constrained_delaunay(const mw_constraints *constraints,
                                          const mw_constrain_options *options,

@@ -25,7 +25,7 @@ struct mw_borrowed {
     double low[2], high[2];              /* extent of a few triangles: a guide only */
 };
 
-/* A triangle of the caller: the numbers and places of its corners, as given. */
+/* A triangle of the caller: the numbers and positions of its corners, as given. */
 typedef struct mw_borrowed_tile {
     uint32_t v[3];
     mw_point p[3];

@@ -61,7 +61,7 @@ mw_status mw_borrowed_locate_batch(const mw_borrowed *mesh, const double *points
     if (status) return status;
     if (!mesh) return mw__fail(error, MW_ERROR_ARGUMENT, "no mesh");
     if (n && (!points || !locations))
-        return mw__fail(error, MW_ERROR_ARGUMENT, "no points, or no place for results");
+        return mw__fail(error, MW_ERROR_ARGUMENT, "points or results are NULL");
     if (b.queries.stride == 1)
         return mw__fail(error, MW_ERROR_ARGUMENT, "a stride of 1 holds no y");
     if (mesh->tri_count == 0) borrowed_batch_nowhere(&b.queries, n);

@@ -299,7 +299,7 @@ mw_status mw_borrowed_cursor_init(const mw_borrowed_query_options *options,
                                   mw_borrowed_cursor *cursor, mw_error *error)
 {
     static const mw_borrowed_query_options defaults;
-    if (!cursor) return mw__fail(error, MW_ERROR_ARGUMENT, "no place for the cursor");
+    if (!cursor) return mw__fail(error, MW_ERROR_ARGUMENT, "the pointer to the new cursor is NULL");
     if (!options) options = &defaults;
     mw_status status = MW_RESERVED_CHECK(mw_borrowed_query_options, options, error);
     if (status) return status;

@@ -61,7 +61,7 @@ mw_status mw_mesh_borrow(const mw_borrowed_arrays *arrays, const mw_borrow_optio
                          mw_borrowed **out, mw_error *error)
 {
     static const mw_borrow_options defaults;
-    if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "no place for the mesh");
+    if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "the pointer to the new mesh is NULL");
     *out = NULL;
     if (!options) options = &defaults;
     mw_status status = borrowed_mesh_validate(arrays, options, error);

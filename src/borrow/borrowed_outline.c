@@ -3,7 +3,7 @@
  * It does, and nothing overlaps, if its border is one loop that goes round a convex polygon once.
  * For add up the boundaries of all triangles, each counter-clockwise: an edge between two triangles
  * is passed in both directions, since they lie on different sides of it, and cancels out. What is
- * left is the border. So the number of triangles over a place is how often the border winds round
+ * left is the border. So the number of triangles over a point is how often the border winds round
  * it: 1 in the polygon, 0 outside. Triangles without an area cover nothing; the check has seen that
  * they lie between their neighbours, so that their edges cancel out, too. */
 #include "borrow/borrowed.h"

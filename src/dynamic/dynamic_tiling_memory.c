@@ -228,8 +228,8 @@ static mw_status mesh_check_editable(const mw_tiling *tiling, const mw_mesh *mes
                 uint32_t v = mw__vertex_number(mesh, own->v[k]),
                          other = mw__vertex_number(mesh, tile->v[k]);
                 return mw__fail_at(error, tile->user & MW_USER_MASK, v,
-                                   "vertices %" PRIu32 " and %" PRIu32 " lie at one place", other,
-                                   v);
+                                   "vertices %" PRIu32 " and %" PRIu32 " have equal coordinates",
+                                   other, v);
             }
     }
     return MW_OK;

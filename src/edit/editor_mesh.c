@@ -116,7 +116,7 @@ static mw_status editor_make_mesh(const mw_editor *editor, renumbering *r, mw_jo
 mw_status mw_editor_mesh(const mw_editor *editor, uint32_t *triangles, uint32_t *vertices,
                          mw_mesh **out, mw_error *error)
 {
-    if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "no place for the mesh");
+    if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "the pointer to the new mesh is NULL");
     *out = NULL;
     if (!editor) return mw__fail(error, MW_ERROR_ARGUMENT, "no editor");
     renumbering r;

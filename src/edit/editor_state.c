@@ -157,7 +157,8 @@ mw_status mw_editor_index(mw_editor *editor, mw_start_kind start, const mw_index
                           const mw_index **index, mw_error *error)
 {
     if (!editor || !index)
-        return mw__fail(error, MW_ERROR_ARGUMENT, "an index needs an editor and a place");
+        return mw__fail(error, MW_ERROR_ARGUMENT,
+                        "the editor or the pointer to the new index is NULL");
     *index = NULL;
     mw_job job = mw__job(editor->threads, options ? options->progress : NULL);
     mw_status status = mw__upkeep_build(&editor->upkeep, start, options, &job, error);

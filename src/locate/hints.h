@@ -17,14 +17,14 @@ static MW_INLINE uint32_t mw__hint_tile(const mw_locator *locator, uint32_t hint
 {
     const mw_tiling *tiling = &locator->tiling;
     if (MW_UNLIKELY(tiling->tile_of))
-        return hint_is_name(tiling, hint) ? mw__tile_named(tiling, hint) : MW_NONE;
+        return hint_is_name(tiling, hint) ? mw__tile_of_name(tiling, hint) : MW_NONE;
     if (hint >= locator->mesh->tri_count) return MW_NONE;
     uint32_t slot = mw__triangle_slot(locator->mesh, hint);
     return MW_LIKELY(slot < tiling->tri_count) ? slot : slot % tiling->tri_count;
 }
 
-/* Is q so near to the tile of its hint that the guide would hardly lead nearer? Only the place of
- * one corner is looked at: more would have to be waited for. */
+/* Is q so near to the tile of its hint that the guide would hardly lead nearer? Only the
+ * position of one corner is looked at: more would have to be waited for. */
 static MW_INLINE bool mw__hint_is_near(const mw_locator *locator, uint32_t t, mw_point q)
 {
     const mw_tiling *tiling = &locator->tiling;

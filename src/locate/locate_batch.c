@@ -257,7 +257,7 @@ mw_status mw_locate_batch(const mw_locator *locator, const double *points, size_
     mw_status status = mw_cursor_init(locator, options, &b.cursor, error);
     if (status) return status;
     if (n && (!points || !locations))
-        return mw__fail(error, MW_ERROR_ARGUMENT, "no points, or no place for results");
+        return mw__fail(error, MW_ERROR_ARGUMENT, "points or results are NULL");
     if (b.queries.stride == 1)
         return mw__fail(error, MW_ERROR_ARGUMENT, "a stride of 1 holds no y");
     batch_choose_start(&b, n);

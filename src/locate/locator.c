@@ -118,7 +118,7 @@ bool mw__locator_guide(const mw_locator *locator, mw_job *job, mw_index *guide)
 {
     /* Most cells are empty where those that have tiles have more than UNEVEN of them on the
      * average. In a mesh that is edited a cell is made four where not one in SPARSE has tiles: an
-     * insertion in clusters takes a tenth less. Where tiles are spread evenly it would take a sixth
+     * insertion in clusters takes a tenth less. Where tiles lie evenly it would take a sixth
      * more in a large mesh, since so many cells have to come from memory. */
     enum { STRIDE = 2, UNEVEN = 32, SPARSE = 3 };
     const mw_tiling *tiling = &locator->tiling;
@@ -199,7 +199,7 @@ mw_status mw_locator_create(const mw_mesh *mesh, const mw_locator_options *optio
                             mw_locator **out, mw_error *error)
 {
     static const mw_locator_options defaults;
-    if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "no place for the locator");
+    if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "the pointer to the new locator is NULL");
     *out = NULL;
     if (!mesh) return mw__fail(error, MW_ERROR_ARGUMENT, "no mesh");
     if (!options) options = &defaults;
@@ -226,7 +226,7 @@ mw_status mw_index_create(const mw_locator *locator, mw_start_kind start,
                           const mw_index_options *options, mw_index **out, mw_error *error)
 {
     static const mw_index_options defaults;
-    if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "no place for the index");
+    if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "the pointer to the new index is NULL");
     *out = NULL;
     if (!locator) return mw__fail(error, MW_ERROR_ARGUMENT, "an index needs a locator");
     if (!mw_start_has_index(start))

@@ -127,7 +127,8 @@ mw_status mw_mend_arrays(const mw_arrays *arrays, const mw_mend_options *options
                          mw_error *error)
 {
     static const mw_mend_options defaults;
-    if (!mended) return mw__fail(error, MW_ERROR_ARGUMENT, "no place for the mended mesh");
+    if (!mended)
+        return mw__fail(error, MW_ERROR_ARGUMENT, "the pointer to the new mended mesh is NULL");
     *mended = (mw_mended){0};
     if (!options) options = &defaults;
     mw_status status = mend_check_arguments(arrays, options, error);

@@ -33,7 +33,7 @@ double mw__mend_square_distance(const mw_mend_work *w, uint32_t a, uint32_t b)
     return sum;
 }
 
-/* Are two vertices at the same place? */
+/* Are two vertices at the same point? */
 static bool mend_equal(const mw_mend_work *w, uint32_t a, uint32_t b)
 {
     const double *p = mw__mend_point(w, a), *q = mw__mend_point(w, b);

@@ -1,4 +1,4 @@
-/* mend_geometry.h - the questions that mending asks about places, exact with the tolerance 0.
+/* mend_geometry.h - the questions that mending asks about positions, exact with the tolerance 0.
  * Private. */
 #ifndef MW_SRC_MEND_MEND_GEOMETRY_H
 #define MW_SRC_MEND_MEND_GEOMETRY_H

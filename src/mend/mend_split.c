@@ -77,7 +77,7 @@ static bool split_plant_tree(split_search *s, const mw_mend_edge *edge, size_t c
     return done;
 }
 
-/* Of vertices at one place of an edge, which were not welded, only the lowest is needed. */
+/* Of vertices at one point of an edge, which were not welded, only the lowest is needed. */
 static void split_sort(split_search *s)
 {
     size_t left = 0;

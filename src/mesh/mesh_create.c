@@ -142,7 +142,7 @@ mw_status mw_mesh_create(const mw_arrays *arrays, const mw_mesh_options *options
 {
     static const mw_mesh_options defaults;
     if (!options) options = &defaults;
-    if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "no place for the mesh");
+    if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "the pointer to the new mesh is NULL");
     *out = NULL;
     mw_job job = mw__job(options->threads, options->progress);
     mw_status status = mw__job_end(&job, mw__mesh_create(arrays, options, &job, out, error), error);

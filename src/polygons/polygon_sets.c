@@ -9,7 +9,7 @@ bool mw__polygon_sets_create(mw_polygon_sets *s)
 {
     *s = (mw_polygon_sets){
         .count = 1, .set_room = FIRST_TABLE, .rank_room = FIRST_TABLE, .table_size = FIRST_TABLE};
-    /* not NULL, even if no place is inside a polygon */
+    /* not NULL, even if no point is inside a polygon */
     s->rank = mw__alloc(s->rank_room, sizeof *s->rank);
     s->first = mw__calloc(s->set_room, sizeof *s->first);
     s->table = mw__calloc(s->table_size, sizeof *s->table);
@@ -40,8 +40,8 @@ static uint64_t ranks_hash(const uint32_t *rank, size_t count)
     return hash;
 }
 
-/* The place of a set in the table, or the free one where it belongs. */
-static uint32_t *sets_place(const mw_polygon_sets *s, const uint32_t *rank, size_t count)
+/* The entry of a set in the table, or the free one where it belongs. */
+static uint32_t *sets_entry(const mw_polygon_sets *s, const uint32_t *rank, size_t count)
 {
     size_t at = ranks_hash(rank, count) & (s->table_size - 1);
     for (; s->table[at]; at = (at + 1) & (s->table_size - 1)) {
@@ -61,7 +61,7 @@ static bool sets_double_table(mw_polygon_sets *s)
     s->table = table;
     s->table_size *= 2;
     for (uint32_t set = 1; set < s->count; set++)
-        *sets_place(s, s->rank + s->first[set], s->first[set + 1] - s->first[set]) = set;
+        *sets_entry(s, s->rank + s->first[set], s->first[set + 1] - s->first[set]) = set;
     return true;
 }
 
@@ -109,10 +109,10 @@ uint32_t mw__polygon_sets_toggle(mw_polygon_sets *s, uint32_t set, const uint32_
     if (!sets_make_room(s, s->first[set + 1] - s->first[set] + count)) return MW_NONE;
     size_t made = sets_write(s, set, ranks, count);
     if (made == 0) return 0;
-    uint32_t *place = sets_place(s, s->rank + s->first[s->count], made);
-    if (!*place) {
+    uint32_t *entry = sets_entry(s, s->rank + s->first[s->count], made);
+    if (!*entry) {
         s->first[s->count + 1] = s->first[s->count] + made;
-        *place = s->count++;
+        *entry = s->count++;
     }
-    return *place;
+    return *entry;
 }

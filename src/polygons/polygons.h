@@ -3,7 +3,7 @@
  * The rings are constraints of a triangulation. A segment that crosses another which is an edge
  * already stays whole from there on: it is a chord of each triangle that it passes through. On a
  * side of all its chords the triangle is covered by one set of polygons. The set that is stored is
- * that of the left sides of all chords, be there a place on all of them or not:
+ * that of the left sides of all chords, be there a point on all of them or not:
  *
  *          c
  *         / \ B

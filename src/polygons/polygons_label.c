@@ -85,7 +85,7 @@ static uint32_t labeller_begin(const labeller *l)
 }
 
 /* Give the neighbours of triangle t their sets, and put them on the stack. */
-static bool labeller_spread(labeller *l, uint32_t t, uint32_t *stack, uint32_t *top)
+static bool labeller_label_neighbours(labeller *l, uint32_t t, uint32_t *stack, uint32_t *top)
 {
     for (uint32_t k = 0; k < 3; k++) {
         uint32_t link = l->tri[t].link[k];
@@ -107,7 +107,8 @@ static bool labeller_run(labeller *l, uint32_t tri_count, uint32_t *stack, mw_jo
     l->p->set[mw__link_triangle(half)] = set;
     stack[top++] = mw__link_triangle(half);
     while (top > 0)
-        if (!labeller_spread(l, stack[--top], stack, &top) || !mw__job_step(job, done++, tri_count))
+        if (!labeller_label_neighbours(l, stack[--top], stack, &top) ||
+            !mw__job_step(job, done++, tri_count))
             return false;
     mw__polygon_sets_finish(&l->p->sets);
     return true;

@@ -49,7 +49,7 @@ static MW_INLINE double mw__power(const mw_weighted_point p[4])
     return mw__power_exact(p);
 }
 
-/* For a and b at different places, and d on the line through them: 1: d lies below the line
+/* For a and b at different points, and d on the line through them: 1: d lies below the line
  * through the lifted a and b; -1: above; 0: on it. Always exact. p: a, b, d. */
 int mw__power_on_line(const mw_weighted_point p[3]);
 

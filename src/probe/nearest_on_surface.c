@@ -362,7 +362,8 @@ mw_status mw_nearest_on_surface(const mw_prober *prober, const double point[3], 
                                 mw_nearest_surface_point *hit, mw_error *error)
 {
     if (!prober || !point || !hit)
-        return mw__fail(error, MW_ERROR_ARGUMENT, "no prober, no point or no place for it");
+        return mw__fail(error, MW_ERROR_ARGUMENT,
+                        "the prober, the point or the pointer to the result is NULL");
     *hit = (mw_nearest_surface_point){MW_NONE, NAN, {NAN, NAN, NAN}, {NAN, NAN, NAN}};
     if (!prober->has_bvh)
         return mw__fail(error, MW_ERROR_ARGUMENT,

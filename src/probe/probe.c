@@ -90,7 +90,7 @@ static bool probe_beats_sample(const mw_prober *prober, uint32_t t, const double
 {
     const double *p = mw__surface_corner(prober->surface, t, 0);
     double x = p[0] - q[0], y = p[1] - q[1], z = p[2] - q[2];
-    return (x * x + y * y + z * z) * samples < 4 * prober->spread2;
+    return (x * x + y * y + z * z) * samples < 4 * prober->variance;
 }
 
 /* Does the search start at the triangle touched last? */

@@ -73,7 +73,7 @@ mw_status mw_probe_batch(const mw_prober *prober, const double *queries, size_t 
     mw_status status = mw_probe_cursor_init(prober, options, &b.cursor, error);
     if (status) return status;
     if (n && (!queries || !touches))
-        return mw__fail(error, MW_ERROR_ARGUMENT, "no queries, or no place for results");
+        return mw__fail(error, MW_ERROR_ARGUMENT, "queries or results are NULL");
     if (b.stride < 6)
         return mw__fail(error, MW_ERROR_ARGUMENT, "a stride below 6 holds no point and motion");
     b.seed = b.cursor.options.seed;

@@ -36,9 +36,9 @@ static mw_status prober_make_boxes(mw_prober *prober, mw_job *job, mw_error *err
     return done ? MW_OK : mw__fail_memory(error);
 }
 
-/* The spread of a sample of corners. It is only a guide: overflow, or a growing surface, makes
+/* The variance of a sample of corners. It is only a guide: overflow, or a growing surface, makes
  * choices worse, but not answers. */
-static double prober_measure_spread(const mw_surface *surface)
+static double prober_sample_variance(const mw_surface *surface)
 {
     enum { CORNERS = 256 };
     uint32_t stride = surface->tri_count / CORNERS + 1, count = 0;
@@ -63,7 +63,7 @@ mw_status mw_prober_create(const mw_surface *surface, const mw_prober_options *o
 {
     static const mw_prober_options defaults;
     if (!options) options = &defaults;
-    if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "no place for the prober");
+    if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "the pointer to the new prober is NULL");
     *out = NULL;
     if (!surface) return mw__fail(error, MW_ERROR_ARGUMENT, "no surface");
     if (surface->tri_count == 0)
@@ -75,7 +75,7 @@ mw_status mw_prober_create(const mw_surface *surface, const mw_prober_options *o
     prober->surface = surface;
     prober->version = surface->version;
     prober->has_bvh = options->boxes != 0;
-    prober->spread2 = prober_measure_spread(surface);
+    prober->variance = prober_sample_variance(surface);
     if (prober->has_bvh) {
         mw_job job = mw__job(options->threads, options->progress);
         status = mw__job_end(&job, prober_make_boxes(prober, &job, error), error);

@@ -16,7 +16,7 @@ struct mw_prober {
     mw_bvh bvh;
     bool has_bvh;
     /* About the mean squared distance of the vertices from their mean, when created. */
-    double spread2;
+    double variance;
     uint64_t version;   /* version of the surface that the BVH is valid for */
     double slack;       /* boxes are widened by this */
     double slack_limit; /* beyond this they are fitted again */

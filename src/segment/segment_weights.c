@@ -4,8 +4,8 @@
 
 #include <meshwalk/segment.h>
 
-/* Both ends of the edge are on the line: a, b, or a vertex inside the edge of a triangle that is cut
- * into tiles. */
+/* Both ends of the edge are on the line: a, b, or a vertex inside the edge of a triangle that is
+ * cut into tiles. */
 static double weights_at_parameter(const double a[2], const double b[2], double t, const double *p,
                                    const double *q)
 {

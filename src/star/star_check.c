@@ -65,7 +65,7 @@ mw_status mw_star_check_arrays(const mw_arrays *arrays, int weld, const mw_star_
                                mw_check *check, mw_error *error)
 {
     static const mw_star_options defaults;
-    if (!check) return mw__fail(error, MW_ERROR_ARGUMENT, "no place for the check");
+    if (!check) return mw__fail(error, MW_ERROR_ARGUMENT, "the pointer to the report is NULL");
     *check = (mw_check){0};
     if (!options) options = &defaults;
     if (!mw__is_finite3(options->centre))

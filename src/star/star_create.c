@@ -134,7 +134,7 @@ mw_status mw_star_create(const mw_surface *surface, const mw_star_options *optio
                          mw_error *error)
 {
     static const mw_star_options defaults;
-    if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "no place for the star");
+    if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "the pointer to the new star is NULL");
     *out = NULL;
     if (!surface) return mw__fail(error, MW_ERROR_ARGUMENT, "no surface");
     if (!options) options = &defaults;

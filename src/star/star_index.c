@@ -59,7 +59,7 @@ mw_status mw_star_index_create(const mw_star *star, mw_star_start_kind start,
                                mw_error *error)
 {
     static const mw_star_index_options defaults;
-    if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "no place for the index");
+    if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "the pointer to the new index is NULL");
     *out = NULL;
     if (!options) options = &defaults;
     mw_status status = star_index_check(star, start, options, error);

@@ -9,7 +9,7 @@
  * The vertex to go down at is the nearest one, which takes three distances; or, on request, that of
  * the largest orientation coordinate of q, which the direct and the barycentric walk know already,
  * and others compute [thesis App. C, sec. 3]. The nearest is nearer: walks by the other are longer
- * (docs/published-tables.md, C2). */
+ * (docs/measurements/published-tables.md, C2). */
 #include "start/layers.h"
 
 #include "base/random.h"
@@ -289,7 +289,7 @@ uint32_t mw__layers_descend(const mw_layers *layers, mw_point q, const mw_layer_
         if (tile) tile[i] = walk.t;
         t = name_below(layers, beneath,
                        layer->below[by_weight ? layer_heaviest(&walk, how) : layer_nearest(&walk)]);
-        if (i > 0) t = mw__tile_named(beneath, t);
+        if (i > 0) t = mw__tile_of_name(beneath, t);
     }
     return t;
 }

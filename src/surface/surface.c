@@ -95,7 +95,7 @@ mw_status mw_surface_create(const mw_arrays *arrays, const mw_surface_options *o
 {
     static const mw_surface_options defaults = {0};
     if (!options) options = &defaults;
-    if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "no place for the surface");
+    if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "the pointer to the new surface is NULL");
     *out = NULL;
     mw_job job = mw__job(1, options->progress);
     mw_status status =

@@ -112,7 +112,7 @@ mw_status mw_surface_check_arrays(const mw_arrays *arrays, int weld,
                                   const mw_check_options *options, mw_check *check, mw_error *error)
 {
     static const mw_check_options defaults;
-    if (!check) return mw__fail(error, MW_ERROR_ARGUMENT, "no place for the check");
+    if (!check) return mw__fail(error, MW_ERROR_ARGUMENT, "the pointer to the report is NULL");
     *check = (mw_check){0};
     if (!options) options = &defaults;
     mw_status status = MW_RESERVED_CHECK(mw_check_options, options, error);

@@ -118,7 +118,8 @@ static void surface_measure(const mw_surface *surface, mw_surface_info *info)
 mw_status mw_surface_describe(const mw_surface *surface, mw_surface_info *info, mw_error *error)
 {
     if (!surface || !info)
-        return mw__fail(error, MW_ERROR_ARGUMENT, "no surface, or no place for its description");
+        return mw__fail(error, MW_ERROR_ARGUMENT,
+                        "the surface or the pointer to its description is NULL");
     *info = (mw_surface_info){
         .triangles = surface->tri_count, .low = {NAN, NAN, NAN}, .high = {NAN, NAN, NAN}};
     mw__surface_read_lock(surface);

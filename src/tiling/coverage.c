@@ -62,7 +62,7 @@ static bool coverage_leave_out(mw_coverage *c, uint32_t edge)
 
 /* Leave out all triangles with an area that are connected by links to those left out so far. All
  * outline edges of the remaining ones are in the cells, so their degrees make sense. */
-static bool coverage_spread_left_out(mw_coverage *c)
+static bool coverage_flood_left_out(mw_coverage *c)
 {
     const mw_mesh *mesh = c->outline->mesh;
     if (!c->left_out) return true;
@@ -257,9 +257,8 @@ mw_status mw__coverage_create(mw_coverage *coverage, const mw_outline *outline, 
     if (status) return status;
     bool done = mw__segment_insertion_create(&coverage->net, outline->point, outline->node_count,
                                              coverage->cell, coverage->cell_count) &&
-                coverage_force_edges(coverage, job, defects) &&
-                coverage_spread_left_out(coverage) && splits_sort(coverage) &&
-                coverage_find_degrees(coverage);
+                coverage_force_edges(coverage, job, defects) && coverage_flood_left_out(coverage) &&
+                splits_sort(coverage) && coverage_find_degrees(coverage);
     return done ? MW_OK : mw__fail_memory(error);
 }
 

@@ -105,7 +105,8 @@ mw_status mw_mesh_describe(const mw_mesh *mesh, const mw_check_options *options,
 {
     static const mw_check_options defaults;
     if (!mesh || !info)
-        return mw__fail(error, MW_ERROR_ARGUMENT, "no mesh, or no place for its description");
+        return mw__fail(error, MW_ERROR_ARGUMENT,
+                        "the mesh or the pointer to its description is NULL");
     if (!options) options = &defaults;
     mw_status status = MW_RESERVED_CHECK(mw_check_options, options, error);
     if (status) return status;

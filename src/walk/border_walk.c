@@ -10,7 +10,7 @@
  *
  * Walk along the line from a point p of the first tile's edge to q, as the straight walk does.
  * Where the line leaves the mesh, go along the border, turning round its vertices through tiles,
- * until an edge is met by which the line comes back ("in") behind the place where it left ("out")
+ * until an edge is met by which the line comes back ("in") behind the point where it left ("out")
  * and not behind q: there the walk goes on. If all the border from the way out round to itself has
  * no such edge, q lies on the far side of it: outside, or in the hole that it bounds.
  * Departures from the printed pseudocode (slip 6). A vertex on the line counts as one to its right,
@@ -25,9 +25,10 @@
  * Where nothing is beyond any border, as on tiles that fill their hull, q is outside as soon as the
  * line leaves.
  * Ends on every embedding: each time the line comes back it does so farther on than it left. But it
- * may come back very often, and go along the same border each time. So its steps are limited, and a
- * second form takes over, which goes all along a border and on where the line comes back last: if
- * it ever leaves over the same border again, it is for good. docs/guarantees.md has the proofs. */
+ * may come back very often, and go along the same border each time. So its steps are limited. If
+ * they do not suffice, a second form takes over: it goes all along a border, and continues where
+ * the line comes back last. If the line leaves over that border again, it does not come back.
+ * Proof: docs/proofs/walks.md. */
 #include "walk/drive.h"
 
 /* phases; round: where the border's last vertex lies */

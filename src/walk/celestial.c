@@ -16,8 +16,8 @@
  * signs of two dot products.
  * Ends on every tiling: the edge crossed holds the point x of the tile nearest to q, so the
  * distance from q to the tile never grows. It stays the same only if x is a vertex, and then the
- * walk turns one way round x. docs/guarantees.md has the proof. So no tile is entered twice. Memory
- * is not needed for that; remembering the edge it came by saves a test. */
+ * walk turns one way round x. So no tile is entered twice (proof: docs/proofs/walks.md). The walk
+ * ends without any memory; remembering the edge it came by saves a test. */
 #include "walk/drive.h"
 
 /* Cross edge e, the first of the chain, or the next edge if q lies round the corner between

@@ -24,7 +24,7 @@
  * the hull, q is outside or on the hull but for rounding: an exact walk goes on from there. Ends by
  * running out of fuel at worst. In exact arithmetic it enters no tile twice; all that rounding
  * could do is lead it back to the edge it began with, or keep it turning round p:
- * docs/guarantees.md. */
+ * docs/proofs/walks.md. */
 #include "walk/drive.h"
 
 enum { FIRST, TURN_RIGHT, TURN_LEFT, FOLLOW }; /* phases */

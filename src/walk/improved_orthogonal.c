@@ -22,7 +22,8 @@
  * it, through the vertex tested last (a walk of its own). In the vertical leg: the exact walk. App.
  * B does not say on which side of its line that vertex lies: here before it, as seen on the way
  * there. So counted, its Table II comes out within the spread of seeds; with the vertex beyond its
- * line the walk is 7 percent shorter, and the final location 12 to 16 (docs/published-tables.md).
+ * line the walk is 7 percent shorter, and the final location 12 to 16
+ * (docs/measurements/published-tables.md).
  * Edge cases. q level with p, or above or below it: its leg ends where it begins. A vertex on the
  * line of a leg counts as right of it, but where the walk turns to the right, as left
  * (axis_turn_upright). Where rounding puts the centroid beside the tile, so that the line misses

@@ -28,7 +28,7 @@
  * it: p is then vertex 0 of the first tile, round which the walk turns by orientation tests to the
  * tile that the line enters. That is a walk of its own, normal_straight_turn.
  * Ends by running out of fuel at worst. In exact arithmetic it enters no tile twice; all that
- * rounding could do is lead it back to the edge it began with: docs/guarantees.md. */
+ * rounding could do is lead it back to the edge it began with: docs/proofs/walks.md. */
 #include "walk/drive.h"
 
 /* position(lambda, s) > 0: s lies to the left of the line. */

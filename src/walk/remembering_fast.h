@@ -15,7 +15,7 @@
  * may go: it never crosses an edge that q does not lie beyond.
  *
  * Why it ends: on a Delaunay mesh each step lowers the power of q with respect to the circle of the
- * tile, as for every way of Lawson's walk (docs/guarantees.md). Elsewhere it may go in cycles:
+ * tile, as for every way of Lawson's walk (docs/proofs/walks.md). Elsewhere it may go in cycles:
  * after MW_FAST_STEPS steps it gives up. What it could not decide, or not in so many steps, goes on
  * by a walk of drive.h from the tile where it stands. */
 #ifndef MW_SRC_WALK_REMEMBERING_FAST_H

@@ -151,7 +151,7 @@ static void test_poly_refused(void **state)
     refused("r.poly", THREE "1 0\n1 1 2.5\n", 6, "expected the end of the segment");
     refused("r.poly", THREE "1 0\n1 1 2\n2\n1 0 0\n", 8, "ends after 1 of 2 holes");
     refused("r.poly", THREE "1 0\n1 1 2\n1\n1 0 nan\n", 8, "not finite");
-    refused("r.poly", THREE "1 0\n1 1 2\n1\n1 0 y\n", 8, "place of the hole: 'y' is not a number");
+    refused("r.poly", THREE "1 0\n1 1 2\n1\n1 0 y\n", 8, "point of the hole: 'y' is not a number");
     refused("r.poly", THREE "1 0\n1 1 2\n9999999999999\n1 0 0\n", 8,
             "ends after 1 of 9999999999999 holes");
     refused("r.poly", "9999999999999 2 0 0\n1 0 0\n", 2, "ends after 1");

@@ -103,6 +103,94 @@ static void test_ply_ascii(void **state)
     mw_mesh_file_release(&file);
 }
 
+/* Reads a mesh of text and expects these triangles, and the face of each. */
+static void expect_cut(const char *name, const char *text, size_t count, const uint32_t *triangles,
+                       const uint32_t *faces)
+{
+    mw_mesh_file file = mesh_file_read_text(name, text);
+    mesh_file_expect_triangles(&file, file.point_count, count, triangles);
+    if (!faces) assert_null(file.faces);
+    for (size_t t = 0; faces && t < count; t++) assert_int_equal(file.faces[t], faces[t]);
+    assert_int_equal(file.face_count, faces ? faces[count - 1] + 1 : count);
+    assert_int_equal(file.first_number, strstr(name, ".obj") ? 1 : 0);
+    mw_mesh_file_release(&file);
+}
+#define CUT(name, text, count, faces, ...)                                                         \
+    expect_cut(name, text, count, (const uint32_t[]){__VA_ARGS__}, faces)
+
+/* Quadrilaterals are cut along the shorter diagonal, whichever corner comes first, and whether
+ * their vertices come before or behind them. */
+static void test_quadrilaterals(void **state)
+{
+    (void)state;
+    static const uint32_t two[] = {0, 0}, mixed[] = {0, 1, 1, 2};
+#define KITE "v 0 0 0\nv 3 0 0\nv 4 2 0\nv 0 1 0\n"
+    CUT("a.obj", KITE "f 1 2 3 4\n", 2, two, 1, 2, 3, 1, 3, 0);
+    CUT("a.obj", KITE "f 3 4 1 2\n", 2, two, 1, 2, 3, 1, 3, 0);
+    CUT("a.obj", "f 3 4 1 2\n" KITE, 2, two, 1, 2, 3, 1, 3, 0);
+    CUT("a.obj", KITE "f 4 3 2 1\n", 2, two, 1, 0, 3, 1, 3, 2);
+    CUT("a.obj", "f 1 2 3\nf 4 3 2 1\nf 1 2 4\n" KITE, 4, mixed, 0, 1, 2, 1, 0, 3, 1, 3, 2, 0, 1,
+        3);
+    /* diagonals of one length: the lowest vertex decides */
+    CUT("a.off", "OFF\n4 1 0\n0 1 0\n0 0 0\n1 0 0\n1 1 0\n4 1 2 3 0\n", 2, two, 0, 1, 2, 0, 2, 3);
+    CUT("a.off", "OFF\n4 1 0\n1 0 0\n0 1 0\n0 0 0\n1 1 0\n4 2 0 3 1\n", 2, two, 0, 3, 1, 0, 1, 2);
+    /* a corner on a straight line between its neighbours: no triangle is flat, however long */
+    CUT("a.off", "OFF\n4 1 0\n0 0 0\n5 0 0\n6 0 0\n5.5 9 0\n4 0 1 2 3\n", 2, two, 1, 2, 3, 1, 3, 0);
+    /* a wall is looked at from the side */
+    CUT("a.off", "OFF\n4 1 0\n0 0 0\n3 0 0\n4 0 2\n0 0 1\n4 0 1 2 3\n", 2, two, 1, 2, 3, 1, 3, 0);
+    CUT("a.off", "OFF\n4 1 0\n0 0 0\n0 3 0\n0 4 2\n0 0 1\n4 0 1 2 3\n", 2, two, 1, 2, 3, 1, 3, 0);
+    /* a corner named twice in a row is one corner; a triangle is left as it is */
+    CUT("a.off", "OFF\n4 1 0\n" SQUARE_BODY "4 0 1 2 2\n", 1, NULL, 0, 1, 2);
+    CUT("a.off", "OFF\n4 1 0\n" SQUARE_BODY "5 0 1 1 2 0\n", 1, NULL, 0, 1, 2);
+    CUT("a.off", "OFF\n4 1 0\n" SQUARE_BODY "3 0 1 1\n", 1, NULL, 0, 1, 1);
+    CUT("a.off", "OFF\n4 1 0\n" SQUARE_BODY "4 3 3 3 3\n", 1, NULL, 3, 3, 3);
+}
+
+/* Convex faces with more corners are fans from the lowest vertex. */
+static void test_polygons(void **state)
+{
+    (void)state;
+    static const uint32_t three[] = {0, 0, 0}, two[] = {0, 0};
+    CUT("a.off", "OFF\n5 1 0\n2 2 0\n0 2 0\n-1 1 0\n0 0 0\n2 0 0\n5 2 3 4 0 1\n", 3, three, 0, 1, 2,
+        0, 2, 3, 0, 3, 4);
+    /* from vertex 0, the triangle 0 1 2 would be flat */
+    CUT("a.off", "OFF\n5 1 0\n0 0 0\n1 0 0\n2 0 0\n2 2 0\n0 2 0\n5 0 1 2 3 4\n", 3, three, 1, 2, 3,
+        1, 3, 4, 1, 4, 0);
+    /* what has no area has flat triangles, which the check of the mesh names */
+    CUT("a.off", "OFF\n4 1 0\n0 0 0\n1 0 0\n2 0 0\n3 0 0\n4 3 2 1 0\n", 2, two, 0, 3, 2, 0, 2, 1);
+}
+
+/* Faces that are not convex are refused, with their number and their line. */
+static void test_concave(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *name, *text, *message;
+    } cases[] = {
+        {"a.off", "OFF\n4 1 0\n0 0 0\n4 0 0\n1 1 0\n0 4 0\n4 0 1 2 3\n",
+         "a.off:7: face 0 of 4 corners is not convex; cut it into convex ones"},
+        {"a.obj", "f 1 2 4\nf 1 2 3 4\nv 0 0 0\nv 4 0 0\nv 1 1 0\nv 0 4 0\n",
+         "a.obj:2: face 2 of 4 corners is not convex; cut it into convex ones"},
+        /* crossing itself; a star that turns left only; a face that goes back on itself */
+        {"a.off", "OFF\n4 1 0\n0 0 0\n4 4 0\n4 0 0\n0 4 0\n4 0 1 2 3\n", "is not convex"},
+        {"a.off", "OFF\n5 1 0\n0 3 0\n-2 -3 0\n3 1 0\n-3 1 0\n2 -3 0\n5 0 1 2 3 4\n",
+         "is not convex"},
+        {"a.off", "OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 0 2\n", "is not convex"},
+        /* a bay hidden by two corners at each place */
+        {"a.off",
+         "OFF\n8 1 0\n4 0 0\n4 0 0\n1 1 0\n1 1 0\n0 4 0\n0 4 0\n0 0 0\n0 0 0\n8 0 1 2 3 4 5 6 7\n",
+         "is not convex"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        mw_mesh_file file;
+        mw_error error;
+        files_write_text(cases[i].name, cases[i].text);
+        assert_int_equal(mw_read_mesh(cases[i].name, NULL, &file, &error), MW_ERROR_INPUT);
+        if (!strstr(error.message, cases[i].message)) fail_msg("%s", error.message);
+        files_clear();
+    }
+}
+
 /* Strips of triangles: every second one turned, -1 between strips, corners repeated to join them.
  * */
 static void test_ply_strips(void **state)
@@ -344,11 +432,19 @@ static void test_standard_input(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_off),        cmocka_unit_test(test_obj),
-        cmocka_unit_test(test_ply_ascii),  cmocka_unit_test(test_ply_strips),
-        cmocka_unit_test(test_ply_binary), cmocka_unit_test(test_ply_crlf_header),
-        cmocka_unit_test(test_stl),        cmocka_unit_test(test_node_ele),
-        cmocka_unit_test(test_line_ends),  cmocka_unit_test(test_standard_input),
+        cmocka_unit_test(test_off),
+        cmocka_unit_test(test_obj),
+        cmocka_unit_test(test_ply_ascii),
+        cmocka_unit_test(test_quadrilaterals),
+        cmocka_unit_test(test_polygons),
+        cmocka_unit_test(test_concave),
+        cmocka_unit_test(test_ply_strips),
+        cmocka_unit_test(test_ply_binary),
+        cmocka_unit_test(test_ply_crlf_header),
+        cmocka_unit_test(test_stl),
+        cmocka_unit_test(test_node_ele),
+        cmocka_unit_test(test_line_ends),
+        cmocka_unit_test(test_standard_input),
     };
     return cmocka_run_group_tests(tests, files_enter, files_leave);
 }

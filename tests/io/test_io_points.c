@@ -207,8 +207,8 @@ static void test_table(void **state)
     assert_int_equal(mw_point_reader_select(reader, (const size_t[]){3, 2}, 2, &error), MW_OK);
     assert_int_equal(mw_point_reader_width(reader), 2);
     assert_string_equal(mw_point_reader_column(reader, 0), "Y");
-    assert_int_equal(mw_point_reader_place(reader, 1), 2);
-    assert_int_equal(mw_point_reader_place(reader, 2), SIZE_MAX);
+    assert_int_equal(mw_point_reader_column_number(reader, 1), 2);
+    assert_int_equal(mw_point_reader_column_number(reader, 2), SIZE_MAX);
     expect_row(reader, 0, NULL);
     assert_int_equal(mw_point_reader_read(reader, values, 10, &count, &error), MW_OK);
     assert_int_equal(count, 2);

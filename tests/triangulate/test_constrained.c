@@ -1034,7 +1034,7 @@ static void test_wrong_arguments(void **state)
     expect(s, &given, inside_only, MW_ERROR_INPUT,
            "polygon 6 is not closed: a ring ends at point 0");
     add_hole(s, NAN, 0);
-    expect(s, NULL, none, MW_ERROR_ARGUMENT, "the place of hole 0 is not finite");
+    expect(s, NULL, none, MW_ERROR_ARGUMENT, "the point of hole 0 is not finite");
     s->holes = 0;
     s->point[3] = INFINITY;
     expect(s, NULL, none, MW_ERROR_INPUT, "point 1 is not finite");

@@ -84,9 +84,9 @@ static mw_status poly_read_hole(mw_constraint_builder *builder, mw_number_row *r
     double xy[2] = {0};
     mw_status status = mw__row_integer(row, "number of the hole", &number, error);
     for (int k = 0; !status && k < 2; k++)
-        status = mw__row_double(row, "place of the hole", &xy[k], error);
+        status = mw__row_double(row, "point of the hole", &xy[k], error);
     if (!status && (!isfinite(xy[0]) || !isfinite(xy[1])))
-        status = mw__source_fail(row->source, error, "the place of the hole is not finite");
+        status = mw__source_fail(row->source, error, "the point of the hole is not finite");
     return status ? status : mw__constraint_hole(builder, xy[0], xy[1], error);
 }
 

@@ -1,4 +1,5 @@
 #include "io/mesh/mesh_builder.h"
+#include "io/mesh/face_cut.h"
 #include "io/text/number_text.h"
 
 #include <inttypes.h>
@@ -96,20 +97,35 @@ void mw__build_value(mw_mesh_builder *builder, size_t field, double value)
     builder->file->fields[field][builder->file->point_count - 1] = value;
 }
 
-mw_status mw__build_triangle(mw_mesh_builder *builder, uint32_t a, uint32_t b, uint32_t c,
-                             mw_error *error)
+/* Room for one more triangle, and for its face where faces are noted. */
+static mw_status triangles_grow(mw_mesh_builder *builder, mw_error *error)
 {
     mw_mesh_file *file = builder->file;
-    if (file->triangle_count == builder->triangle_room) {
-        if (file->triangle_count >= MW_MAX_TRIANGLES)
-            return mw__fail(error, MW_ERROR_LIMIT, "%.240s: more than %" PRIu32 " triangles",
-                            mw__source_name(builder->source), MW_MAX_TRIANGLES);
-        size_t room = room_after(file->triangle_count);
-        uint32_t *triangles = mw__realloc(file->triangles, room, 3 * sizeof *triangles);
-        if (!triangles) return mw__fail_memory(error);
-        file->triangles = triangles;
-        builder->triangle_room = room;
+    if (file->triangle_count < builder->triangle_room) return MW_OK;
+    if (file->triangle_count >= MW_MAX_TRIANGLES)
+        return mw__fail(error, MW_ERROR_LIMIT, "%.240s: more than %" PRIu32 " triangles",
+                        mw__source_name(builder->source), MW_MAX_TRIANGLES);
+    size_t room = room_after(file->triangle_count);
+    uint32_t *triangles = mw__realloc(file->triangles, room, 3 * sizeof *triangles);
+    if (!triangles) return mw__fail_memory(error);
+    file->triangles = triangles;
+    if (file->faces) {
+        uint32_t *faces = mw__realloc(file->faces, room, sizeof *faces);
+        if (!faces) return mw__fail_memory(error);
+        file->faces = faces;
     }
+    builder->triangle_room = room;
+    return MW_OK;
+}
+
+/* A triangle of the face that is counted next. */
+static mw_status triangles_add(mw_mesh_builder *builder, uint32_t a, uint32_t b, uint32_t c,
+                               mw_error *error)
+{
+    mw_mesh_file *file = builder->file;
+    mw_status status = triangles_grow(builder, error);
+    if (status) return status;
+    if (file->faces) file->faces[file->triangle_count] = (uint32_t)file->face_count;
     uint32_t *triangle = file->triangles + 3 * file->triangle_count++;
     triangle[0] = a;
     triangle[1] = b;
@@ -117,9 +133,28 @@ mw_status mw__build_triangle(mw_mesh_builder *builder, uint32_t a, uint32_t b, u
     return MW_OK;
 }
 
+mw_status mw__build_triangle(mw_mesh_builder *builder, uint32_t a, uint32_t b, uint32_t c,
+                             mw_error *error)
+{
+    mw_status status = triangles_add(builder, a, b, c, error);
+    builder->file->face_count += !status;
+    return status;
+}
+
+/* From the first face of more than one triangle on, the face of each triangle is noted. */
+static mw_status faces_begin(mw_mesh_builder *builder, mw_error *error)
+{
+    mw_mesh_file *file = builder->file;
+    if (file->faces) return MW_OK;
+    file->faces = mw__alloc(builder->triangle_room, sizeof *file->faces);
+    if (!file->faces) return mw__fail_memory(error);
+    for (size_t t = 0; t < file->triangle_count; t++) file->faces[t] = (uint32_t)t;
+    return MW_OK;
+}
+
 void mw__build_face(mw_mesh_builder *builder)
 {
-    builder->corners = 0;
+    builder->corner_count = builder->named = 0;
 }
 
 static mw_status no_such_vertex(const mw_mesh_builder *builder, uint64_t position, int64_t number,
@@ -155,20 +190,104 @@ mw_status mw__build_corner(mw_mesh_builder *builder, int64_t number, mw_error *e
     uint32_t vertex = 0;
     mw_status status = mw__build_vertex(builder, number, &vertex, error);
     if (status) return status;
-    if (builder->corners >= 2)
-        status = mw__build_triangle(builder, builder->first, builder->last, vertex, error);
-    if (builder->corners == 0) builder->first = vertex;
-    builder->last = vertex;
-    builder->corners += builder->corners < UINT32_MAX;
+    size_t count = builder->corner_count;
+    if (builder->named < 3) builder->start[builder->named] = vertex;
+    builder->named += builder->named < SIZE_MAX;
+    if (count > 0 && builder->corners[count - 1] == vertex) return MW_OK;
+    if (count == builder->corner_room) {
+        size_t room = room_after(count);
+        uint32_t *corners = mw__realloc(builder->corners, room, sizeof *corners);
+        if (!corners) return mw__fail_memory(error);
+        builder->corners = corners;
+        builder->corner_room = room;
+    }
+    builder->corners[builder->corner_count++] = vertex;
+    return MW_OK;
+}
+
+/* A face that was put down as a fan from its first corner, until it can be cut. */
+typedef struct build_polygon {
+    size_t triangle; /* its first */
+    uint64_t position;
+} build_polygon;
+
+static mw_status polygon_cut(mw_mesh_builder *builder, const build_polygon *polygon,
+                             mw_error *error)
+{
+    mw_mesh_file *file = builder->file;
+    uint32_t *triangles = file->triangles + 3 * polygon->triangle;
+    if (mw__face_cut(file->points, builder->corners, builder->corner_count, triangles))
+        return MW_OK;
+    return mw__source_fail_at(builder->source, polygon->position, error,
+                              "face %" PRIu64 " of %zu corners is not convex; cut it into convex "
+                              "ones",
+                              (uint64_t)file->faces[polygon->triangle] +
+                                  (uint64_t)builder->first_number,
+                              builder->corner_count);
+}
+
+static mw_status polygon_postpone(mw_mesh_builder *builder, const build_polygon *polygon,
+                                  mw_error *error)
+{
+    if (builder->polygon_count == builder->polygon_room) {
+        size_t room = room_after(builder->polygon_count);
+        build_polygon *polygons = mw__realloc(builder->polygons, room, sizeof *polygons);
+        if (!polygons) return mw__fail_memory(error);
+        builder->polygons = polygons;
+        builder->polygon_room = room;
+    }
+    builder->polygons[builder->polygon_count++] = *polygon;
+    return MW_OK;
+}
+
+/* A face with at least four different corners. */
+static mw_status polygon_add(mw_mesh_builder *builder, mw_error *error)
+{
+    mw_mesh_file *file = builder->file;
+    const uint32_t *corners = builder->corners;
+    build_polygon polygon = {.triangle = file->triangle_count,
+                             .position = mw__source_position(builder->source)};
+    uint32_t highest = 0;
+    mw_status status = triangles_grow(builder, error);
+    if (!status) status = faces_begin(builder, error);
+    for (size_t i = 1; !status && i + 1 < builder->corner_count; i++)
+        status = triangles_add(builder, corners[0], corners[i], corners[i + 1], error);
+    for (size_t i = 0; i < builder->corner_count; i++)
+        highest = corners[i] > highest ? corners[i] : highest;
+    if (!status)
+        status = highest < file->point_count ? polygon_cut(builder, &polygon, error)
+                                             : polygon_postpone(builder, &polygon, error);
+    file->face_count += !status;
     return status;
 }
 
 mw_status mw__build_face_end(mw_mesh_builder *builder, mw_error *error)
 {
-    if (builder->corners >= 3) return MW_OK;
-    return mw__source_fail(builder->source, error,
-                           "a face of %" PRIu32 " corners; at least 3 are needed",
-                           builder->corners);
+    const uint32_t *corners = builder->corners, *start = builder->start;
+    if (builder->named < 3)
+        return mw__source_fail(builder->source, error,
+                               "a face of %zu corners; at least 3 are needed", builder->named);
+    while (builder->corner_count > 1 && corners[builder->corner_count - 1] == corners[0])
+        builder->corner_count--;
+    if (builder->named == 3 || builder->corner_count < 3)
+        return mw__build_triangle(builder, start[0], start[1], start[2], error);
+    if (builder->corner_count == 3)
+        return mw__build_triangle(builder, corners[0], corners[1], corners[2], error);
+    return polygon_add(builder, error);
+}
+
+/* Find the corners of a postponed face again, and cut it. */
+static mw_status polygon_finish(mw_mesh_builder *builder, const build_polygon *polygon,
+                                mw_error *error)
+{
+    const mw_mesh_file *file = builder->file;
+    size_t t = polygon->triangle;
+    builder->corners[0] = file->triangles[3 * t];
+    builder->corners[1] = file->triangles[3 * t + 1];
+    for (builder->corner_count = 2;
+         t < file->triangle_count && file->faces[t] == file->faces[polygon->triangle]; t++)
+        builder->corners[builder->corner_count++] = file->triangles[3 * t + 2];
+    return polygon_cut(builder, polygon, error);
 }
 
 mw_status mw__build_finish(mw_mesh_builder *builder, mw_error *error)
@@ -177,12 +296,30 @@ mw_status mw__build_finish(mw_mesh_builder *builder, mw_error *error)
     if (builder->highest >= (int64_t)file->point_count)
         return no_such_vertex(builder, builder->highest_position,
                               builder->highest + builder->first_number, error);
+    for (size_t i = 0; i < builder->polygon_count; i++) {
+        mw_status status = polygon_finish(builder, &builder->polygons[i], error);
+        if (status) return status;
+    }
+    builder->polygon_count = 0;
+    file->first_number = (int)builder->first_number;
     if (file->point_count < builder->point_room && !points_resize(builder, file->point_count))
         return mw__fail_memory(error);
     uint32_t *triangles = mw__realloc(file->triangles, file->triangle_count, 3 * sizeof *triangles);
     if (!triangles) return mw__fail_memory(error);
     file->triangles = triangles;
+    if (file->faces) {
+        uint32_t *faces = mw__realloc(file->faces, file->triangle_count, sizeof *faces);
+        if (!faces) return mw__fail_memory(error);
+        file->faces = faces;
+    }
     return MW_OK;
+}
+
+void mw__build_release(mw_mesh_builder *builder)
+{
+    free(builder->corners);
+    free(builder->polygons);
+    *builder = (mw_mesh_builder){0};
 }
 
 void mw__fields_release(char **names, double **fields, size_t count)

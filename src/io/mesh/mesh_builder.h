@@ -2,7 +2,9 @@
  *
  * Nothing is allocated by what a file announces, only by what it holds. A reader adds points,
  * and values of fields for the point added last, and faces corner by corner. Vertex numbers are
- * checked at once where all points are known, else in the end, with the position of the face. */
+ * checked at once where all points are known, else in the end, with the position of the face.
+ * Faces with more than three corners are cut into triangles (face_cut.h) as soon as all their
+ * corners are known, at the latest in the end. */
 #ifndef MW_SRC_IO_MESH_MESH_BUILDER_H
 #define MW_SRC_IO_MESH_MESH_BUILDER_H
 
@@ -19,12 +21,18 @@ typedef struct mw_mesh_builder {
     bool points_complete;
     int64_t highest; /* largest vertex (counted from 0) named so far, -1 if none, and where */
     uint64_t highest_position;
-    uint32_t corners; /* of the present face (saturating), its first and its last corner */
-    uint32_t first, last;
+    uint32_t *corners; /* of the present face, each that differs from the one before */
+    size_t corner_count, corner_room;
+    size_t named;                   /* how many corners of it the file names */
+    uint32_t start[3];              /* the first three of these */
+    struct build_polygon *polygons; /* faces that wait for their points */
+    size_t polygon_count, polygon_room;
 } mw_mesh_builder;
 
 /* `file` is emptied; on failure the caller releases it. */
 void mw__build_start(mw_mesh_builder *builder, mw_mesh_file *file, mw_source *source);
+/* Release what the builder itself holds, after mw__build_finish or a failure. */
+void mw__build_release(mw_mesh_builder *builder);
 
 /* Add a field; before the first point. Its value for the point added last is set with
  * mw__build_value. */
@@ -36,14 +44,15 @@ mw_status mw__read_xyz(const mw_source *source, const char *text, double xyz[3],
 void mw__build_value(mw_mesh_builder *builder, size_t field, double value);
 
 /* A face: start, its corners as the file numbers them, end. Fewer than three corners are an
- * error. */
+ * error, and so is a face that is not convex. Where a corner is named several times in a row, the
+ * face has it once; triangles are taken as they are. */
 void mw__build_face(mw_mesh_builder *builder);
 mw_status mw__build_corner(mw_mesh_builder *builder, int64_t number, mw_error *error);
 mw_status mw__build_face_end(mw_mesh_builder *builder, mw_error *error);
 /* Check a number of a vertex and count it from 0. */
 mw_status mw__build_vertex(mw_mesh_builder *builder, int64_t number, uint32_t *vertex,
                            mw_error *error);
-/* One triangle of vertices counted from 0 that exist. */
+/* One face that is a triangle of vertices counted from 0 that exist. */
 mw_status mw__build_triangle(mw_mesh_builder *builder, uint32_t a, uint32_t b, uint32_t c,
                              mw_error *error);
 

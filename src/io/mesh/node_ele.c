@@ -182,6 +182,7 @@ mw_status mw__read_ele(mw_source *ele, mw_mesh_builder *builder, mw_error *error
             status = mw__row_integer(&r, "corner", &number, error);
             if (!status && k < 3) status = mw__build_corner(builder, number, error);
         }
+        if (!status) status = mw__build_face_end(builder, error);
     }
     return status ? status : mw__rows_check_end(ele, "triangles", values[0], error);
 }

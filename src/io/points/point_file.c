@@ -2,7 +2,7 @@
 #include "io/points/point_file.h"
 #include "base/options.h"
 
-#include "io/mesh/mesh_formats.h"
+#include "io/formats/mesh_formats.h"
 #include "io/points/las.h"
 #include "io/points/point_table.h"
 
@@ -102,9 +102,9 @@ const char *mw_point_reader_column(const mw_point_reader *reader, size_t column)
     return column < reader->width ? reader->names[column] : NULL;
 }
 
-size_t mw_point_reader_place(const mw_point_reader *reader, size_t column)
+size_t mw_point_reader_column_number(const mw_point_reader *reader, size_t column)
 {
-    return column < reader->width ? reader->places[column] : SIZE_MAX;
+    return column < reader->width ? reader->columns[column] : SIZE_MAX;
 }
 
 mw_status mw_point_reader_read(mw_point_reader *reader, double *values, size_t capacity,

@@ -4,13 +4,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-mw_status mw__point_reader_add(mw_point_reader *reader, const char *name, size_t place,
+mw_status mw__point_reader_add(mw_point_reader *reader, const char *name, size_t column,
                                mw_error *error)
 {
-    size_t *places = mw__realloc(reader->places, reader->width + 1, sizeof *places);
-    if (!places) return mw__fail_memory(error);
-    reader->places = places;
-    places[reader->width] = place;
+    size_t *columns = mw__realloc(reader->columns, reader->width + 1, sizeof *columns);
+    if (!columns) return mw__fail_memory(error);
+    reader->columns = columns;
+    columns[reader->width] = column;
     char **names = mw__realloc(reader->names, reader->width + 1, sizeof *names);
     if (!names) return mw__fail_memory(error);
     reader->names = names;
@@ -24,9 +24,9 @@ void mw__point_reader_clear(mw_point_reader *reader)
 {
     for (size_t i = 0; i < reader->width; i++) free(reader->names[i]);
     free(reader->names);
-    free(reader->places);
+    free(reader->columns);
     reader->names = NULL;
-    reader->places = NULL;
+    reader->columns = NULL;
     reader->width = 0;
 }
 

@@ -17,8 +17,8 @@ typedef struct mw_text_cells {
 struct mw_point_reader {
     mw_source source;
     size_t width;
-    char **names;   /* one per value */
-    size_t *places; /* of each value: the column of the file */
+    char **names;    /* one per value */
+    size_t *columns; /* of each value: the column of the file */
     mw_status (*read)(mw_point_reader *reader, double *values, size_t capacity, size_t *count,
                       mw_error *error);
     /* Choose the columns to read. They exist, each once; no column is chosen yet. */
@@ -36,7 +36,7 @@ struct mw_point_reader {
 };
 
 /* Add a column to the reader: its name, and which column of the file it is. */
-mw_status mw__point_reader_add(mw_point_reader *reader, const char *name, size_t place,
+mw_status mw__point_reader_add(mw_point_reader *reader, const char *name, size_t column,
                                mw_error *error);
 
 /* Remove all columns from the reader. */

@@ -158,7 +158,7 @@ mw_status mw_star_locate_batch(const mw_star *star, const double *points, size_t
     mw_status status = mw_star_cursor_init(star, options, &b.cursor, error);
     if (status) return status;
     if (n && (!points || !locations))
-        return mw__fail(error, MW_ERROR_ARGUMENT, "no points, or no place for results");
+        return mw__fail(error, MW_ERROR_ARGUMENT, "points or results are NULL");
     if (b.queries.stride < 3)
         return mw__fail(error, MW_ERROR_ARGUMENT, "a stride of %zu holds no x, y, z", stride);
     if (b.cursor.start == MW_STAR_START_AUTO && n >= MW_SORT_WORTHWHILE)

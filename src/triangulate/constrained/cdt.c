@@ -29,7 +29,7 @@ static mw_status cdt_check_segments(const mw_constraints *given, mw_error *error
                             given->segments[i], given->point_count);
     for (size_t i = 0; i < given->hole_seed_count; i++)
         if (!isfinite(given->hole_seeds[2 * i]) || !isfinite(given->hole_seeds[2 * i + 1]))
-            return mw__fail(error, MW_ERROR_ARGUMENT, "the place of hole %zu is not finite", i);
+            return mw__fail(error, MW_ERROR_ARGUMENT, "the point of hole %zu is not finite", i);
     return MW_OK;
 }
 

@@ -116,7 +116,7 @@ static void flood_remove_triangle(flood *f, uint32_t t)
 
 /* Remove what hangs together with the triangles on the stack, and no subsegment separates from
  * them. */
-static void flood_spread(flood *f)
+static void flood_fill(flood *f)
 {
     while (f->top > 0) {
         uint32_t t = f->stack[--f->top];
@@ -135,10 +135,10 @@ static void flood_remove_outside(flood *f)
             if (f->m->tri[t].link[k] == MW_NONE &&
                 keep_subsegment_at(f->m, mw__link(t, k)) == MW_NONE)
                 flood_remove_triangle(f, t);
-    flood_spread(f);
+    flood_fill(f);
 }
 
-/* --- the places of holes --- */
+/* --- the points of holes --- */
 
 static double half_side(const mw_cdt *m, uint32_t half, mw_point q)
 {
@@ -201,7 +201,7 @@ static void flood_remove_holes(flood *f)
         mw_point q = {given->hole_seeds[2 * i], given->hole_seeds[2 * i + 1]};
         if (!hole_point_walk(f->m, q, &random, &t)) continue;
         flood_remove_touched(f, t, q);
-        flood_spread(f);
+        flood_fill(f);
     }
 }
 

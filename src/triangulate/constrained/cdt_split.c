@@ -11,7 +11,7 @@
  * others. Among long links that are nearly parallel that could go on for very long, one new point
  * beside the other. So after the first round, as in snap rounding [Hobby 1999; Guibas, Marimont
  * 1998], a link that crosses another and passes close by its end is led through that end, and no
- * point is made. Why this ends: see docs/guarantees.md. */
+ * point is made. Why this ends: see docs/proofs/delaunay.md. */
 #include "triangulate/constrained/cdt_split.h"
 
 #include <float.h>

@@ -404,7 +404,7 @@ static mw_lmt_result seeker_seek(seeker *s, uint32_t p, uint32_t most, mw_effort
     return MW_LMT_DONE;
 }
 
-static void seeker_spread_reach(seeker *s)
+static void seeker_propagate_reach(seeker *s)
 {
     for (uint32_t i = s->node_count; i-- > 0;) {
         seek_box *b = &s->node[i];
@@ -426,7 +426,7 @@ mw_lmt_result mw__diamond(const mw_scaled *points, const uint32_t *vertex, uint3
         result = mw__job_step(effort->job, i, 2 * (uint64_t)vertex_count)
                      ? seeker_seek(&s, s.order[i], FEW, effort, list)
                      : MW_LMT_MEMORY;
-    if (result == MW_LMT_DONE) seeker_spread_reach(&s);
+    if (result == MW_LMT_DONE) seeker_propagate_reach(&s);
     for (uint32_t i = 0; result == MW_LMT_DONE && i < vertex_count; i++)
         if (s.reach[s.order[i]] == INFINITY)
             result =

@@ -20,11 +20,11 @@
 /* Work of all insertions, unless a limit is set: about half a minute. */
 #define MOST_WORK UINT64_C(500000000)
 
-/* Sights of one insertion, unless a limit is set: as many for each triangle, and so many more that
- * 700 points never reach it: each triangle is seen at most once in each of the gaps that n vertices
- * leave, which makes 2 n (n + 1). */
-#define SIGHTS_PER_TRIANGLE 4
-#define MORE_SIGHTS ((size_t)1 << 20)
+/* Visits of one insertion, unless a limit is set: as many for each triangle, and so many more that
+ * 700 points never reach it: each triangle is visited at most once in each of the gaps that n
+ * vertices leave, which makes 2 n (n + 1). */
+#define VISITS_PER_TRIANGLE 4
+#define MORE_VISITS ((size_t)1 << 20)
 
 /* The heap is made anew when this many of its entries for each triangle may be out of date. */
 #define ENTRIES_PER_TRIANGLE 3
@@ -209,7 +209,7 @@ static mw_angle_limits triangulation_angle_limits(const mw_triangulation *t, uin
 {
     if (most_points == 0)
         return (mw_angle_limits){MOST_WORK,
-                                 SIGHTS_PER_TRIANGLE * (size_t)t->tri_count + MORE_SIGHTS};
+                                 VISITS_PER_TRIANGLE * (size_t)t->tri_count + MORE_VISITS};
     return (mw_angle_limits){t->point_count <= most_points ? UINT64_MAX : 0, SIZE_MAX};
 }
 
