@@ -20,6 +20,22 @@
 extern "C" {
 #endif
 
+/**
+ * Tell the version of libnetcdf, which reads and writes netCDF files and is loaded when it is
+ * needed.
+ *
+ * libnetcdf serves one thread at a time: calls of this library that read or write netCDF wait for
+ * one another, whatever the files. A program that calls libnetcdf itself must not do so while
+ * another thread is in such a call.
+ *
+ * @param text  receives the version, ended by NUL, empty if there is none; NULL is allowed
+ * @param size  bytes of `text`
+ * @return the length of the whole version; 0: libnetcdf is not found, and netCDF files are refused
+ *
+ * Thread-safe.
+ */
+MW_API size_t mw_netcdf_version(char *text, size_t size);
+
 /** A mesh as read. The structure owns its arrays; release with mw_mesh_file_release().
  *
  * Faces with more than three corners are cut into triangles: a quadrilateral along its shorter
