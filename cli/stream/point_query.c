@@ -270,7 +270,7 @@ typedef struct point_query_context {
     point_query_row *row;
     const void *self;
     location_statistics statistics;
-    extent extent; /* of the points */
+    extent_box extent; /* of the points */
 } point_query_context;
 
 /* Interpolate the values of a block. */

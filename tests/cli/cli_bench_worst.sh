@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# bench worst: a row for each trap and size, columns of numbers, steps wherever a locator answers; names that do not exist are refused.
+# bench worst: a row for each trap and size, columns of numbers, steps wherever a locator answers;
+# names that do not exist are refused.
 # shellcheck source=driver.sh disable=SC2154
 . "$(dirname "$0")/driver.sh"
 header=$'trap\tvertices\tbuild_s\tbatch_us\tsingle_us\tsteps\tbytes'
