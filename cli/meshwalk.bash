@@ -64,7 +64,7 @@ _meshwalk_names() {
             case $1 in
                 star) echo 'auto random sample front last sorted grid nonuniform-grid octahedron' ;;
                 probe) echo 'auto last sample random' ;;
-                *) echo 'auto random sample centre last sorted grid buckets triangle-buckets two-level-grid layers kd-tree curve' ;;
+                *) echo 'auto random sample centre last sorted grid buckets triangle-buckets two-level-grid layers kd-tree curve chains' ;;
             esac
             ;;
         --arithmetic) echo 'exact double' ;;
