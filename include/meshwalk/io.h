@@ -20,6 +20,12 @@
 extern "C" {
 #endif
 
+/** A side of a triangle that a file marks. */
+typedef struct mw_marked_edge {
+    uint32_t vertex[2];
+    uint32_t mark; /**< number of its name in mw_mesh_file.mark_names */
+} mw_marked_edge;
+
 /** A mesh as read. The structure owns its arrays; release with mw_mesh_file_release().
  *
  * Faces with more than three corners are cut into triangles: a quadrilateral along its shorter
@@ -27,7 +33,8 @@ extern "C" {
  * corners as a fan from its lowest-numbered vertex (corners on a straight line between their
  * neighbours may shift this, so that no triangle is flat). A face that is not convex is an error.
  * Faces are looked at in the plane x, y; a face that is not convex there, as that of a wall, in
- * the plane of two coordinates where its area is largest. */
+ * the plane of two coordinates where its area is largest. Only a quadrilateral in space, whose
+ * corners have different z, need not be convex: it is cut where it folds less. */
 typedef struct mw_mesh_file {
     double *points;      /**< 3 per vertex: x, y, z; z is 0 if the file has none */
     uint32_t *triangles; /**< 3 vertices per triangle */
@@ -45,6 +52,17 @@ typedef struct mw_mesh_file {
     uint32_t *faces;
     size_t face_count;
     int first_number; /**< what the file counts its vertices and faces from: 0 or 1 */
+    /** If not 0: the fields are values at the first of so many times that the file has. */
+    size_t step_count;
+    char **triangle_field_names; /**< values per triangle, that of its face: "physical" of Gmsh */
+    double **triangle_fields;    /**< triangle_field_count arrays of triangle_count values */
+    size_t triangle_field_count;
+    /** Edges that the file marks as parts of a boundary, in its order, and the names of the marks:
+     * "open 1", "land 1 type 20" in fort.14 and .gr3, names of markers and physical groups. */
+    mw_marked_edge *edges;
+    size_t edge_count;
+    char **mark_names;
+    size_t mark_count;
 } mw_mesh_file;
 
 /** Options of reading or writing a whole file. Zero-initialised options select the defaults. */
