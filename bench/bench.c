@@ -6,6 +6,7 @@
 #include "bench/paper/bench_paper.h"
 #include "bench/peers/bench_peers.h"
 #include "bench/peers/engine_list.h"
+#include "bench/worst/bench_worst.h"
 #include "cli/frame/message.h"
 #include "cli/frame/spelling.h"
 
@@ -19,7 +20,7 @@ static const struct {
 } measurements[] = {
     {"paper", bench_paper, false}, {"near-vertices", bench_near_vertices, false},
     {"peers", bench_peers, true},  {"scale", bench_scale, true},
-    {"edit", bench_edit, true},
+    {"edit", bench_edit, true},    {"worst", bench_worst, true},
 };
 #define MEASUREMENTS (sizeof measurements / sizeof *measurements)
 
@@ -64,7 +65,9 @@ const option bench_options[] = {
      "edit see above):",
      &engine_task_choices},
     {"rounds", 0, OPTION_COUNT, offsetof(bench_settings, rounds), "N",
-     "rounds of peers, scale and edit, whose median counts (default: 0, five)", NULL},
+     "rounds of peers, scale, edit and worst, whose median counts (default: 0, five; of worst "
+     "three)",
+     NULL},
     {"walk", 0, OPTION_TEXT, offsetof(bench_settings, walk), "NAME",
      "of paper E1: take this walk, as in locate --walk, or 'all' of them, one after the other "
      "(default: stochastic, as "

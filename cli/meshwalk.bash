@@ -10,7 +10,7 @@ _meshwalk_options() {
     case $1 in
         info) echo "--layer --as --centre --lonlat --weld --json $common" ;;
         check) echo "--fix --tolerance --numbers --format --as --centre --lonlat --weld --json $common" ;;
-        triangulate) echo "--constraints --boundary --keep --split --strict --max-edge --kind --weight --hidden --limit --format --columns --class --crs --points-crs --constraints-crs --json $common" ;;
+        triangulate) echo "--constraints --boundary --keep --split --strict --max-edge --kind --weight --hidden --limit --format --columns --class --layer --where --crs --points-crs --constraints-crs --json $common" ;;
         locate) echo "--details --polygons --attribute --polygon-layer $query $stream $common" ;;
         sample) echo "--field --outside --missing --nodata --status $query $stream $common" ;;
         edit)
@@ -49,7 +49,8 @@ _meshwalk_names() {
         --fix) echo 'weld orient drop split all' ;;
         --as) echo 'plane surface star' ;;
         --walk)
-            [[ $1 == star ]] && echo 'auto stochastic forgetful barycentric orthogonal straight' && return
+            [[ $1 == star ]] && echo 'auto stochastic forgetful barycentric orthogonal straight' &&
+                return
             echo 'auto lawson remembering stochastic forgetful fast-stochastic barycentric direct straight'
             echo 'normal-straight normal-straight-turn orthogonal improved-orthogonal improved-orthogonal-vertex'
             echo 'hybrid celestial border'
@@ -84,7 +85,8 @@ _meshwalk_names() {
     esac
 }
 
-# A list that 'info' tells of the first file in the line for which it is not empty, a name on each line.
+# A list that 'info' tells of the first file in the line for which it is not empty, a name on each
+# line.
 _meshwalk_list() {
     local file
     for file in "${COMP_WORDS[@]:2}"; do
@@ -113,7 +115,8 @@ _meshwalk_named() {
 }
 
 _meshwalk() {
-    local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]} command=${COMP_WORDS[1]} names
+    local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]}
+    local command=${COMP_WORDS[1]} names
     COMPREPLY=()
     # --walk=la comes as the three words --walk, = and la.
     if [[ $word == = ]]; then
@@ -127,7 +130,8 @@ _meshwalk() {
         return
     fi
     names=$(_meshwalk_names "$command" "$before")
-    [[ $command == bench && $COMP_CWORD -eq 2 && $word != -* ]] && names='paper near-vertices peers scale edit'
+    [[ $command == bench && $COMP_CWORD -eq 2 && $word != -* ]] &&
+        names='paper near-vertices peers scale edit worst'
     [[ $command == bench && $before == paper ]] && names='A1 A2 B1 B2 C1 C2 D1 E1 E2 F1 F2 G1 G2 G3'
     [[ $command == bench && $before == @(peers|scale) ]] &&
         names='uniform grid gaussian clusters arcs rectangle rings slivers offset cadastre lidar'
@@ -141,8 +145,10 @@ _meshwalk() {
             _meshwalk_named "$before" "$word"
             return
             ;;
-        --threads | --seed | --steps | --sample | --cells | --layers | --levels | --tolerance | --columns | --crs | --constraints-crs | --where) return ;;
-        --from | --to | --centre | --max-distance | --samples | --iterations | --race | --max-edge | --queries | --sizes | --limit | --rounds | --seeds | --undo) return ;;
+        --threads | --seed | --steps | --sample | --cells | --layers | --levels | --tolerance | \
+            --columns | --crs | --constraints-crs | --where) return ;;
+        --from | --to | --centre | --max-distance | --samples | --iterations | --race | \
+            --max-edge | --queries | --sizes | --limit | --rounds | --seeds | --undo) return ;;
     esac
     if [[ $word == -* ]]; then
         mapfile -t COMPREPLY < <(compgen -W "$(_meshwalk_options "$command")" -- "$word")

@@ -54,6 +54,17 @@ static void version_of_gdal(text *t)
 
 #endif
 
+/* libnetcdf, too. */
+static void version_of_netcdf(text *t)
+{
+    char version[64];
+    if (mw_netcdf_version(version, sizeof version))
+        text_printf(t, "  netCDF   %s, found: meshes and values of ocean models\n", version);
+    else
+        text_printf(t, "  netCDF   libnetcdf is not found: no .nc files (Debian has it in "
+                       "libnetcdf-dev)\n");
+}
+
 void version_write(text *t)
 {
 #ifdef MW_JANSSON_VERSION
@@ -71,5 +82,6 @@ void version_write(text *t)
     version_line(t, "Jansson", jansson, "no constraints from GeoJSON, but by GDAL");
     version_line(t, "Cairo", cairo, "no pictures, no plots");
     version_of_gdal(t);
+    version_of_netcdf(t);
     version_line(t, "LAZ", NULL, "LAS only; 'pdal translate' unpacks");
 }

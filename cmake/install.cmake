@@ -37,6 +37,9 @@ install(FILES ${PROJECT_BINARY_DIR}/meshwalkConfig.cmake ${PROJECT_BINARY_DIR}/m
 # pkg-config: the static library's own needs stand in Libs.private. The prefix is found from the place of the file.
 file(RELATIVE_PATH pc_prefix ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
 set(pc_private "-lz -lm")
+foreach(library ${CMAKE_DL_LIBS})
+  string(APPEND pc_private " -l${library}")
+endforeach()
 if(needs_jansson)
   string(APPEND pc_private " -ljansson")
 endif()

@@ -3,12 +3,13 @@
 
     tools/make_jacksboro.py [--points N] [GRID.npz [OUTPUT.csv]]
 
-Greedy insertion [Garland, Heckbert 1995]: start from the four corners of the grid; again and again take the grid
-point whose height the present Delaunay triangulation misses by most, and insert it [Bowyer 1981; Watson 1981]. So
-the points stand in order of importance: the first n lines are a model of n points.
+Greedy insertion [Garland, Heckbert 1995]: start from the four corners of the grid. Again and again
+take the grid point whose height the present Delaunay triangulation misses by most, and insert it
+[Bowyer 1981; Watson 1981]. So the points stand in order of importance: the first n lines are a
+model of n points.
 
-All decisions are made on integers (grid cells, centimetres, metres of height), so every machine writes the same
-bytes. Needs NumPy. The grid comes with Debian's python-matplotlib-data.
+All decisions are made on integers (grid cells, centimetres, metres of height), so every machine
+writes the same bytes. Needs NumPy. The grid comes with Debian's python-matplotlib-data.
 """
 import argparse
 import heapq
@@ -53,7 +54,8 @@ def orient(a, b, c):
 
 
 def incircle(a, b, c, d):
-    ax, ay, bx, by, cx, cy = a[0] - d[0], a[1] - d[1], b[0] - d[0], b[1] - d[1], c[0] - d[0], c[1] - d[1]
+    ax, ay, bx, by = a[0] - d[0], a[1] - d[1], b[0] - d[0], b[1] - d[1]
+    cx, cy = c[0] - d[0], c[1] - d[1]
     a2, b2, c2 = ax * ax + ay * ay, bx * bx + by * by, cx * cx + cy * cy
     return ax * (by * c2 - b2 * cy) - ay * (bx * c2 - b2 * cx) + a2 * (bx * cy - by * cx)
 
@@ -129,7 +131,8 @@ class Thinning:
         for a, b in sorted(edges):
             if (b, a) in edges:
                 continue
-            if orient(self.grid.place(a), self.grid.place(b), place) > 0:  # not the piece of border it lies on
+            # not the piece of border it lies on
+            if orient(self.grid.place(a), self.grid.place(b), place) > 0:
                 self.add((a, b, point))
         self.points.append(point)
 

@@ -3,8 +3,8 @@
 
 bench_tables.py MESHWALK [--rows N] [--rounds N] [--folder FOLDER]
 
-Makes a terrain of data/jacksboro.csv and a table of random positions in it, with an id, a code, a time
-and a value. Then, in rounds, each competitor once, on one thread:
+Makes a terrain of data/jacksboro.csv and a table of random positions in it, with an id, a code, a
+time and a value. Then, in rounds, each competitor once, on one thread:
 
     meshwalk    `meshwalk sample`: every row as it stands, the height behind it
     discard     the same to /dev/null
@@ -12,8 +12,9 @@ and a value. Then, in rounds, each competitor once, on one thread:
     duckdb      reads the table, adds a column (x + y), writes it (PyPI: duckdb)
     pyarrow     the same in batches (PyPI: pyarrow)
 
-What is not installed is named and left out. Prints the medians: wall and processor time in nanoseconds a
-row, and the most memory, in MB. The processor time is what to compare where others use the machine.
+Names what is not installed, and leaves it out. Prints the medians: wall and processor time in
+nanoseconds a row, and the most memory, in MB. Where others use the machine, compare the processor
+time.
 """
 
 import argparse
@@ -96,7 +97,9 @@ def competitors(meshwalk, terrain, table, folder):
 
 def main():
     """Make the files, measure, print."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("meshwalk")
     parser.add_argument("--rows", type=float, default=1e7)
     parser.add_argument("--rounds", type=int, default=3)
@@ -106,7 +109,8 @@ def main():
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     with tempfile.TemporaryDirectory(dir=wanted.folder) as folder:
         terrain, table = os.path.join(folder, "terrain.ply"), os.path.join(folder, "table.csv")
-        run([wanted.meshwalk, "triangulate", "-q", os.path.join(ROOT, "data", "jacksboro.csv"), "-o", terrain])
+        points = os.path.join(ROOT, "data", "jacksboro.csv")
+        run([wanted.meshwalk, "triangulate", "-q", points, "-o", terrain])
         make_table(table, rows)
         found = competitors(wanted.meshwalk, terrain, table, folder)
         names = list(found)

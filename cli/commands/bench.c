@@ -63,7 +63,13 @@ const command bench_command = {
                    "is how many edits are timed "
                    "(default: "
                    "50000, at most half of the vertices). SET is of uniform, clusters, gaussian, "
-                   "arcs and rectangle.",
+                   "arcs and rectangle.\n\n"
+                   "'meshwalk bench worst [TRAP]' measures meshes on which location, or making a "
+                   "mesh, may be slow: strips whose steps shrink, fans and hubs, extents near the "
+                   "ends of the doubles, points on vertices and edges. It prints seconds to "
+                   "build, microseconds a query in a batch and alone, on one thread, the "
+                   "triangles that a query visits, and bytes beside the mesh. TRAP is a name of "
+                   "its first column, or several with commas between.",
     .options = bench_command_options,
     .essential = "sizes queries data rounds format",
     .settings_size = sizeof(bench_settings),

@@ -4,6 +4,7 @@
 #include "cli/frame/message.h"
 #include "cli/frame/monotonic_clock.h"
 #include "cli/frame/progress.h"
+#include "cli/gdal/gdal_point_layer.h"
 #include "cli/output/csv_row.h"
 #include "cli/stream/query_stream.h"
 #include "cli/stream/statistics.h"
@@ -242,6 +243,7 @@ static int probe_run(const void *settings, const char *const *operands)
     const probe_settings *s = settings;
     probed_surface p = {.settings = s, .begin = monotonic_seconds()};
     int end = files_check_output(s->stream.common.output, operands, 2);
+    if (end == 0) end = point_layers_check(operands, 2);
     if (end == 0) end = query_stream_check_output(&s->stream);
     if (end == 0) end = options_limit("race", s->race, MAX_RACERS, NULL);
     if (end == 0) end = probed_surface_open(&p, operands[0]);

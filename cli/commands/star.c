@@ -4,6 +4,7 @@
 #include "cli/frame/message.h"
 #include "cli/frame/monotonic_clock.h"
 #include "cli/frame/progress.h"
+#include "cli/gdal/gdal_point_layer.h"
 #include "cli/input/lonlat_input.h"
 #include "cli/output/csv_row.h"
 #include "cli/stream/query_stream.h"
@@ -289,6 +290,7 @@ static int star_run(const void *settings, const char *const *operands)
     const star_settings *s = settings;
     ray_queries r = {.settings = s, .begin = monotonic_seconds()};
     int end = files_check_output(s->stream.common.output, operands, 2);
+    if (end == 0) end = point_layers_check(operands, 2);
     if (end == 0) end = query_stream_check_output(&s->stream);
     if (end == 0) end = star_check_limits(s);
     if (end == 0) end = ray_queries_open(&r, operands[0]);

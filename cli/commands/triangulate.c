@@ -5,6 +5,7 @@
 #include "cli/frame/monotonic_clock.h"
 #include "cli/frame/progress.h"
 #include "cli/frame/report.h"
+#include "cli/gdal/gdal_point_layer.h"
 #include "cli/constraints/constraint_file.h"
 #include "cli/vertices/missing_values.h"
 #include "cli/vertices/vertex_crs.h"
@@ -21,7 +22,7 @@
 typedef struct triangulate_settings {
     common_settings common;
     vertex_crs_settings crs;
-    const char *columns, *classes, *constraints, *boundary, *weight, *hidden;
+    const char *columns, *classes, *layer, *where, *constraints, *boundary, *weight, *hidden;
     int kind, format, keep;
     uint32_t limit;
     double max_edge;
@@ -102,6 +103,11 @@ static const option triangulate_options[] = {
     {"class", 0, OPTION_TEXT, offsetof(triangulate_settings, classes), "LIST",
      "LAS: take points of these classes only, as names or numbers: ground or 2,9 (default: all)",
      NULL},
+    {"layer", 0, OPTION_TEXT, offsetof(triangulate_settings, layer), "NAME",
+     "POINTS that GDAL reads: the layer with the points (default: the only one that has any)",
+     NULL},
+    {"where", 0, OPTION_TEXT, offsetof(triangulate_settings, where), "CONDITION",
+     "POINTS that GDAL reads: take points that fulfil this, in SQL: \"class = 2\"", NULL},
     {"crs", 0, OPTION_TEXT, offsetof(triangulate_settings, crs.mesh), "CRS",
      "the coordinate system of MESH, as EPSG:2056 (default: that of POINTS, or else of the "
      "constraints); what is in "
@@ -377,9 +383,9 @@ static int triangulate_check_combination(const triangulate_settings *s, const ch
         return triangulate_refuse("--boundary tells what to keep: --keep cannot");
     if (!points && !s->constraints && !s->boundary)
         return triangulate_refuse("wants POINTS, or --constraints FILE, or --boundary FILE");
-    if (!points && (s->columns || s->classes || s->crs.points))
-        return triangulate_refuse(
-            "--columns, --class and --points-crs are about POINTS, which are missing");
+    if (!points && (s->columns || s->classes || s->layer || s->where || s->crs.points))
+        return triangulate_refuse("--columns, --class, --layer, --where and --points-crs are "
+                                  "about POINTS, which are missing");
     if (!s->constraints && !s->boundary && (s->keep || s->split || s->strict))
         return triangulate_refuse("--keep, --split and --strict are about --constraints");
     if (!s->constraints && !s->boundary && s->crs.constraints)
@@ -406,6 +412,7 @@ static int triangulate_check_settings(const triangulate_settings *s, const char 
     if (end == 0) end = vertex_crs_check(&s->crs);
     for (int i = 0; i < 3; i++)
         if (files[i]) inputs[count++] = files[i];
+    if (end == 0) end = point_layers_check(inputs, count);
     if (end == 0) end = mesh_output_check("triangulate", output, s->format);
     for (int i = 1; i < 3 && end == 0; i++)
         if (files[i] && mesh_output_is_node(output, s->format))
@@ -458,7 +465,8 @@ static int triangulate_join_boundary(const triangulate_settings *s, const char *
 static int triangulate_read_input(const triangulate_settings *s, const char *points,
                                   triangulate_work *w)
 {
-    const vertex_table_options how = {s->columns, s->classes, s->common.quiet};
+    const vertex_table_options how = {{s->columns, s->classes, s->layer, s->where},
+                                      s->common.quiet};
     int end = points ? vertex_table_read(&w->vertices, points, &how) : 0;
     const constraint_file_options options = {.quiet = s->common.quiet, .strict = s->strict};
     if (end == 0 && s->constraints)

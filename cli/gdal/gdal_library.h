@@ -40,6 +40,12 @@ bool gdal_library_built(void);
     F(OSRSetAxisMappingStrategy)                                                                   \
     F(OSRDemoteTo2D)                                                                               \
     F(OSRIsSameEx)                                                                                 \
+    F(OSRIsProjected)                                                                              \
+    F(OSRIsCompound)                                                                               \
+    F(OSRGetAxesCount)                                                                             \
+    F(OSRGetLinearUnits)                                                                           \
+    F(OSRGetTargetLinearUnits)                                                                     \
+    F(OSRGetAttrValue)                                                                             \
     F(OSRIsGeographic)                                                                             \
     F(OSRGetName)                                                                                  \
     F(OSRGetAuthorityName)                                                                         \

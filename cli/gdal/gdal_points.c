@@ -1,173 +1,27 @@
+#define _GNU_SOURCE /* memmem */
 #include "cli/gdal/gdal_points.h"
 #include "cli/frame/message.h"
 #include "cli/frame/text.h"
-#include "cli/gdal/gdal_crs.h"
+#include "cli/gdal/gdal_point_layer.h"
 
-#include <inttypes.h>
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
-#include <sys/stat.h>
-
-/* --- telling the files of GDAL ---------------------------------------------------------------- */
-
-static bool path_has_vector_ending(const char *path)
-{
-    static const char *const endings[] = {
-        ".gpkg", ".shp", ".shz",     ".geojson", ".geojsonl", ".geojsons", ".json",
-        ".fgb",  ".gpx", ".kml",     ".kmz",     ".gml",      ".gdb",      ".sqlite",
-        ".mif",  ".dxf", ".parquet", ".feather", ".arrow"};
-    size_t length = strlen(path);
-    for (size_t i = 0; i < sizeof endings / sizeof *endings; i++) {
-        size_t end = strlen(endings[i]);
-        if (length > end && strcasecmp(path + length - end, endings[i]) == 0) return true;
-    }
-    return false;
-}
-
-static bool head_is_vector(const unsigned char *head, size_t size)
-{
-    static const char shape[] = {0, 0, 0x27, 0x0a};
-    if (size >= 15 && memcmp(head, "SQLite format 3", 15) == 0) return true;
-    if (size >= 4 && (memcmp(head, "fgb\3", 4) == 0 || memcmp(head, shape, 4) == 0 ||
-                      memcmp(head, "PAR1", 4) == 0))
-        return true;
-    if (size >= 3 && memcmp(head, "\xef\xbb\xbf", 3) == 0) head += 3, size -= 3;
-    while (size > 0 && strchr(" \t\r\n", *head)) head++, size--;
-    return size > 0 && (*head == '{' || *head == '<' ||
-                        (size >= 6 && strncasecmp((const char *)head, "!table", 6) == 0));
-}
 
 bool gdal_points_known(const char *path)
 {
-    struct stat s;
-    unsigned char head[64];
-    if (strcmp(path, "-") == 0 || stat(path, &s) != 0) return false;
-    if (S_ISDIR(s.st_mode) || path_has_vector_ending(path)) return path_has_vector_ending(path);
-    FILE *file = S_ISREG(s.st_mode) ? fopen(path, "rb") : NULL;
-    if (!file) return false;
-    size_t size = fread(head, 1, sizeof head, file);
-    fclose(file);
-    return head_is_vector(head, size);
+    return point_layer_known(path);
 }
 
 #ifdef MW_GDAL
 
-/* --- the layer -------------------------------------------------------------------------------- */
-
 #define ROWS_LIMIT ((size_t)1 << 26) /* bytes of rows in memory */
 
 struct gdal_points {
-    const gdal_functions *gdal;
-    const char *path;
-    GDALDatasetH set;
-    OGRLayerH layer;
-    size_t coordinates, column_count; /* x, y and perhaps z are the first columns */
-    char **names;
-    char *crs; /* WKT; NULL: not known */
+    point_layer layer;
     text header, rows;
     size_t *ends, row_count, row_room; /* where the rows of the block end */
 };
-
-static int points_fail(const gdal_points *p, const char *what)
-{
-    const char *message = p->gdal->CPLGetLastErrorMsg();
-    complain("%s: GDAL says: %.1000s", p->path, *message ? message : what);
-    return END_INPUT;
-}
-
-/* GDAL knows no format for the file. Some need drivers that are often missing. */
-static int points_fail_format(const gdal_points *p)
-{
-    static const char *const wanted[][2] = {
-        {".parquet", "Parquet"}, {".feather", "Arrow"}, {".arrow", "Arrow"}};
-    size_t length = strlen(p->path);
-    for (size_t i = 0; i < sizeof wanted / sizeof *wanted; i++) {
-        size_t end = strlen(wanted[i][0]);
-        if (length <= end || strcasecmp(p->path + length - end, wanted[i][0]) != 0) continue;
-        if (p->gdal->GDALGetDriverByName(wanted[i][1])) break;
-        complain("%s: this GDAL has no driver for %s; 'meshwalk --version' tells what was found",
-                 p->path, wanted[i][1]);
-        return END_INPUT;
-    }
-    return points_fail(p, "this is no vector file");
-}
-
-static bool layer_may_have_points(const gdal_points *p, OGRLayerH layer)
-{
-    OGRwkbGeometryType type = p->gdal->OGR_GT_Flatten(p->gdal->OGR_L_GetGeomType(layer));
-    return type == wkbPoint || type == wkbMultiPoint || type == wkbUnknown ||
-           type == wkbGeometryCollection;
-}
-
-/* Does the layer have features? A file of GPX has a layer for everything that it could hold. */
-static bool layer_is_empty(const gdal_points *p, OGRLayerH layer)
-{
-    p->gdal->OGR_L_ResetReading(layer);
-    OGRFeatureH feature = p->gdal->OGR_L_GetNextFeature(layer);
-    if (feature) p->gdal->OGR_F_Destroy(feature);
-    p->gdal->OGR_L_ResetReading(layer);
-    return !feature;
-}
-
-static int points_fail_layer(const gdal_points *p, const char *wanted)
-{
-    text names = {0};
-    int count = p->gdal->GDALDatasetGetLayerCount(p->set);
-    for (int i = 0; i < count; i++)
-        text_printf(&names, "%s%s", i ? ", " : "",
-                    p->gdal->OGR_L_GetName(p->gdal->GDALDatasetGetLayer(p->set, i)));
-    int end = names.failed ? fail_memory() : wanted ? END_INPUT : END_USAGE;
-    int size = names.size < 1000 ? (int)names.size : 1000;
-    if (!names.failed && wanted)
-        complain("%s: has no layer '%s', but: %.*s", p->path, wanted, size,
-                 names.bytes ? names.bytes : "");
-    else if (!names.failed)
-        complain("%s: which layer has the points? --layer may be one of: %.*s", p->path, size,
-                 names.bytes ? names.bytes : "");
-    text_release(&names);
-    return end;
-}
-
-static int points_find_layer(gdal_points *p, const char *wanted)
-{
-    size_t candidates = 0;
-    int count = p->gdal->GDALDatasetGetLayerCount(p->set);
-    for (int i = 0; i < count; i++) {
-        OGRLayerH layer = p->gdal->GDALDatasetGetLayer(p->set, i);
-        bool fits =
-            wanted ? strcmp(p->gdal->OGR_L_GetName(layer), wanted) == 0
-                   : layer_may_have_points(p, layer) && (count == 1 || !layer_is_empty(p, layer));
-        if (!fits) continue;
-        p->layer = layer;
-        candidates++;
-    }
-    if (candidates == 1) return 0;
-    if (candidates > 1 || wanted || count > 1) return points_fail_layer(p, wanted);
-    complain("%s: GDAL finds no points in it", p->path);
-    return END_INPUT;
-}
-
-/* --- columns ---------------------------------------------------------------------------------- */
-
-static bool points_have_name(const gdal_points *p, const char *name)
-{
-    for (size_t i = 0; i < p->column_count; i++)
-        if (p->names[i] && strcasecmp(p->names[i], name) == 0) return true;
-    return false;
-}
-
-/* Name a coordinate; an attribute may have its name already. */
-static bool points_name_coordinate(gdal_points *p, size_t k)
-{
-    char name[64];
-    snprintf(name, sizeof name, "%c", "xyz"[k]);
-    while (points_have_name(p, name) && strlen(name) + 4 < sizeof name) strcat(name, "_mw");
-    p->names[k] = strdup(name);
-    return p->names[k] != NULL;
-}
 
 /* Add a cell. */
 static void row_cell(text *row, bool first, const char *cell)
@@ -184,58 +38,21 @@ static void row_cell(text *row, bool first, const char *cell)
     text_bytes(row, "\"", 1);
 }
 
-static int points_name_columns(gdal_points *p)
-{
-    OGRFeatureDefnH definition = p->gdal->OGR_L_GetLayerDefn(p->layer);
-    OGRwkbGeometryType type = p->gdal->OGR_L_GetGeomType(p->layer);
-    size_t fields = (size_t)p->gdal->OGR_FD_GetFieldCount(definition);
-    p->coordinates = p->gdal->OGR_GT_HasZ(type) || type == wkbUnknown ? 3 : 2;
-    p->column_count = p->coordinates + fields;
-    p->names = calloc(p->column_count, sizeof *p->names);
-    if (!p->names) return fail_memory();
-    for (size_t i = 0; i < fields; i++) {
-        OGRFieldDefnH field = p->gdal->OGR_FD_GetFieldDefn(definition, (int)i);
-        p->names[p->coordinates + i] = strdup(p->gdal->OGR_Fld_GetNameRef(field));
-        if (!p->names[p->coordinates + i]) return fail_memory();
-    }
-    for (size_t k = 0; k < p->coordinates; k++)
-        if (!points_name_coordinate(p, k)) return fail_memory();
-    for (size_t i = 0; i < p->column_count; i++) row_cell(&p->header, i == 0, p->names[i]);
-    text_bytes(&p->header, "", 1);
-    return p->header.failed ? fail_memory() : 0;
-}
-
 int gdal_points_open(gdal_points **points, const char *path, const char *layer, const char *where)
 {
     gdal_points *p = *points = calloc(1, sizeof *p);
     if (!p) return fail_memory();
-    p->path = path;
-    p->gdal = gdal_library_load();
-    if (!p->gdal) {
-        complain("%s: GDAL, which would read it, cannot be loaded (" MW_GDAL ")", path);
-        return END_INPUT;
-    }
-    p->gdal->CPLErrorReset();
-    p->set = p->gdal->GDALOpenEx(path, GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
-                                 NULL, NULL, NULL);
-    if (!p->set) return points_fail_format(p);
-    int end = points_find_layer(p, layer);
-    if (end == 0) p->crs = crs_of_layer(p->set, p->layer);
-    if (end == 0) end = points_name_columns(p);
-    if (end || !where) return end;
-    if (p->gdal->OGR_L_SetAttributeFilter(p->layer, where) == OGRERR_NONE) return 0;
-    complain("option '--where' is no condition on the layer: GDAL says: %.1000s",
-             p->gdal->CPLGetLastErrorMsg());
-    return END_USAGE;
+    int end = point_layer_open(&p->layer, path, layer, where);
+    for (size_t i = 0; end == 0 && i < p->layer.column_count; i++)
+        row_cell(&p->header, i == 0, p->layer.names[i]);
+    text_bytes(&p->header, "", 1);
+    return end == 0 && p->header.failed ? fail_memory() : end;
 }
 
 void gdal_points_close(gdal_points *p)
 {
     if (!p) return;
-    if (p->set) p->gdal->GDALClose(p->set);
-    free(p->crs);
-    for (size_t i = 0; p->names && i < p->column_count; i++) free(p->names[i]);
-    free(p->names);
+    point_layer_release(&p->layer);
     text_release(&p->header);
     text_release(&p->rows);
     free(p->ends);
@@ -244,45 +61,38 @@ void gdal_points_close(gdal_points *p)
 
 void gdal_points_table(const gdal_points *p, mw_point_table *table)
 {
-    *table = (mw_point_table){.names = (const char *const *)p->names,
+    *table = (mw_point_table){.names = (const char *const *)p->layer.names,
                               .header = p->header.bytes,
-                              .column_count = p->column_count,
+                              .column_count = p->layer.column_count,
                               .separator = ',',
                               .decimal = '.'};
 }
 
 size_t gdal_points_coordinates(const gdal_points *p)
 {
-    return p->coordinates;
+    return p->layer.coordinates;
 }
 
 const char *gdal_points_crs(const gdal_points *p)
 {
-    return p->crs;
+    return p->layer.crs;
 }
 
 /* --- features --------------------------------------------------------------------------------- */
 
 /* The point of a feature. NaN if it has none. Returns 0, or an exit code after a complaint. */
-static int feature_point(const gdal_points *p, OGRFeatureH feature, double at[3])
+static int feature_point(const point_layer *l, OGRFeatureH feature, double at[3])
 {
-    const gdal_functions *gdal = p->gdal;
-    OGRGeometryH geometry = gdal->OGR_F_GetGeometryRef(feature);
+    int end;
+    OGRGeometryH geometry = point_layer_geometry(l, feature, &end), point = geometry;
     at[0] = at[1] = at[2] = NAN;
-    if (!geometry)
-        return gdal->CPLGetLastErrorType() >= CE_Failure ? points_fail(p, "a damaged geometry") : 0;
-    OGRGeometryH point = geometry;
-    if (gdal->OGR_GT_Flatten(gdal->OGR_G_GetGeometryType(geometry)) == wkbMultiPoint &&
-        gdal->OGR_G_GetGeometryCount(geometry) == 1)
-        point = gdal->OGR_G_GetGeometryRef(geometry, 0);
-    if (gdal->OGR_GT_Flatten(gdal->OGR_G_GetGeometryType(point)) != wkbPoint) {
-        complain("%s: feature %" PRId64 " is a %s, not a point", p->path,
-                 (int64_t)gdal->OGR_F_GetFID(feature), gdal->OGR_G_GetGeometryName(geometry));
-        return END_INPUT;
-    }
-    if (gdal->OGR_G_GetPointCount(point) == 0) return 0;
-    gdal->OGR_G_GetPoint(point, 0, &at[0], &at[1], &at[2]);
-    if (!gdal->OGR_G_Is3D(point)) at[2] = NAN;
+    if (!geometry) return end;
+    if (l->gdal->OGR_GT_Flatten(l->gdal->OGR_G_GetGeometryType(geometry)) == wkbMultiPoint &&
+        l->gdal->OGR_G_GetGeometryCount(geometry) == 1)
+        point = l->gdal->OGR_G_GetGeometryRef(geometry, 0);
+    if (l->gdal->OGR_GT_Flatten(l->gdal->OGR_G_GetGeometryType(point)) != wkbPoint)
+        return point_layer_fail_geometry(l, feature, geometry);
+    point_layer_take(l, point, at);
     return 0;
 }
 
@@ -295,10 +105,10 @@ static void row_number(text *row, bool first, double value)
 
 static bool points_keep_row(gdal_points *p, OGRFeatureH feature, const double at[3])
 {
-    const gdal_functions *gdal = p->gdal;
-    OGRFeatureDefnH definition = gdal->OGR_L_GetLayerDefn(p->layer);
-    for (size_t k = 0; k < p->coordinates; k++) row_number(&p->rows, k == 0, at[k]);
-    for (int i = 0; (size_t)i < p->column_count - p->coordinates; i++) {
+    const gdal_functions *gdal = p->layer.gdal;
+    OGRFeatureDefnH definition = gdal->OGR_L_GetLayerDefn(p->layer.layer);
+    for (size_t k = 0; k < p->layer.coordinates; k++) row_number(&p->rows, k == 0, at[k]);
+    for (int i = 0; (size_t)i < p->layer.column_count - p->layer.coordinates; i++) {
         if (!gdal->OGR_F_IsFieldSetAndNotNull(feature, i))
             row_cell(&p->rows, false, "");
         else if (gdal->OGR_Fld_GetType(gdal->OGR_FD_GetFieldDefn(definition, i)) == OFTReal)
@@ -324,14 +134,11 @@ int gdal_points_read(gdal_points *p, double *values, size_t width, size_t capaci
     p->row_count = *count = 0;
     while (end == 0 && *count < capacity && p->rows.size < ROWS_LIMIT) {
         double at[3];
-        p->gdal->CPLErrorReset();
-        OGRFeatureH feature = p->gdal->OGR_L_GetNextFeature(p->layer);
-        if (!feature)
-            return p->gdal->CPLGetLastErrorType() >= CE_Failure ? points_fail(p, "a damaged file")
-                                                                : 0;
-        end = feature_point(p, feature, at);
+        OGRFeatureH feature = point_layer_next(&p->layer, &end);
+        if (!feature) return end;
+        end = feature_point(&p->layer, feature, at);
         if (end == 0 && !points_keep_row(p, feature, at)) end = fail_memory();
-        p->gdal->OGR_F_Destroy(feature);
+        p->layer.gdal->OGR_F_Destroy(feature);
         if (end == 0) memcpy(values + width * (*count)++, at, width * sizeof *at);
     }
     return end;

@@ -10,7 +10,7 @@
 #define FOOT 0.3048
 #define FEW 10 /* so many points tell that something is wrong, if no reason is in sight */
 
-void extent_add(extent *e, const double *points, size_t count, size_t stride)
+void extent_add(extent_box *e, const double *points, size_t count, size_t stride)
 {
     for (size_t i = 0; i < count; i++) {
         const double *p = points + i * stride;
@@ -23,7 +23,7 @@ void extent_add(extent *e, const double *points, size_t count, size_t stride)
     }
 }
 
-static bool extents_meet(const extent *a, const extent *b)
+static bool extents_meet(const extent_box *a, const extent_box *b)
 {
     for (int k = 0; k < 2; k++)
         if (a->high[k] < b->low[k] || b->high[k] < a->low[k]) return false;
@@ -31,15 +31,15 @@ static bool extents_meet(const extent *a, const extent *b)
 }
 
 /* The extent with its coordinates exchanged. */
-static extent extent_exchanged(const extent *e)
+static extent_box extent_exchanged(const extent_box *e)
 {
-    return (extent){
+    return (extent_box){
         .low = {e->low[1], e->low[0]}, .high = {e->high[1], e->high[0]}, .count = e->count};
 }
 
-static extent extent_scaled(const extent *e, double factor)
+static extent_box extent_scaled(const extent_box *e, double factor)
 {
-    extent scaled = *e;
+    extent_box scaled = *e;
     for (int k = 0; k < 2; k++) {
         scaled.low[k] *= factor;
         scaled.high[k] *= factor;
@@ -47,26 +47,26 @@ static extent extent_scaled(const extent *e, double factor)
     return scaled;
 }
 
-static extent extent_shifted(const extent *e, double x)
+static extent_box extent_shifted(const extent_box *e, double x)
 {
-    extent shifted = *e;
+    extent_box shifted = *e;
     shifted.low[0] += x;
     shifted.high[0] += x;
     return shifted;
 }
 
 /* Could these be longitudes and latitudes in degrees? */
-static bool extent_is_lonlat(const extent *e)
+static bool extent_is_lonlat(const extent_box *e)
 {
     return e->low[0] >= -360 && e->high[0] <= 360 && e->low[1] >= -90 && e->high[1] <= 90;
 }
 
 /* What may be wrong; NULL if nothing is in sight. */
-static const char *extent_suspicion(const extent *mesh, const extent *points)
+static const char *extent_suspicion(const extent_box *mesh, const extent_box *points)
 {
-    extent exchanged = extent_exchanged(points);
-    extent feet = extent_scaled(points, FOOT), metres = extent_scaled(points, 1 / FOOT);
-    extent east = extent_shifted(points, 360), west = extent_shifted(points, -360);
+    extent_box exchanged = extent_exchanged(points);
+    extent_box feet = extent_scaled(points, FOOT), metres = extent_scaled(points, 1 / FOOT);
+    extent_box east = extent_shifted(points, 360), west = extent_shifted(points, -360);
     bool degrees = extent_is_lonlat(points), mesh_degrees = extent_is_lonlat(mesh);
     if (extents_meet(points, mesh)) return NULL;
     if (degrees && !mesh_degrees) return "the points look like degrees, the mesh does not";
@@ -86,15 +86,15 @@ static const char *extent_suspicion(const extent *mesh, const extent *points)
 }
 
 /* Write "x from 1 to 2, y from 3 to 4". */
-static const char *extent_write(const extent *e, char words[120])
+static const char *extent_write(const extent_box *e, char words[120])
 {
     snprintf(words, 120, "x from %.10g to %.10g, y from %.10g to %.10g", e->low[0], e->high[0],
              e->low[1], e->high[1]);
     return words;
 }
 
-void extent_remark(const char *mesh_path, const extent *mesh, const char *points_path,
-                   const extent *points, uint64_t found)
+void extent_remark(const char *mesh_path, const extent_box *mesh, const char *points_path,
+                   const extent_box *points, uint64_t found)
 {
     if (points->count == 0 || mesh->count == 0 || 2 * found >= points->count) return;
     const char *suspicion = extent_suspicion(mesh, points);
@@ -118,7 +118,7 @@ static bool triangle_is_wide(const mw_mesh_file *file, const uint32_t *corner)
     return false;
 }
 
-void extent_warn_of_seam(const char *mesh_path, const extent *mesh, const mw_mesh_file *file)
+void extent_warn_of_seam(const char *mesh_path, const extent_box *mesh, const mw_mesh_file *file)
 {
     size_t wide = 0;
     if (mesh->count == 0 || !extent_is_lonlat(mesh) || mesh->high[0] - mesh->low[0] <= 180) return;

@@ -3,6 +3,7 @@
 #include "cli/frame/message.h"
 #include "cli/frame/monotonic_clock.h"
 #include "cli/frame/progress.h"
+#include "cli/gdal/gdal_point_layer.h"
 #include "cli/gdal/mesh_crs.h"
 #include "cli/stream/statistics.h"
 
@@ -211,6 +212,7 @@ int point_query_begin(point_query *q, const point_query_settings *settings,
 {
     *q = (point_query){.settings = settings, .begin = monotonic_seconds()};
     int end = files_check_output(settings->stream.common.output, inputs, count);
+    if (end == 0) end = point_layers_check(inputs, count);
     if (end == 0) end = query_stream_check_output(&settings->stream);
     if (end == 0) end = point_query_check_index(settings->cells, settings->layers);
     if (end == 0) end = point_query_check_fill(settings);
@@ -268,7 +270,7 @@ typedef struct point_query_context {
     point_query_row *row;
     const void *self;
     location_statistics statistics;
-    extent extent; /* of the points */
+    extent_box extent; /* of the points */
 } point_query_context;
 
 /* Interpolate the values of a block. */
@@ -378,6 +380,7 @@ int point_query_run(const point_query *q, const char *points, const char *const 
         .domain = QUERIES_IN_PLANE,
         .mesh = q->path,
         .mesh_crs = q->crs,
+        .heights = q->values != NULL,
         .shown = 2,
         .answers = answers,
         .kinds = kinds,

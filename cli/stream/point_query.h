@@ -53,7 +53,7 @@ typedef struct point_query {
     mw_index *index;                    /* NULL if the start has none */
     const char *path;                   /* of the mesh */
     char *crs;                          /* its coordinate system; NULL: not known */
-    extent extent;                      /* of its vertices */
+    extent_box extent;                  /* of its vertices */
     double begin;                       /* monotonic_seconds when the command began */
     point_query_count_rows *count_rows; /* NULL: tell how many points got which mw_where */
     point_query_values *values;         /* NULL: no values are asked for */

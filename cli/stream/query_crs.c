@@ -1,6 +1,7 @@
 #include "cli/stream/query_crs.h"
 #include "cli/frame/files.h"
 #include "cli/frame/message.h"
+#include "cli/gdal/crs_heights.h"
 #include "cli/gdal/gdal_crs.h"
 
 #include <string.h>
@@ -61,6 +62,7 @@ static int query_crs_join(query_crs *c, const query_crs_settings *s, const char 
     char names[2][CRS_NAME];
     bool rough = false;
     gdal_transform_ends ends = {.of = points, .from = c->of_rows, .in = s->mesh, .to = mesh_crs};
+    if (s->heights && !s->quiet) crs_warn_of_heights(s->mesh, mesh_crs, c->of_rows);
     if (crs_same(c->of_rows, mesh_crs)) return 0;
     int end = gdal_transform_open(&c->transform, &ends, &rough);
     if (end || s->quiet) return end;

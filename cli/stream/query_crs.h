@@ -17,6 +17,7 @@ typedef struct query_crs_settings {
     query_domain domain;
     const char *mesh, *mesh_crs; /* the path of the mesh, and its system; NULL: not known */
     const char *option;          /* --points-crs; NULL: not given */
+    bool heights;                /* are values of the mesh answered, which may be heights? */
     bool quiet;
 } query_crs_settings;
 

@@ -251,6 +251,7 @@ static int pipeline_open_source(query_pipeline *p)
                               .mesh = files_is_standard(s->mesh) ? "standard input" : s->mesh,
                               .mesh_crs = s->mesh_crs,
                               .option = s->settings->source.crs,
+                              .heights = s->heights,
                               .quiet = s->settings->common.quiet};
     query_columns columns = s->columns;
     columns.prefer = query_crs_prefers(&crs);

@@ -46,6 +46,7 @@ typedef struct query_stream {
     query_domain domain;
     /* on QUERIES_IN_PLANE: its path, and its coordinate system or NULL */
     const char *mesh, *mesh_crs;
+    bool heights;               /* do the answers hold values of the mesh? */
     size_t shown;               /* columns of the query that --only-answers writes */
     const char *const *answers; /* names of the answers' columns; NULL ends them */
     const char *kinds;          /* what these hold: 't' text, 'i' integer, 'r' real */

@@ -1,6 +1,7 @@
 #include "cli/vertices/vertex_crs.h"
 #include "cli/frame/files.h"
 #include "cli/frame/message.h"
+#include "cli/gdal/crs_heights.h"
 #include "cli/gdal/gdal_crs.h"
 #include "cli/gdal/gdal_transform.h"
 
@@ -50,15 +51,17 @@ static void warn_of_unknown_crs(const located_file *unknown, const located_file 
                  unknown->path, known->path, crs_name(known->crs, name), unknown->option);
 }
 
-/* Transform points, if their system is not that of the mesh. `more` points follow elsewhere. */
+/* Transform points, if their system is not that of the mesh. Their heights, if they have any, stay.
+ * `more` points follow elsewhere. */
 static int located_file_move(const located_file *f, const located_file *mesh,
-                             const common_settings *common, double *points, size_t count,
-                             double *more, size_t more_count)
+                             const common_settings *common, bool heights, double *points,
+                             size_t count, double *more, size_t more_count)
 {
     bool rough = false;
     char names[2][CRS_NAME];
     gdal_transform *t;
     gdal_transform_ends ends = {.of = f->path, .from = f->crs, .in = mesh->path, .to = mesh->crs};
+    if (heights && !common->quiet) crs_warn_of_heights(f->path, f->crs, mesh->crs);
     if (crs_same(f->crs, mesh->crs)) return 0;
     int end = gdal_transform_open(&t, &ends, &rough);
     if (end == 0 && rough && !common->quiet)
@@ -78,7 +81,7 @@ static int located_file_move(const located_file *f, const located_file *mesh,
 static int constraints_move(const located_file *f, const located_file *mesh,
                             const common_settings *common, mw_constraint_file *c)
 {
-    return located_file_move(f, mesh, common, c->points, c->point_count, c->hole_seeds,
+    return located_file_move(f, mesh, common, c->has_z, c->points, c->point_count, c->hole_seeds,
                              c->hole_seed_count);
 }
 
@@ -124,8 +127,8 @@ int vertex_crs_join(const vertex_crs_settings *s, const common_settings *common,
     if (!mesh.crs) mesh.crs = points.crs ? points.crs : lines.crs;
     int end = 0;
     if (points.path && points.crs)
-        end =
-            located_file_move(&points, &mesh, common, v->file.points, v->file.point_count, NULL, 0);
+        end = located_file_move(&points, &mesh, common, v->file.has_z, v->file.points,
+                                v->file.point_count, NULL, 0);
     if (end == 0 && lines.path && lines.crs) end = constraints_move(&lines, &mesh, common, c);
     return end ? end : vertex_crs_store(v, mesh.crs);
 }

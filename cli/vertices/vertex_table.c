@@ -3,8 +3,6 @@
 #include "cli/frame/message.h"
 #include "cli/frame/progress.h"
 #include "cli/frame/text.h"
-#include "cli/vertices/las_classes.h"
-#include "cli/input/query_columns.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -45,17 +43,16 @@ static bool point_rows_grow(point_rows *r)
     return true;
 }
 
-static int point_rows_read(point_rows *r, mw_point_reader *reader)
+static int point_rows_read(point_rows *r, vertex_source *source)
 {
-    mw_error error;
     size_t count = 1;
     while (count > 0) {
         if (r->count == r->capacity && !point_rows_grow(r)) return fail_memory();
         double *next = r->values + r->count * r->width;
-        if (mw_point_reader_read(reader, next, r->capacity - r->count, &count, &error) != MW_OK)
-            return fail_reading(&error);
+        int end = vertex_source_read(source, next, r->capacity - r->count, &count);
+        if (end) return end;
         r->count += count;
-        progress_points(r->count, mw_point_reader_fraction(reader));
+        progress_points(r->count, vertex_source_fraction(source));
     }
     return 0;
 }
@@ -80,56 +77,10 @@ static double *mesh_file_add_field(mw_mesh_file *file, const char *name)
 /* How the columns of POINTS are used. */
 typedef struct point_columns {
     const char *path;
-    mw_point_reader *reader;
+    vertex_source *source;
     size_t height; /* the value that is the height; SIZE_MAX: none */
     bool quiet;
 } point_columns;
-
-static bool name_means_height(const char *name)
-{
-    static const char *const names[] = {"height",   "elevation", "elev", "ele",
-                                        "altitude", "alt",       "h"};
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
-        if (mw_axis_name_matches(name, names[i])) return true;
-    return false;
-}
-
-static bool name_means_z(const char *name)
-{
-    const mw_axis_names *set;
-    for (size_t i = 0; (set = mw_axis_names_at(i)); i++)
-        if (mw_axis_name_matches(name, set->axis[2])) return true;
-    return false;
-}
-
-/* The only one of the values from number 2 on whose name fits; SIZE_MAX if there is none, or
- * several. */
-static size_t columns_only(const mw_point_reader *reader, bool (*fits)(const char *name))
-{
-    size_t found = SIZE_MAX, count = 0;
-    for (size_t k = 2; k < mw_point_reader_width(reader); k++)
-        if (fits(mw_point_reader_column(reader, k)) && count++ == 0) found = k;
-    return count == 1 ? found : SIZE_MAX;
-}
-
-/* Which value is the height? The third of those that the user has chosen, or that have no names;
- * else one that is called z, or height; else the only one there is, if it follows x and y in the
- * file. */
-static size_t columns_find_height(const mw_point_reader *reader, bool chosen)
-{
-    mw_error error;
-    mw_point_table table = {0};
-    size_t width = mw_point_reader_width(reader);
-    if (width < 3) return SIZE_MAX;
-    if (mw_point_reader_table(reader, &table, &error) != MW_OK || !table.names || chosen) return 2;
-    if (name_means_z(mw_point_reader_column(reader, 2))) return 2;
-    size_t height = columns_only(reader, name_means_height);
-    if (height != SIZE_MAX) return height;
-    size_t x = mw_point_reader_column_number(reader, 0),
-           y = mw_point_reader_column_number(reader, 1);
-    size_t third = mw_point_reader_column_number(reader, 2);
-    return width == 3 && third > x && third > y ? 2 : SIZE_MAX;
-}
 
 /* Tell which columns become no fields since they hold texts, and where the first of these stands.
  * */
@@ -138,32 +89,48 @@ static void columns_tell_texts(const point_columns *c)
     enum { MOST = 6 };
     text names = {0};
     size_t count = 0;
-    int64_t first = INT64_MAX, line;
-    for (size_t k = 2; k < mw_point_reader_width(c->reader); k++) {
-        if (mw_point_reader_texts(c->reader, k, &line) == 0) continue;
-        if (line < first) first = line;
+    int64_t first = INT64_MAX, place;
+    for (size_t k = 2; k < vertex_source_width(c->source); k++) {
+        if (!vertex_source_has_texts(c->source, k, &place)) continue;
+        if (place < first) first = place;
         if (count++ < MOST)
             text_printf(&names, "%s'%s'", count > 1 ? ", " : "",
-                        mw_point_reader_column(c->reader, k));
+                        vertex_source_column(c->source, k));
         else if (count == MOST + 1)
             text_string(&names, ", ...");
     }
     if (count > 0 && !names.failed)
-        complain(
-            "%s: column%s %.*s become%s no field%s: texts stand there, the first in line %" PRId64,
-            c->path, count > 1 ? "s" : "", (int)names.size, names.bytes, count > 1 ? "" : "s",
-            count > 1 ? "s" : "", first);
+        complain("%s: column%s %.*s become%s no field%s: texts stand there, the first in %s "
+                 "%" PRId64,
+                 c->path, count > 1 ? "s" : "", (int)names.size, names.bytes, count > 1 ? "" : "s",
+                 count > 1 ? "s" : "", vertex_source_has_features(c->source) ? "feature" : "line",
+                 first);
     text_release(&names);
 }
 
 static int columns_fail_height(const point_columns *c)
 {
-    int64_t line = 0;
-    mw_point_reader_texts(c->reader, c->height, &line);
-    complain("%s:%" PRId64
+    int64_t place = 0;
+    vertex_source_has_texts(c->source, c->height, &place);
+    complain("%s:%s%" PRId64
              ": column '%s', the height, holds no number there; --columns chooses another",
-             c->path, line, mw_point_reader_column(c->reader, c->height));
+             c->path, vertex_source_has_features(c->source) ? " feature " : "", place,
+             vertex_source_column(c->source, c->height));
     return END_INPUT;
+}
+
+/* Are the heights of features all zero, as those that some programs make up? Then tell the user
+ * what else may be the height. */
+static void columns_tell_zero_heights(const point_columns *c, const point_rows *r)
+{
+    size_t other = vertex_source_named_height(c->source);
+    if (other == SIZE_MAX || other == c->height) return;
+    for (size_t i = 0; i < r->count; i++)
+        if (r->values[i * r->width + c->height] != 0) return;
+    complain("%s: warning: the heights of its points are all 0; --columns %s,%s,%s takes those of "
+             "'%s'",
+             c->path, vertex_source_column(c->source, 0), vertex_source_column(c->source, 1),
+             vertex_source_column(c->source, other), vertex_source_column(c->source, other));
 }
 
 /* Make points x, y, z and fields of the columns. */
@@ -173,12 +140,15 @@ static int point_rows_split(vertex_table *v, point_rows *r, const point_columns 
     size_t n = r->count, width = r->width;
     file->point_count = n;
     file->has_z = c->height != SIZE_MAX;
-    if (file->has_z && mw_point_reader_texts(c->reader, c->height, NULL) > 0)
+    if (file->has_z && vertex_source_has_texts(c->source, c->height, NULL))
         return columns_fail_height(c);
     if (!c->quiet) columns_tell_texts(c);
+    if (!c->quiet && file->has_z) columns_tell_zero_heights(c, r);
     for (size_t k = 2; k < width; k++) {
-        if (k == c->height || mw_point_reader_texts(c->reader, k, NULL) > 0) continue;
-        double *field = mesh_file_add_field(file, mw_point_reader_column(c->reader, k));
+        if (k == c->height || vertex_source_has_texts(c->source, k, NULL) ||
+            !vertex_source_has_numbers(c->source, k))
+            continue;
+        double *field = mesh_file_add_field(file, vertex_source_column(c->source, k));
         if (!field) return fail_memory();
         for (size_t i = 0; i < n; i++) field[i] = r->values[i * width + k];
     }
@@ -198,15 +168,14 @@ static int point_rows_split(vertex_table *v, point_rows *r, const point_columns 
     return 0;
 }
 
-static int point_rows_take(vertex_table *v, point_columns *c, bool chosen)
+static int point_rows_take(vertex_table *v, point_columns *c)
 {
-    point_rows r = {.width = mw_point_reader_width(c->reader)};
-    int end = chosen ? 0 : query_columns_check_points(c->path, c->reader);
-    c->height = columns_find_height(c->reader, chosen);
-    if (end == 0) end = point_rows_read(&r, c->reader);
+    point_rows r = {.width = vertex_source_width(c->source)};
+    int end = point_rows_read(&r, c->source);
+    c->height = vertex_source_height(c->source);
     if (end == 0) end = point_rows_split(v, &r, c);
     if (end == 0 && c->height != SIZE_MAX &&
-        !(v->height_name = strdup(mw_point_reader_column(c->reader, c->height))))
+        !(v->height_name = strdup(vertex_source_column(c->source, c->height))))
         end = fail_memory();
     free(r.values);
     return end;
@@ -214,21 +183,15 @@ static int point_rows_take(vertex_table *v, point_columns *c, bool chosen)
 
 int vertex_table_read(vertex_table *v, const char *path, const vertex_table_options *how)
 {
-    mw_error error;
-    mw_point_reader_options options = {.columns = how->columns, .texts = 1};
     point_columns c = {.path = files_is_standard(path) ? "standard input" : path,
                        .quiet = how->quiet};
-    int end = how->classes ? las_classes_parse(how->classes, options.classes) : 0;
-    if (end) return end;
     progress_phase("reading", path);
-    if (mw_point_reader_open(path, &options, &c.reader, &error) != MW_OK)
-        return fail_reading(&error);
-    end = point_rows_take(v, &c, how->columns != NULL);
-    v->lonlat = query_names_are_lonlat(mw_point_reader_column(c.reader, 0),
-                                       mw_point_reader_column(c.reader, 1));
-    const char *crs = mw_point_reader_crs(c.reader);
-    if (end == 0 && crs && !(v->file.crs = strdup(crs))) end = fail_memory();
-    mw_point_reader_close(c.reader);
+    int end = vertex_source_open(&c.source, path, &how->source);
+    if (end == 0) end = point_rows_take(v, &c);
+    if (end == 0) v->lonlat = vertex_source_is_lonlat(c.source);
+    const char *crs = end == 0 ? vertex_source_crs(c.source) : NULL;
+    if (crs && !(v->file.crs = strdup(crs))) end = fail_memory();
+    vertex_source_close(c.source);
     v->points = v->file.point_count;
     v->point_fields = v->file.field_count;
     v->point_heights = v->file.has_z;

@@ -3,6 +3,8 @@
 #ifndef MW_CLI_VERTICES_VERTEX_TABLE_H
 #define MW_CLI_VERTICES_VERTEX_TABLE_H
 
+#include "cli/vertices/vertex_source.h"
+
 #include <meshwalk/meshwalk.h>
 #include <stdbool.h>
 
@@ -19,8 +21,8 @@ typedef struct vertex_table {
 
 /* How POINTS are read. */
 typedef struct vertex_table_options {
-    const char *columns, *classes; /* the options of these names; NULL: not given */
-    bool quiet;                    /* do not tell which columns become no fields */
+    vertex_source_options source;
+    bool quiet; /* do not tell which columns become no fields */
 } vertex_table_options;
 
 /* Read POINTS. */

@@ -26,6 +26,22 @@ typedef struct mw_marked_edge {
     uint32_t mark; /**< number of its name in mw_mesh_file.mark_names */
 } mw_marked_edge;
 
+/**
+ * Tell the version of libnetcdf, which reads and writes netCDF files and is loaded when it is
+ * needed.
+ *
+ * libnetcdf serves one thread at a time: calls of this library that read or write netCDF wait for
+ * one another, whatever the files. A program that calls libnetcdf itself must not do so while
+ * another thread is in such a call.
+ *
+ * @param text  receives the version, ended by NUL, empty if there is none; NULL is allowed
+ * @param size  bytes of `text`
+ * @return the length of the whole version; 0: libnetcdf is not found, and netCDF files are refused
+ *
+ * Thread-safe.
+ */
+MW_API size_t mw_netcdf_version(char *text, size_t size);
+
 /** A mesh as read. The structure owns its arrays; release with mw_mesh_file_release().
  *
  * Faces with more than three corners are cut into triangles: a quadrilateral along its shorter

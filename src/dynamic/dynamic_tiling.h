@@ -33,7 +33,7 @@ typedef struct mw_journal_entry {
 
 /* One edit, or many insertions at once: what was asked for, and what must be restored beside the
  * tiles. The counts are those before the edit. */
-typedef struct mw_journal_step {
+typedef struct mw_journal_edit {
     mw_edit edit;       /* vertices by number                          */
     size_t first_entry; /* its entries of the journal begin there      */
     uint32_t tiles, ghosts, numbers, vertices, points, free_slots, fixed_count;
@@ -44,11 +44,12 @@ typedef struct mw_journal_step {
     mw_point point;  /* where the vertex was before it was moved or removed               */
     double value;    /* MW_EDIT_VALUE: the former value                                   */
     bool delaunay;
-} mw_journal_step;
+} mw_journal_edit;
 
 /* --- scratch arrays: an edit reuses those of the edit before ---------------------------------- */
 
-/* A directed edge of the boundary of tiles that are to be replaced. They lie to its left. */
+/* A step of a boundary: a directed edge of the boundary of tiles that are to be replaced. They lie
+ * to its left. */
 typedef struct mw_boundary_step {
     uint32_t vertex; /* where the step begins; it ends where the next step begins */
     uint32_t beyond; /* half-edge on its right side; MW_NONE on the hull          */
@@ -81,7 +82,7 @@ typedef struct mw_dynamic_tiling {
     mw_journal_entry *journal; /* of the current edit, and of those that can be undone          */
     size_t journal_count, journal_room;
     uint32_t journal_below; /* the current edit records tiles in slots below this one           */
-    mw_journal_step *step;  /* the edits in the journal; the last one may be under way          */
+    mw_journal_edit *step;  /* the edits in the journal; the last one may be under way          */
     size_t step_count, step_room;
     bool under_way;  /* an edit has begun and is neither committed nor rolled back              */
     uint32_t *stack; /* scratch: mostly half-edges that may have to be flipped                  */

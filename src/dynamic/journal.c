@@ -12,13 +12,13 @@ bool mw__journal_begin(mw_dynamic_tiling *dynamic, const mw_edit *edit, bool rec
     if (MW_UNLIKELY(!dynamic->journal) && !mw__journal_room(dynamic, 1)) return false;
     if (dynamic->step_count == dynamic->step_room) {
         size_t room = dynamic->step_room + dynamic->step_room / 2 + 4;
-        mw_journal_step *step = mw__realloc(dynamic->step, room, sizeof *step);
+        mw_journal_edit *step = mw__realloc(dynamic->step, room, sizeof *step);
         if (!step) return false;
         dynamic->step = step;
         dynamic->step_room = room;
     }
     const mw_tiling *tiling = dynamic->tiling;
-    dynamic->step[dynamic->step_count++] = (mw_journal_step){.edit = *edit,
+    dynamic->step[dynamic->step_count++] = (mw_journal_edit){.edit = *edit,
                                                              .edits = 1,
                                                              .first_entry = dynamic->journal_count,
                                                              .tiles = tiling->tri_count,
@@ -53,7 +53,7 @@ void mw__journal_commit(mw_dynamic_tiling *dynamic)
 {
     const mw_journal_entry *first;
     size_t count = mw__journal_entries(dynamic, &first);
-    mw_journal_step *step = &dynamic->step[dynamic->step_count - 1];
+    mw_journal_edit *step = &dynamic->step[dynamic->step_count - 1];
     step->made = dynamic->vertex_count - step->vertices;
     journal_clear_marks(dynamic, first, count);
     journal_end(dynamic);
@@ -63,7 +63,7 @@ void mw__journal_commit(mw_dynamic_tiling *dynamic)
 
 /* Exchange the entries of the last step with the tiles. Unrecorded neighbours lie beside restored
  * tiles only, and get their links from them. */
-static void journal_exchange_tiles(mw_dynamic_tiling *dynamic, const mw_journal_step *step)
+static void journal_exchange_tiles(mw_dynamic_tiling *dynamic, const mw_journal_edit *step)
 {
     mw_tiling *tiling = dynamic->tiling;
     for (size_t i = step->first_entry; i < dynamic->journal_count; i++) {
@@ -91,7 +91,7 @@ static void journal_exchange_tiles(mw_dynamic_tiling *dynamic, const mw_journal_
     }
 }
 
-static void journal_restore_vertices(mw_dynamic_tiling *dynamic, const mw_journal_step *step)
+static void journal_restore_vertices(mw_dynamic_tiling *dynamic, const mw_journal_edit *step)
 {
     mw_tiling *tiling = dynamic->tiling;
     while (dynamic->vertex_count > step->vertices) { /* the newest first */
@@ -115,7 +115,7 @@ static void journal_restore_vertices(mw_dynamic_tiling *dynamic, const mw_journa
 
 void mw__journal_rollback(mw_dynamic_tiling *dynamic)
 {
-    const mw_journal_step *step = &dynamic->step[dynamic->step_count - 1];
+    const mw_journal_edit *step = &dynamic->step[dynamic->step_count - 1];
     journal_exchange_tiles(dynamic, step);
     journal_restore_vertices(dynamic, step);
     journal_clear_marks(dynamic, dynamic->journal + step->first_entry,
@@ -126,7 +126,7 @@ void mw__journal_rollback(mw_dynamic_tiling *dynamic)
 
 /* Record the tiles that an edit added at the end of the array, so that the reverted step tells
  * them. */
-static bool journal_add_made(mw_dynamic_tiling *dynamic, const mw_journal_step *step)
+static bool journal_add_made(mw_dynamic_tiling *dynamic, const mw_journal_edit *step)
 {
     const mw_tiling *tiling = dynamic->tiling;
     if (tiling->tri_count <= step->tiles) return true;
@@ -139,7 +139,7 @@ static bool journal_add_made(mw_dynamic_tiling *dynamic, const mw_journal_step *
 
 bool mw__journal_revert(mw_dynamic_tiling *dynamic)
 {
-    const mw_journal_step *step = &dynamic->step[dynamic->step_count - 1];
+    const mw_journal_edit *step = &dynamic->step[dynamic->step_count - 1];
     if (!journal_add_made(dynamic, step)) return false;
     journal_exchange_tiles(dynamic, step);
     journal_restore_vertices(dynamic, step);
@@ -246,7 +246,7 @@ static size_t list_made(const mw_dynamic_tiling *dynamic, const mw_journal_entry
                         size_t count, mw_changed_triangle *list, size_t known)
 {
     const mw_tiling *tiling = dynamic->tiling;
-    const mw_journal_step *step = &dynamic->step[dynamic->step_count - 1];
+    const mw_journal_edit *step = &dynamic->step[dynamic->step_count - 1];
     size_t n = known;
     for (size_t i = 0; i < count; i++) {
         if (first[i].slot >= tiling->tri_count) continue;

@@ -11,18 +11,19 @@
  *           tiles only, and their links tell its links. Exception: a tile that gets or loses a
  *           neighbour beyond a hull edge is recorded.
  *   counts  Of tiles, ghosts, numbers, vertices, points, free slots and constrained edges before
- *           the edit (mw_journal_step). New vertices and numbers are the last ones given out, so
+ *           the edit (mw_journal_edit). New vertices and numbers are the last ones given out, so
  *           the counts suffice to take them back.
  *   point   Where the vertex was that the edit moved or removed, and its number.
  *   value   The former one, if the edit changed a value.
+ *   Delaunay  Whether the tiling was known to be Delaunay.
  *
  * To undo an edit (mw__journal_revert), the entries are exchanged with the tiles, and the counts
  * are set back. A failed edit is rolled back in the same way. To report what an edit changed, the
  * entries are compared with the tiles as they are now.
  *
- * The steps form a stack: each mw_journal_step owns the entries from its first_entry up to the next
- * step's. mw__journal_begin pushes a step; mw__journal_commit ends the edit; mw__journal_forget
- * discards the oldest steps that can no longer be undone.
+ * The edits form a stack: each mw_journal_edit owns the entries from its first_entry up to those of
+ * the next one. mw__journal_begin pushes an edit; mw__journal_commit ends it; mw__journal_forget
+ * discards the oldest edits that can no longer be undone.
  *
  * The journal can be skipped when it has no reader: no undo, no report and no index needs it, and
  * the edit cannot fail after it has begun to change tiles (insert.c, insert_points.c). */
@@ -58,7 +59,7 @@ static MW_INLINE size_t mw__journal_entries(const mw_dynamic_tiling *dynamic,
 /* An upper bound of the number of slots that the last step changed. */
 static MW_INLINE size_t mw__journal_extent(const mw_dynamic_tiling *dynamic)
 {
-    const mw_journal_step *step = &dynamic->step[dynamic->step_count - 1];
+    const mw_journal_edit *step = &dynamic->step[dynamic->step_count - 1];
     uint32_t tiles = dynamic->tiling->tri_count;
     return dynamic->journal_count - step->first_entry +
            (tiles > step->tiles ? tiles - step->tiles : 0);

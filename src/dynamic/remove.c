@@ -161,7 +161,7 @@ mw_status mw__dynamic_remove(mw_dynamic_tiling *dynamic, uint32_t vertex, mw_err
 {
     mw_vertex_star star;
     if (!mw__vertex_star_collect(dynamic, vertex, &star)) return mw__fail_memory(error);
-    mw_journal_step *step = &dynamic->step[dynamic->step_count - 1];
+    mw_journal_edit *step = &dynamic->step[dynamic->step_count - 1];
     step->vertex = vertex;
     step->number = dynamic->vertex_number[vertex];
     step->point = dynamic->tiling->point[vertex];

@@ -481,7 +481,7 @@ mw_status mw_edit_apply(mw_editor *editor, const mw_edit *edit, mw_change *chang
 
 /* --- undo ------------------------------------------------------------------------------------- */
 
-static void undo_value(mw_editor *editor, const mw_journal_step *step)
+static void undo_value(mw_editor *editor, const mw_journal_edit *step)
 {
     if (step->edit.kind == MW_EDIT_VALUE)
         editor->view.field[step->edit.field].values[step->edit.vertex] = step->value;
@@ -489,7 +489,7 @@ static void undo_value(mw_editor *editor, const mw_journal_step *step)
 
 /* What undoing an edit did to a vertex. `vertices`: how many numbers of vertices were given out
  * before. */
-static mw_change undone_change(const mw_dynamic_tiling *dynamic, const mw_journal_step *step,
+static mw_change undone_change(const mw_dynamic_tiling *dynamic, const mw_journal_edit *step,
                                uint32_t vertices)
 {
     mw_change change = {.vertex = MW_NONE};
@@ -509,7 +509,7 @@ mw_status mw_edit_undo(mw_editor *editor, mw_change *change, mw_error *error)
     mw_dynamic_tiling *dynamic = &editor->dynamic;
     uint32_t vertices = dynamic->vertex_count;
     if (!mw__journal_revert(dynamic)) return mw__fail_memory(error);
-    const mw_journal_step *step = &dynamic->step[dynamic->step_count - 1];
+    const mw_journal_edit *step = &dynamic->step[dynamic->step_count - 1];
     undo_value(editor, step);
     if (editor->keeps_log) editor->log_count -= step->edits;
     editor->undoable--;

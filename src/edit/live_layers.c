@@ -41,7 +41,7 @@ static bool link_layers(mw_live_layers *live, uint32_t i)
     live->below_room[i] = above->point_count;
     memset(live->up[i], 0xff, beneath->point_count * sizeof *live->up[i]); /* MW_NONE */
     for (uint32_t v = 0; v < above->point_count; v++) {
-        const mw_triangle *tile = &beneath->tri[mw__tile_named(beneath, layer->below[v])];
+        const mw_triangle *tile = &beneath->tri[mw__tile_of_name(beneath, layer->below[v])];
         uint32_t k = 0;
         while (k < 2 && !points_are_equal(beneath->point[tile->v[k]], above->point[v])) k++;
         layer->below[v] = tile->v[k];

@@ -181,7 +181,7 @@ static void note_tile(mw_upkeep *u, uint32_t t)
 
 /* Put the tiles that an edit changed, as they are now, into the grids. The guide keeps the names it
  * was built from: finding the cells of six tiles would take a fifth of the time of an insertion. */
-static void note_tiles(mw_upkeep *u, const mw_journal_step *step, const mw_journal_entry *first,
+static void note_tiles(mw_upkeep *u, const mw_journal_edit *step, const mw_journal_entry *first,
                        size_t count)
 {
     const mw_tiling *tiling = u->dynamic->tiling;
@@ -242,7 +242,7 @@ static uint32_t tile_beside(const mw_tiling *tiling, const mw_triangle *gone)
 
 /* Redirect the numbers that an undone edit had given out to triangles beside those that had them.
  * These numbers will be given out again, to triangles anywhere, so the cells must not keep them. */
-static void redirect_names(mw_upkeep *u, const mw_journal_step *step, const mw_journal_entry *first,
+static void redirect_names(mw_upkeep *u, const mw_journal_edit *step, const mw_journal_entry *first,
                            size_t count)
 {
     mw_tiling *tiling = u->dynamic->tiling;
@@ -267,7 +267,7 @@ static void redirect_names(mw_upkeep *u, const mw_journal_step *step, const mw_j
 /* --- layers ----------------------------------------------------------------------------------- */
 
 /* Let the layers follow what an edit did to vertex v. */
-static bool layers_follow(mw_upkeep *u, const mw_journal_step *step, uint32_t v)
+static bool layers_follow(mw_upkeep *u, const mw_journal_edit *step, uint32_t v)
 {
     const mw_dynamic_tiling *dynamic = u->dynamic;
     bool there = vertex_is_used(dynamic, v);
@@ -285,7 +285,7 @@ static bool layers_follow(mw_upkeep *u, const mw_journal_step *step, uint32_t v)
 
 /* Follow the vertices that an edit inserted, moved or removed. An insertion at an existing vertex
  * changed nothing. */
-static void follow_vertices(mw_upkeep *u, const mw_journal_step *step)
+static void follow_vertices(mw_upkeep *u, const mw_journal_edit *step)
 {
     bool made = step->edit.kind == MW_EDIT_INSERT;
     const uint32_t *vertices = made ? u->dynamic->vertex_slot + step->vertices : &step->vertex;
@@ -317,7 +317,7 @@ static MW_INLINE void count_edits(mw_upkeep *u, mw_start_kind start, uint64_t ed
 void mw__upkeep_edit(mw_upkeep *u, bool undone)
 {
     const mw_dynamic_tiling *dynamic = u->dynamic;
-    const mw_journal_step *step = &dynamic->step[dynamic->step_count - 1];
+    const mw_journal_edit *step = &dynamic->step[dynamic->step_count - 1];
     const mw_journal_entry *first;
     size_t count = mw__journal_entries(dynamic, &first);
     if (step->edit.kind == MW_EDIT_VALUE) return;

@@ -17,7 +17,7 @@ static MW_INLINE uint32_t mw__hint_tile(const mw_locator *locator, uint32_t hint
 {
     const mw_tiling *tiling = &locator->tiling;
     if (MW_UNLIKELY(tiling->tile_of))
-        return hint_is_name(tiling, hint) ? mw__tile_named(tiling, hint) : MW_NONE;
+        return hint_is_name(tiling, hint) ? mw__tile_of_name(tiling, hint) : MW_NONE;
     if (hint >= locator->mesh->tri_count) return MW_NONE;
     uint32_t slot = mw__triangle_slot(locator->mesh, hint);
     return MW_LIKELY(slot < tiling->tri_count) ? slot : slot % tiling->tri_count;

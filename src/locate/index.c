@@ -150,7 +150,7 @@ uint32_t mw__index_tile_ahead(const mw_tiling *tiling, const mw_index *index, mw
 {
     const uint32_t name = index_first_name(index, q);
     return index->start == MW_START_CURVE ? tile_within(tiling, name)
-                                          : mw__tile_named(tiling, name);
+                                          : mw__tile_of_name(tiling, name);
 }
 
 /* In most tilings a tile's slot is its number. The tile itself shows whether it is, and is needed
@@ -160,7 +160,7 @@ uint32_t mw__index_tile(const mw_tiling *tiling, const mw_index *index, mw_point
     const uint32_t name = index_first_name(index, q);
     if (index->start == MW_START_CURVE) return tile_within(tiling, name);
     if (tiling->slots_are_numbers && mw__slot_is_number(tiling, name)) return name;
-    return mw__tile_named(tiling, name);
+    return mw__tile_of_name(tiling, name);
 }
 
 uint32_t mw__index_first(const mw_tiling *tiling, const mw_cursor *cursor, mw_point q,
@@ -169,11 +169,11 @@ uint32_t mw__index_first(const mw_tiling *tiling, const mw_cursor *cursor, mw_po
     const mw_index *index = cursor->index;
     if (MW_LIKELY(!mw__index_counts(index))) return mw__index_tile(tiling, index, q);
     if (index->start == MW_START_TRIANGLE_BUCKETS)
-        return mw__tile_named(tiling, mw__triangle_buckets_first(&index->triangle_buckets, tiling,
-                                                                 q, cursor->count ? work : NULL));
+        return mw__tile_of_name(tiling, mw__triangle_buckets_first(&index->triangle_buckets, tiling,
+                                                                   q, cursor->count ? work : NULL));
     mw_layer_walk how = {(mw_walk_kind)cursor->walk, (mw_walk_kind)cursor->finish,
                          cursor->arithmetic == MW_EXACT, cursor->count, tiling};
-    return mw__tile_named(tiling, mw__layers_first(&index->layers, q, &how, random, work));
+    return mw__tile_of_name(tiling, mw__layers_first(&index->layers, q, &how, random, work));
 }
 
 static void grid_first_many(const mw_grid *grid, const mw_point *q, uint32_t n, uint32_t *t)
@@ -215,7 +215,7 @@ static void names_resolve_many(const mw_tiling *tiling, uint32_t n, uint32_t *t)
 {
     for (uint32_t i = 0; i < n; i++)
         if (t[i] < tiling->number_count) __builtin_prefetch(&tiling->tile_of[t[i]]);
-    for (uint32_t i = 0; i < n; i++) t[i] = mw__tile_named(tiling, t[i]);
+    for (uint32_t i = 0; i < n; i++) t[i] = mw__tile_of_name(tiling, t[i]);
 }
 
 void mw__index_first_many(const mw_tiling *tiling, const mw_index *index, const mw_point *q,

@@ -190,7 +190,7 @@ static uint32_t start_tile(const mw_locator *locator, const mw_cursor *cursor, u
     switch ((mw_start_kind)cursor->start) {
     case MW_START_RANDOM: return mw__start_random(tiling, random);
     case MW_START_SAMPLE: return mw__start_sample(tiling, q, cursor->sample, MW_NONE, random);
-    case MW_START_CENTRE: return mw__tile_named(tiling, locator->centre);
+    case MW_START_CENTRE: return mw__tile_of_name(tiling, locator->centre);
     case MW_START_AUTO:
         if (locator->guide.start == MW_START_AUTO)
             return tile_near_or_sampled(locator, cursor, last, q, random);
@@ -330,7 +330,7 @@ mw_status mw_cursor_init(const mw_locator *locator, const mw_query_options *opti
         .index = options->index,
         .random = mw__random_seed(options->seed, 0),
         .tolerance = options->tolerance,
-        .last = mw__tile_named(&locator->tiling, locator->centre),
+        .last = mw__tile_of_name(&locator->tiling, locator->centre),
         .sample = mw__sample_count(&locator->tiling, options->samples),
         .steps = options->steps,
         .fuel = mw__walk_fuel(walk, options->arithmetic, &locator->tiling),
@@ -354,7 +354,7 @@ void mw__cursor_follow_edits(const mw_locator *locator, mw_cursor *cursor)
     if (cursor->epoch == locator->epoch) return;
     bool renamed = cursor->epoch >> 32 != locator->epoch >> 32;
     cursor->last =
-        renamed ? cursor->last % tiling->tri_count : mw__tile_named(tiling, cursor->last_name);
+        renamed ? cursor->last % tiling->tri_count : mw__tile_of_name(tiling, cursor->last_name);
     cursor->fuel =
         mw__walk_fuel((mw_walk_kind)cursor->walk, (mw_arithmetic)cursor->arithmetic, tiling);
     cursor->sample = mw__sample_count(tiling, cursor->asked);

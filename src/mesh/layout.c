@@ -114,14 +114,14 @@ bool mw__mesh_lay_out_vertices(mw_mesh *mesh, mw_job *job)
 
 /* --- all --- */
 
-typedef struct mesh_layout {
+typedef struct layout_work {
     mw_mesh *mesh;
     const mw_arrays *arrays;
     mw_job *job;
     bool all_finite;
     void *scratch; /* for keys, then for buckets */
     mw_buckets buckets;
-} mesh_layout;
+} layout_work;
 
 typedef struct point_reading {
     const double *from;
@@ -169,7 +169,7 @@ static void points_copy(void *work, uint64_t from, uint64_t to)
     }
 }
 
-static bool layout_vertices(mesh_layout *l)
+static bool layout_vertices(layout_work *l)
 {
     mw_mesh *mesh = l->mesh;
     uint32_t n = mesh->point_count;
@@ -197,7 +197,7 @@ static bool layout_vertices(mesh_layout *l)
     return done;
 }
 
-static void layout_choose_buckets(mesh_layout *l)
+static void layout_choose_buckets(layout_work *l)
 {
     mw_buckets *p = &l->buckets;
     *p = (mw_buckets){.shift = PARTITION_SHIFT,
@@ -207,7 +207,7 @@ static void layout_choose_buckets(mesh_layout *l)
     p->ranges = (l->mesh->point_count >> p->shift) + 1;
 }
 
-static bool layout_allocate(mesh_layout *l)
+static bool layout_allocate(layout_work *l)
 {
     mw_mesh *mesh = l->mesh;
     size_t keys = 2 * (size_t)mesh->point_count * sizeof(mw_key),
@@ -222,7 +222,7 @@ static bool layout_allocate(mesh_layout *l)
 mw_status mw__mesh_lay_out(mw_mesh *mesh, const mw_arrays *arrays, mw_job *job, mw_links *links,
                            mw_error *error)
 {
-    mesh_layout l = {.mesh = mesh, .arrays = arrays, .job = job};
+    layout_work l = {.mesh = mesh, .arrays = arrays, .job = job};
     layout_choose_buckets(&l);
     uint32_t bad = MW_NONE;
     bool done = layout_allocate(&l) && layout_vertices(&l) &&

@@ -1,4 +1,4 @@
-/* mw__star_walk_run.c - a walk from its first facet to the one that the ray meets. */
+/* star_walk_run.c - a walk from its first facet to the one that the ray meets. */
 #include "star/star_walk_run.h"
 
 mw_star_verdict mw__star_walk_run(mw_star_walk *walk, const mw_star_kernels *kernel,

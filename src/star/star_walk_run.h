@@ -1,4 +1,4 @@
-/* mw__star_walk_run.h - a walk from its first facet to the one that the ray meets. Private. */
+/* star_walk_run.h - a walk from its first facet to the one that the ray meets. Private. */
 #ifndef MW_SRC_STAR_STAR_WALK_RUN_H
 #define MW_SRC_STAR_STAR_WALK_RUN_H
 

@@ -289,7 +289,7 @@ uint32_t mw__layers_descend(const mw_layers *layers, mw_point q, const mw_layer_
         if (tile) tile[i] = walk.t;
         t = name_below(layers, beneath,
                        layer->below[by_weight ? layer_heaviest(&walk, how) : layer_nearest(&walk)]);
-        if (i > 0) t = mw__tile_named(beneath, t);
+        if (i > 0) t = mw__tile_of_name(beneath, t);
     }
     return t;
 }

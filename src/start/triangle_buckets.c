@@ -179,7 +179,7 @@ uint32_t mw__triangle_buckets_first(const mw_triangle_buckets *buckets, const mw
     for (uint32_t i = cell == MW_NONE ? 1 : buckets->from[cell];
          cell != MW_NONE && i < buckets->from[cell + 1]; i++) {
         name = buckets->tile[i];
-        if (bucket_tile_has(tiling, mw__tile_named(tiling, name), q, &tests)) break;
+        if (bucket_tile_has(tiling, mw__tile_of_name(tiling, name), q, &tests)) break;
     }
     if (work) work->orient[MW_STAGE_INIT] += tests;
     return name;

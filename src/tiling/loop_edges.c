@@ -14,30 +14,30 @@
 #include <stdlib.h>
 
 /* A border edge, found by its ends: the first vertex is in the upper bits. */
-typedef struct border_edge {
+typedef struct loop_border_edge {
     uint64_t ends;
     uint32_t half;
-} border_edge;
+} loop_border_edge;
 
 static int compare_border_edges(const void *left, const void *right)
 {
-    const border_edge *a = left, *b = right;
+    const loop_border_edge *a = left, *b = right;
     return a->ends < b->ends ? -1 : a->ends > b->ends;
 }
 
-static border_edge border_edge_of(const mw_tiling *tiling, uint32_t t, uint32_t k)
+static loop_border_edge border_edge_of(const mw_tiling *tiling, uint32_t t, uint32_t k)
 {
     const uint32_t *v = tiling->tri[t].v;
-    return (border_edge){(uint64_t)v[k] << 32 | v[k + 1], mw__link(t, k)};
+    return (loop_border_edge){(uint64_t)v[k] << 32 | v[k + 1], mw__link(t, k)};
 }
 
 /* All border edges of the tiles, sorted by their ends. */
-static border_edge *border_edges_collect(const mw_tiling *tiling, uint32_t *count)
+static loop_border_edge *border_edges_collect(const mw_tiling *tiling, uint32_t *count)
 {
     *count = 0;
     for (uint32_t t = 0; t < tiling->tri_count; t++)
         for (uint32_t k = 0; k < 3; k++) *count += tiling->tri[t].link[k] == MW_NONE;
-    border_edge *border = mw__alloc(*count, sizeof *border);
+    loop_border_edge *border = mw__alloc(*count, sizeof *border);
     if (!border) return NULL;
     uint32_t n = 0;
     for (uint32_t t = 0; t < tiling->tri_count; t++)
@@ -86,7 +86,7 @@ static uint32_t turn_to_border(const mw_coverage *c, uint32_t half, bool *revers
 
 typedef struct loop_edge_maker {
     const mw_embedding_check *check;
-    const border_edge *border;
+    const loop_border_edge *border;
     uint32_t count;
     mw_loop_edge *edge;
     uint32_t made;
@@ -98,8 +98,9 @@ static uint32_t border_edge_along(const loop_edge_maker *m, uint32_t half, bool 
     const uint32_t *v = m->check->coverage.cell[mw__link_triangle(half)].v,
                    *vertex = m->check->outline.vertex;
     uint32_t k = mw__link_edge(half), from = vertex[v[k + reversed]], to = vertex[v[k + !reversed]];
-    border_edge key = {(uint64_t)from << 32 | to, 0};
-    const border_edge *found = bsearch(&key, m->border, m->count, sizeof key, compare_border_edges);
+    loop_border_edge key = {(uint64_t)from << 32 | to, 0};
+    const loop_border_edge *found =
+        bsearch(&key, m->border, m->count, sizeof key, compare_border_edges);
     return found->half;
 }
 
@@ -142,7 +143,7 @@ static void loop_edges_add_all(loop_edge_maker *m)
 mw_loop_edge *mw__loop_edges_create(const mw_embedding_check *check, const mw_tiling *tiling,
                                     uint32_t *count)
 {
-    border_edge *border = border_edges_collect(tiling, count);
+    loop_border_edge *border = border_edges_collect(tiling, count);
     loop_edge_maker m = {.check = check, .border = border, .count = *count};
     m.edge = border ? mw__alloc(*count, sizeof *m.edge) : NULL;
     if (m.edge) loop_edges_add_all(&m);

@@ -61,7 +61,7 @@ static MW_INLINE bool mw__slot_is_number(const mw_tiling *tiling, uint32_t t)
 /* The tile of a name (mw__tile_name). In an edited tiling: the triangle of that number, or one that
  * replaced it; else tile `name`. Always returns a tile of this tiling, also for a name that is
  * outdated or belongs to another tiling. */
-static MW_INLINE uint32_t mw__tile_named(const mw_tiling *tiling, uint32_t name)
+static MW_INLINE uint32_t mw__tile_of_name(const mw_tiling *tiling, uint32_t name)
 {
     if (MW_UNLIKELY(tiling->tile_of) &&
         (name < tiling->number_count || name < tiling->name_count)) {

@@ -30,9 +30,11 @@ bad prose.txt 'prose\.txt' 'This is no mesh.\nIt is prose.\n'
 bad cloud.laz 'cloud\.laz' 'LASF\x00\x00\x00\x00'
 
 # LAZ: a LAS header whose point format has the compression bit.
-{ printf 'LASF'; head -c 20 /dev/zero; printf '\1\2'; head -c 68 /dev/zero; printf '\343\0\343\0\0\0\0\0\0\0\200\24\0'
+{ printf 'LASF'; head -c 20 /dev/zero; printf '\1\2'; head -c 68 /dev/zero
+printf '\343\0\343\0\0\0\0\0\0\0\200\24\0'
   head -c 122 /dev/zero; } >cloud.laz
-run triangulate cloud.laz -o out.ply; refused 3 'cloud\.laz.*(laszip|las2las|pdal|unpack)'; absent out.ply
+run triangulate cloud.laz -o out.ply; refused 3 'cloud\.laz.*(laszip|las2las|pdal|unpack)'
+absent out.ply
 run locate cloud.laz q.xyz; exits 3
 rm cloud.laz
 
@@ -66,7 +68,8 @@ for mesh in none void line equal; do
     prints_line '"verdict": "no triangle with an area'
     for any in '' --any; do
         # shellcheck disable=SC2086 # no word or one
-        run locate $any $mesh.off q.xyz -o out.csv; refused 3 "$mesh\.off: .*no triangle"; absent out.csv
+        run locate $any $mesh.off q.xyz -o out.csv; refused 3 "$mesh\.off: .*no triangle"
+        absent out.csv
         holds "--any is not proposed" test -z "$(grep -e --any "$logs/err")"
     done
 done
@@ -78,7 +81,8 @@ holds "--any is not proposed" test -z "$(grep -e --any "$logs/err")"
 rm -f ./*.off
 only_files q.xyz
 
-# One triangle, in odd clothes: clockwise, negative zero, CRLF, BOM, comments, huge and tiny coordinates.
+# One triangle, in odd clothes: clockwise, negative zero, CRLF, BOM, comments, huge and tiny
+# coordinates.
 one() {
     printf '%b' "$2" >"$1"
     run locate "$1" q.xyz; exits 0; prints_line '^0.2,0.2,inside,0,'

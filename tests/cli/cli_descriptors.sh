@@ -55,7 +55,8 @@ rm deep/real.csv
 run locate m.off absent.xyz -o dangling.csv; exits 3
 holds "nothing appears where the program fails" test -z "$(ls -A deep)"
 ln -s deep/new.csv out.off
-run edit m.off /dev/null -o out.off --changes deep/new.csv --format off; refused 2 'cannot both go to'
+run edit m.off /dev/null -o out.off --changes deep/new.csv --format off
+refused 2 'cannot both go to'
 rm out.off
 
 # Links that lead nowhere are refused by name.

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Options: help, mistakes and their hints, strict numbers; help, manual pages and completion name the same options.
+# Options: help, mistakes and their hints, strict numbers; help, manual pages and completion name
+# the same options.
 # shellcheck source=driver.sh disable=SC2154
 . "$(dirname "$0")/driver.sh"
 # As in cli_vectors.sh: the leak checker may crash over the threads of GDAL.
@@ -8,11 +9,15 @@ export ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0"
 # All that the program lists: a new one is asked for its page and its completion, too.
 mapfile -t commands < <("$meshwalk" --help | sed -n 's/^  \([a-z][a-z]*\) .*/\1/p')
 
-help_options() { sed -nE '/^  (-[a-z],|   ) --[a-z]/p' "$logs/out" | grep -oE -- '^ +(-[a-z], )?--[a-z-]+' | tr -s ', ' '\n' | grep . | sort; }
+help_options() { sed -nE '/^  (-[a-z],|   ) --[a-z]/p' "$logs/out" |
+    grep -oE -- '^ +(-[a-z], )?--[a-z-]+' | tr -s ', ' '\n' | grep . | sort; }
 
 run; refused 2 "which command\?.*--help"
 run --version; exits 0; prints_line '^meshwalk [0-9]+\.[0-9]+\.[0-9]+$'; says_nothing
-for library in zlib Jansson Cairo GDAL LAZ; do prints_line "^  $library +([0-9.]+,? (built in|found)|built in, but |not built in): ?"; done
+prints_line '^  netCDF   ([0-9]+\.[0-9]+.*found|libnetcdf is not found)'
+for library in zlib Jansson Cairo GDAL LAZ; do
+    prints_line "^  $library +([0-9.]+,? (built in|found)|built in, but |not built in): ?"
+done
 run --help; exits 0; says_nothing
 for c in "${commands[@]}"; do prints_line "^  $c "; done
 for c in "${commands[@]}"; do
@@ -20,7 +25,8 @@ for c in "${commands[@]}"; do
         # shellcheck disable=SC2086 # words
         run "$c" $option; exits 0; says_nothing
         prints_line "^usage: meshwalk $c "
-        holds "no line of the help is longer than 80 characters" test -z "$(grep -E '.{81}' "$logs/out")"
+        holds "no line of the help is longer than 80 characters" test -z \
+            "$(grep -E '.{81}' "$logs/out")"
     done
 done
 
@@ -35,10 +41,12 @@ for c in "${commands[@]}"; do
     run "$c" --help
     holds "--help of $c shows five options" test "$(help_options | grep -c -- '^--')" == 5
     prints_line "^'meshwalk $c --help all' tells about the others:"
-    { help_options; sed -n "/--help all' tells/,/^\$/p" "$logs/out" | grep -oE -- '(^| )--[a-z-]+' | tr -d ' '; } |
+    { help_options; sed -n "/--help all' tells/,/^\$/p" "$logs/out" | grep -oE -- '(^| )--[a-z-]+' |
+        tr -d ' '; } |
         grep -- '^--' | grep -vx -- '--help' | sort >"$logs/named"
     grep -- '^--' "$logs/all" | grep -vx -- '--help' >"$logs/expected"
-    holds "--help of $c names every option: $(diff "$logs/named" "$logs/expected")" same_text "$logs/named" "$logs/expected"
+    holds "--help of $c names every option: $(diff "$logs/named" "$logs/expected")" same_text \
+        "$logs/named" "$logs/expected"
 done
 run sample --help=some; refused 2 "'--help' takes no argument"
 
@@ -64,7 +72,8 @@ run edit a -o b.off; refused 2 "wants MESH EDITS -o OUT, not 1 argument"
 run edit a b -o -; refused 2 "edit: a mesh on standard output wants --format"
 run edit a b -o c; refused 2 "c: the name tells no format"
 run edit - - -o c.off; refused 2 "can be read once"
-run edit a b -o c.off --delaunay mak; refused 2 "unknown way of --delaunay 'mak'; did you mean 'make'\?"
+run edit a b -o c.off --delaunay mak
+refused 2 "unknown way of --delaunay 'mak'; did you mean 'make'\?"
 run edit a b -o c.off --cells 1073741825; refused 2 "'--cells' wants at most 2\^30"
 run edit a b -o c.off --undo -1; refused 2 "'--undo' wants a whole number"
 run info a b; refused 2 "wants MESH, not 2 arguments"
@@ -82,7 +91,8 @@ run star --walk orthogonl a b; refused 2 "unknown walk 'orthogonl'; did you mean
 run star --walk lawson a b; refused 2 "unknown walk 'lawson'"
 run star --start octaedron a b; refused 2 "unknown start 'octaedron'; did you mean 'octahedron'\?"
 run star --finish straight a b; refused 2 "unknown way to finish 'straight'$"
-run star --finish forgetfull a b; refused 2 "unknown way to finish 'forgetfull'; did you mean 'forgetful'\?"
+run star --finish forgetfull a b
+refused 2 "unknown way to finish 'forgetfull'; did you mean 'forgetful'\?"
 run star --center 1,2,3 a b; refused 2 "unknown option '--center'; did you mean '--centre'\?"
 run star --cells 1073741825 a b; refused 2 "'--cells' wants at most 2\^30, not '1073741825'"
 run star --levels 14 a b; refused 2 "'--levels' wants at most 13, not '14'"
@@ -103,7 +113,8 @@ run check --fix weld a; refused 2 "check: -o MESH is missing"
 run check --fix wled a -o b.off; refused 2 "unknown repair 'wled'; did you mean 'weld'\?"
 run check --fix weld, a -o b.off; refused 2 "unknown repair ''"
 run check --fix weld a -o b; refused 2 "b: the name tells no format"
-run check --fix weld --numbers b.off a -o b.off; refused 2 "--output and --numbers cannot both go to b.off"
+run check --fix weld --numbers b.off a -o b.off
+refused 2 "--output and --numbers cannot both go to b.off"
 run check --fix all --as star --lonlat a -o b.off; refused 2 "--fix mends no mesh of --lonlat"
 for words in '--numbers n.csv' '--tolerance 1' '--format ply'; do
     # shellcheck disable=SC2086 # words
@@ -111,7 +122,8 @@ for words in '--numbers n.csv' '--tolerance 1' '--format ply'; do
 done
 
 # Numbers are taken as a whole or not at all.
-for value in '' x 1x ' 1' '1,' '1,5' 0x1p3 nan inf 1e999 -1 -0.5 1e-400 0.1E-400 2e-324 ".$(printf '%0400d' 1)"; do
+for value in '' x 1x ' 1' '1,' '1,5' 0x1p3 nan inf 1e999 -1 -0.5 1e-400 0.1E-400 2e-324 \
+    ".$(printf '%0400d' 1)"; do
     run locate --tolerance "$value" a b; refused 2 "'--tolerance' wants a length"
     run probe --max-distance "$value" a b; refused 2 "'--max-distance' wants a length"
 done
@@ -119,7 +131,8 @@ for value in 0 0.000 0e9 .0E-400 -0 4e-324 1e-320 5e-324 1.5 007; do
     run locate --tolerance "$value" a b; refused 3 "a: No such file"
     run probe --max-distance "$value" a b; refused 3 "a: No such file"
 done
-for value in '' x 1 1,2 1,2, 1,2,3,4 1,2,x ' 1,2,3' '1, 2,3' '1;2;3' 1,2,inf nan,0,0 1,2,1e999 0x1,2,3 ,,; do
+for value in '' x 1 1,2 1,2, 1,2,3,4 1,2,x ' 1,2,3' '1, 2,3' '1;2;3' 1,2,inf nan,0,0 1,2,1e999 \
+    0x1,2,3 ,,; do
     run star --centre "$value" a b; refused 2 "'--centre' wants a point X,Y,Z, not"
 done
 for value in '' x 1.5 -1 +1 ' 1' 1e3 0x10 4294967296 99999999999999999999; do
@@ -142,8 +155,10 @@ printf '%s\n' "$square" >m.off
 printf '0.5 0.25\n' >p.xyz
 run locate m.off p.xyz
 answer=$(<"$logs/out")
-for form in '--walk lawson' '--walk=lawson' '--walk straight --walk=lawson' '--seed 18446744073709551615' '-q' \
-    '--threads=2 -q' '--finish remembering' '--steps 5' '--areas --sample fourth-root' '--tolerance 0' \
+for form in '--walk lawson' '--walk=lawson' '--walk straight --walk=lawson' \
+    '--seed 18446744073709551615' '-q' \
+    '--threads=2 -q' '--finish remembering' '--steps 5' '--areas --sample fourth-root' \
+    '--tolerance 0' \
     '--tolerance=1e-3'; do
     # shellcheck disable=SC2086 # words
     run locate $form m.off p.xyz; exits 0; prints "$answer"; says_nothing
@@ -157,7 +172,8 @@ for f in a b c; do holds "$f.csv holds the answer" test "$(<$f.csv)" == "$answer
 cp p.xyz ./--walk
 run locate m.off -- --walk; exits 0; prints "$answer"
 
-# The help, the manual page and the completion of a command name the same options and the same names.
+# The help, the manual page and the completion of a command name the same options and the same
+# names.
 manual_options() {
     sed -nE '/^\.It Fl/ { s/^\.It //; s/Fl Fl ([a-z-]+)/--\1/g; s/Fl ([a-z])/-\1/g; p }' "$1" |
         grep -oE -- '(^|[ ,])--?[a-z-]+' | tr -d ' ,' | sort
@@ -174,7 +190,8 @@ for c in "${commands[@]}"; do
     help_options >"$logs/help"
     holds "the help of $c names options" grep -qx -- --quiet "$logs/help"
     manual_options "$source_tree/docs/man/meshwalk-$c.1" >"$logs/manual"
-    holds "help and manual page of $c differ: $(diff "$logs/help" "$logs/manual")" same_text "$logs/help" "$logs/manual"
+    holds "help and manual page of $c differ: $(diff "$logs/help" "$logs/manual")" same_text \
+        "$logs/help" "$logs/manual"
     complete_words meshwalk "$c" - >"$logs/completion"
     holds "help and completion of $c differ: $(diff "$logs/help" "$logs/completion")" \
         same_text "$logs/help" "$logs/completion"
@@ -183,24 +200,30 @@ done
 printf '%s\n' x,y,z,salt,temp 0,0,1,2,3 1,0,1,2,3 0,1,1,2,3 >fields.csv
 run triangulate -q fields.csv -o fields.ply; exits 0
 holds "the completion knows fields" \
-    test "$(complete_words "$meshwalk" sample fields.ply fields.csv --field '' | xargs)" == 'salt temp z'
-holds "and those that begin so" test "$(complete_words "$meshwalk" sample fields.ply --field sa | xargs)" == salt
+    test "$(complete_words "$meshwalk" sample fields.ply fields.csv --field '' | xargs)" == \
+    'salt temp z'
+holds "and those that begin so" test \
+    "$(complete_words "$meshwalk" sample fields.ply --field sa | xargs)" == salt
 echo '{"type":"Feature","properties":{"id":1,"use":"a"},"geometry":{"type":"Point","coordinates":[0,0]}}' >wells.geojson
 run info wells.geojson
 if grep -Eq 'built with GDAL|cannot be loaded' "$logs/err"; then
     refused 3 'wells\.geojson: '
 else
-    exits 0; prints_line '^layers +wells$'; prints_line '^geometry +Point$'; prints_line '^features +1$'
+    exits 0; prints_line '^layers +wells$'; prints_line '^geometry +Point$'
+    prints_line '^features +1$'
     prints_line '^fields +id, use$'; prints_line '^crs +GEOGCS'
     run info --layer none wells.geojson; refused 3 "has no layer 'none'"
     holds "the completion knows layers" \
-        test "$(complete_words "$meshwalk" sample fields.ply wells.geojson --layer '' | xargs)" == wells
+        test "$(complete_words "$meshwalk" sample fields.ply wells.geojson --layer '' | xargs)" == \
+        wells
     holds "and attributes" \
-        test "$(complete_words "$meshwalk" locate --polygons wells.geojson --attribute u | xargs)" == use
+        test "$(complete_words "$meshwalk" locate --polygons wells.geojson --attribute u | xargs)" \
+        == use
 fi
 run info --layer a fields.ply; refused 2 "'--layer' is for vector files"
 row() { # row OPTION: the names that the help lists below an option in a row
-    sed -nE "/ --$1 NAME/,/^ {0,6}--/p" "$logs/out" | sed -n '/:$/,$p' | grep -E '^ {26}' | tr -s "', " '\n' | grep . | sort
+    sed -nE "/ --$1 NAME/,/^ {0,6}--/p" "$logs/out" | sed -n '/:$/,$p' | grep -E '^ {26}' |
+        tr -s "', " '\n' | grep . | sort
 }
 listed() { # listed OPTION: the names that the help lists below an option
     sed -nE "/ --$1 NAME/,/^ {0,6}-/p" "$logs/out" | sed -nE 's/^ {26}.([a-z-]+). .*/\1/p' | sort
@@ -236,21 +259,24 @@ for option in format enclose; do
     holds "help and completion of bench --$option differ" \
         test "$(complete_words meshwalk bench --$option '')" == "$(row $option)"
 done
-holds "tables are completed" test "$(complete_words meshwalk bench paper C | tr '\n' ' ')" == 'C1 C2 '
+holds "tables are completed" test "$(complete_words meshwalk bench paper C | tr '\n' ' ')" == \
+    'C1 C2 '
 run star --help all
 for option in walk start; do
     holds "help and completion of star --$option differ" \
         test "$(complete_words meshwalk star --$option '')" == "$(listed $option)"
     holds "the help lists names of star --$option" test -n "$(listed $option)"
     for name in $(listed $option); do
-        holds "meshwalk-star.1 names $name" grep -Eq "^\.Cm .*\<$name\>" "$source_tree/docs/man/meshwalk-star.1"
+        holds "meshwalk-star.1 names $name" grep -Eq "^\.Cm .*\<$name\>" \
+            "$source_tree/docs/man/meshwalk-star.1"
     done
 done
 holds "help and completion of star --finish differ" \
     test "$(complete_words meshwalk star --finish '')" == "$(row finish)"
 run probe --help all
 flat=$(tr -s ' \n' ' ' <"$logs/out")
-for words in "--strict exit with 1 if a row is 'limit' or 'bad'" 'without --race results do not depend on it' \
+for words in "--strict exit with 1 if a row is 'limit' or 'bad'" \
+    'without --race results do not depend on it' \
     'without --certain another seed may find another triangle'; do
     holds "the help of probe says: $words" test "${flat#*"$words"}" != "$flat"
 done
@@ -264,7 +290,8 @@ holds "help and completion of walk --walk differ" \
     test "$(complete_words meshwalk walk --walk '')" == "$(listed walk)"
 for c in info check walk; do
     run $c --help all
-    holds "help and completion of $c --as differ" test "$(complete_words meshwalk $c --as '')" == "$(listed as)"
+    holds "help and completion of $c --as differ" test "$(complete_words meshwalk $c --as '')" == \
+        "$(listed as)"
     holds "the help lists names of --as" test -n "$(listed as)"
 done
 run sample --help all
@@ -277,13 +304,19 @@ for name in $(complete_words meshwalk triangulate --format ''); do
     run triangulate absent --format "$name" -o b.ply; exits 3
 done
 holds "commands are completed" test "$(complete_words meshwalk lo)" == locate
-holds "--walk=st is completed" test "$(complete_words meshwalk locate --walk = st | tr '\n' ' ')" == "stochastic straight "
+holds "--walk=st is completed" test "$(complete_words meshwalk locate --walk = st | tr '\n' ' ')" \
+    == "stochastic straight "
 
 # Manual pages: sound, and one for each command.
 for page in "$source_tree"/docs/man/*.1; do
     if command -v mandoc >/dev/null; then
-        holds "$(basename "$page"): $(mandoc -T lint -W warning "$page")" mandoc -T lint -W warning "$page"
+        holds "$(basename "$page"): $(mandoc -T lint -W warning "$page")" mandoc -T lint -W \
+            warning "$page"
+    else
+        left_out "there is no mandoc"
     fi
 done
-for c in "${commands[@]}"; do holds "meshwalk.1 names $c" grep -q "^.It Cm $c\$" "$source_tree/docs/man/meshwalk.1"; done
+for c in "${commands[@]}"; do
+    holds "meshwalk.1 names $c" grep -q "^.It Cm $c\$" "$source_tree/docs/man/meshwalk.1"
+done
 finish

@@ -3,11 +3,13 @@
 # shellcheck source=driver.sh disable=SC2154
 . "$(dirname "$0")/driver.sh"
 printf '%s\n' "$square" >m.off
-awk 'BEGIN { for (i = 0; i < 20000; i++) printf "%.4f %.4f\n", (i % 141) / 140, (i % 139) / 138 }' >p.xyz
+awk 'BEGIN { for (i = 0; i < 20000; i++) printf "%.4f %.4f\n", (i % 141) / 140, (i % 139) / 138 }' \
+    >p.xyz
 
 # A full disk: code 4 and a message, for every command.
 if [[ -w /dev/full ]]; then
-    for arguments in --help --version 'locate --help' 'info m.off' 'check m.off' 'locate m.off p.xyz' \
+    for arguments in --help --version 'locate --help' 'info m.off' 'check m.off' \
+        'locate m.off p.xyz' \
         'sample m.off p.xyz' 'triangulate p.xyz -o - --format ply'; do
         last="meshwalk $arguments >/dev/full"
         # shellcheck disable=SC2086 # words
@@ -18,7 +20,8 @@ if [[ -w /dev/full ]]; then
     run locate m.off p.xyz -o /dev/full; exits 4; says 'No space left on device'
 fi
 # A file size limit stands for a small disk: nothing is left under the name or any other.
-for arguments in 'locate m.off p.xyz -o out.csv' 'sample m.off p.xyz -o out.csv' 'triangulate p.xyz -o out.ply' \
+for arguments in 'locate m.off p.xyz -o out.csv' 'sample m.off p.xyz -o out.csv' \
+    'triangulate p.xyz -o out.ply' \
     'triangulate p.xyz -o out.node'; do
     last="meshwalk $arguments, with files of at most 64 kB"
     # shellcheck disable=SC2086 # words
@@ -28,16 +31,19 @@ for arguments in 'locate m.off p.xyz -o out.csv' 'sample m.off p.xyz -o out.csv'
     only_files m.off p.xyz
 done
 
-# Too little memory: code 4 and a message, or a complete answer; never a crash, and no file but a complete one.
-# (A sanitizer takes so much address space that nothing runs below such limits.)
+# Too little memory: code 4 and a message, or a complete answer; never a crash, and no file but a
+# complete one. (A sanitizer takes so much address space that nothing runs below such limits.)
 if (ulimit -v 250000; "$meshwalk" --version) >/dev/null 2>&1; then
     for kilobytes in 7000 8000 10000 12000 14000 17000 20000 25000 40000; do
-        for arguments in 'locate m.off p.xyz -o out.csv' 'triangulate p.xyz -q -o out.ply' 'info m.off -o out.txt'; do
+        for arguments in 'locate m.off p.xyz -o out.csv' 'triangulate p.xyz -q -o out.ply' \
+            'info m.off -o out.txt'; do
             last="meshwalk $arguments --threads 1, with $kilobytes kB of memory"
             # shellcheck disable=SC2086 # words
-            (ulimit -v $kilobytes; exec "$meshwalk" $arguments --threads 1) >"$logs/out" 2>"$logs/err"
+            (ulimit -v $kilobytes; exec "$meshwalk" $arguments --threads 1) >"$logs/out" \
+                2>"$logs/err"
             code=$?
-            [[ $code == 127 || $(<"$logs/err") == *'shared libraries'* ]] && continue # not even loaded
+            # not even loaded
+            [[ $code == 127 || $(<"$logs/err") == *'shared libraries'* ]] && continue
             [[ $code == 0 ]] && rm out.* && continue
             exits 4; says '^meshwalk: .*out of memory'; only_files m.off p.xyz
         done
@@ -45,7 +51,8 @@ if (ulimit -v 250000; "$meshwalk" --version) >/dev/null 2>&1; then
 fi
 
 # A closed pipe: code 4, no message.
-for arguments in 'locate m.off p.xyz' 'sample m.off p.xyz' 'triangulate p.xyz -q -o - --format ply'; do
+for arguments in 'locate m.off p.xyz' 'sample m.off p.xyz' \
+    'triangulate p.xyz -q -o - --format ply'; do
     last="meshwalk $arguments | head -n 1"
     # shellcheck disable=SC2086 # words
     { "$meshwalk" $arguments 2>"$logs/err"; echo $? >"$logs/code"; } | head -n 1 >"$logs/out"
@@ -54,7 +61,8 @@ for arguments in 'locate m.off p.xyz' 'sample m.off p.xyz' 'triangulate p.xyz -q
     holds "the code is 4, or 0 where all fitted" test "$code" == 4 -o "$code" == 0
     says_nothing
 done
-awk 'BEGIN { for (i = 0; i < 60000; i++) printf "%.4f %.4f\n", (i % 141) / 140, (i % 139) / 138 }' >long.xyz
+awk 'BEGIN { for (i = 0; i < 60000; i++) printf "%.4f %.4f\n", (i % 141) / 140, (i % 139) / 138 }' \
+    >long.xyz
 last='meshwalk locate m.off long.xyz | head -n 1'
 { "$meshwalk" locate m.off long.xyz 2>"$logs/err"; echo $? >"$logs/code"; } | head -n 1 >"$logs/out"
 code=$(<"$logs/code")
@@ -68,16 +76,20 @@ code=$? && : >"$logs/out"
 exits 4; says '^meshwalk: '
 holds "the mesh is untouched" test "$(<m.off)" == "$square"
 
-# Interrupted while writing: the program ends by the signal, nothing is left, and an older file stays.
+# Interrupted while writing: the program ends by the signal, nothing is left, and an older file
+# stays.
 mkfifo pipe
 printf 'precious\n' >old.csv
 for signal in INT TERM; do
     for target in out.csv old.csv; do
         last="meshwalk locate m.off pipe -o $target, then SIG$signal"
-        env --default-signal=INT,TERM "$meshwalk" locate m.off pipe -o "$target" >"$logs/out" 2>"$logs/err" &
+        env --default-signal=INT,TERM "$meshwalk" locate m.off pipe -o "$target" >"$logs/out" \
+            2>"$logs/err" &
         child=$!
-        # The writer sends more than a block and keeps the pipe open, so that the program waits for more.
-        { for _ in {1..15}; do cat p.xyz; done; sleep 0.3; kill -s $signal $child; sleep 0.1; } >pipe 2>/dev/null
+        # The writer sends more than a block and keeps the pipe open, so that the program waits for
+        # more.
+        { for _ in {1..15}; do cat p.xyz; done; sleep 0.3; kill -s $signal $child; sleep 0.1; } \
+            >pipe 2>/dev/null
         wait $child 2>/dev/null
         code=$?
         exits $((128 + $(kill -l $signal)))
@@ -87,7 +99,8 @@ for signal in INT TERM; do
 done
 rm pipe old.csv
 
-# An output that is an input is refused before anything is written, also through links and as half of a pair.
+# An output that is an input is refused before anything is written, also through links and as half
+# of a pair.
 ln -s m.off link.off
 ln p.xyz hard.xyz
 same() { # same ARGUMENTS...
@@ -132,15 +145,18 @@ run locate m.off p.xyz -o new.csv; exits 0
 holds "the new file is complete" test "$(wc -l <new.csv)" == 20001
 umask 022
 run locate m.off p.xyz -o fresh.csv; exits 0
-holds "a fresh file has the mode that the umask says: $(stat -c %a fresh.csv)" test "$(stat -c %a fresh.csv)" == 644
+holds "a fresh file has the mode that the umask says: $(stat -c %a fresh.csv)" test \
+    "$(stat -c %a fresh.csv)" == 644
 
 # Progress is shown on a terminal when the work takes longer than a second, and only then.
-on_terminal() { # on_terminal SECONDS ARGUMENTS...: what a terminal shows while the points take so long to come
+# on_terminal SECONDS ARGUMENTS...: what a terminal shows while the points take so long to come
+on_terminal() {
     local seconds=$1
     shift
     last="meshwalk $* on a terminal, with points that take $seconds s"
     code=0
-    script -qec "sh -c '{ head -n 9 p.xyz; sleep $seconds; } | \"$meshwalk\" $* >/dev/null'" /dev/null </dev/null \
+    script -qec "sh -c '{ head -n 9 p.xyz; sleep $seconds; } | \"$meshwalk\" $* >/dev/null'" \
+        /dev/null </dev/null \
         >"$logs/terminal" 2>&1
 }
 if script -qec true /dev/null </dev/null >/dev/null 2>&1; then # not where no terminal can be made

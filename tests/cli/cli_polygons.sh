@@ -1,12 +1,14 @@
 #!/usr/bin/env bash
-# locate --polygons: features that contain points, borders, holes, overlaps; attributes; what is refused.
+# locate --polygons: features that contain points, borders, holes, overlaps; attributes; what is
+# refused.
 # shellcheck source=driver.sh disable=SC2154
 . "$(dirname "$0")/driver.sh"
-# LeakSanitizer stops all threads when the program ends, and sometimes crashes over those of GDAL, which end at that time.
+# LeakSanitizer stops all threads when the program ends, and sometimes crashes over those of GDAL,
+# which end at that time.
 export ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0"
 
-# Feature 0: a square with a hole and an island; 1: its neighbour to the right; 2: no geometry; 3: two parts, one of
-# which lies over both.
+# Feature 0: a square with a hole and an island; 1: its neighbour to the right; 2: no geometry; 3:
+# two parts, one of which lies over both.
 cat >parcels.geojson <<'END'
 {"type":"FeatureCollection","features":[
 {"type":"Feature","properties":{"id":"A.1","use":"a, \"b\"","area":15.5,"n":1},"geometry":{"type":"Polygon","coordinates":[[[0,0],[4,0],[4,4],[0,4],[0,0]],[[1,1],[3,1],[3,3],[1,3],[1,1]],[[1.5,1.5],[2.5,1.5],[2.5,2.5],[1.5,2.5]]]}},
@@ -54,12 +56,14 @@ prints 'x,y,status,feature,others,border_of
 9,9,outside,-1,,
 nan,nan,bad,-1,,'
 run_on "$points" locate --strict --polygons parcels.geojson - --stats; exits 1
-for line in 'inside +5' 'border +3' 'outside +2' 'bad +1' 'in several +4' 'polygons +4' 'crossing segments +[1-9]'; do
+for line in 'inside +5' 'border +3' 'outside +2' 'bad +1' 'in several +4' 'polygons +4' \
+    'crossing segments +[1-9]'; do
     says "^$line"
 done
 # The same by every walk and from every start.
 run_on "$points" locate --polygons parcels.geojson -; cp "$logs/out" expected
-for how in '--walk straight' '--walk celestial --start kd-tree' '--start layers --threads 3' '--walk border'; do
+for how in '--walk straight' '--walk celestial --start kd-tree' '--start layers --threads 3' \
+    '--walk border'; do
     # shellcheck disable=SC2086 # words
     run_on "$points" locate $how --polygons parcels.geojson -; exits 0; prints "$(<expected)"
 done
@@ -74,7 +78,9 @@ cat >invalid.geojson <<'END'
 {"type":"Feature","properties":{},"geometry":{"type":"Polygon","coordinates":[[[30,0],[31,0],[30,0]]]}},
 {"type":"Feature","properties":{},"geometry":{"type":"LineString","coordinates":[[0,5],[9,5]]}}]}
 END
-run_on $'x,y\n1,0.5\n1,1\n0.5,1\n5,1\n4,1\n9.5,0.5\n12.75,0.5\n21.5,1.5\n21,1.5\n30.5,0\n5,5\n' locate --polygons invalid.geojson -; exits 0
+run_on $'x,y\n1,0.5\n1,1\n0.5,1\n5,1\n4,1\n9.5,0.5\n12.75,0.5\n21.5,1.5\n21,1.5\n30.5,0\n5,5\n' \
+    locate --polygons invalid.geojson -
+exits 0
 prints 'x,y,status,feature,others
 1,0.5,outside,-1,
 1,1,border,0,
@@ -94,7 +100,8 @@ says 'warning: 1 segments of lines are passed over'
 holds "valid features are not named" test "$(grep -c 'crosses itself' "$logs/err")" -eq 2
 run_on $'1 1\n' locate -q --polygons invalid.geojson -; exits 0; says_nothing
 
-# Triangle's .poly is one feature, its domain: an inner ring without the place of a hole parts it, and is no border.
+# Triangle's .poly is one feature, its domain: an inner ring without the place of a hole parts it,
+# and is no border.
 cat >domain.poly <<'END'
 12 2 0 0
 1 0 0
@@ -137,22 +144,28 @@ prints 'x,y,status,feature,others
 # What is refused, before anything is printed.
 printf '%s\n' "$square" >square.off
 run locate square.off; refused 2 'locate: wants MESH POINTS, not 1 argument'
-run locate --polygons parcels.geojson square.off absent.csv; refused 2 "only POINTS may follow, not also 'absent.csv'"
+run locate --polygons parcels.geojson square.off absent.csv
+refused 2 "only POINTS may follow, not also 'absent.csv'"
 run locate --polygons - -; refused 2 'cannot be both'
 run locate --attribute id square.off -; refused 2 "'--attribute' is for --polygons"
 run locate --polygon-layer a square.off -; refused 2 "'--polygon-layer' is for --polygons"
 for option in '--tolerance 1' --any '--fill no'; do
     # shellcheck disable=SC2086 # words
-    run locate $option --polygons parcels.geojson -; refused 2 "'${option%% *}' is for meshes, not for --polygons"
+    run locate $option --polygons parcels.geojson -
+    refused 2 "'${option%% *}' is for meshes, not for --polygons"
 done
-run_on $'x,y\n0,0\n' locate --polygons parcels.geojson - -o parcels.geojson; refused 2 'parcels.geojson'
+run_on $'x,y\n0,0\n' locate --polygons parcels.geojson - -o parcels.geojson
+refused 2 'parcels.geojson'
 run locate --polygons absent.geojson -; refused 3 'absent.geojson: '
 printf '{"type":"Point","coordinates":[0,0]}' >point.geojson
-run_on $'0 0\n' locate --polygons point.geojson -; refused 3 'point.geojson: there are no polygons in it'
+run_on $'0 0\n' locate --polygons point.geojson -
+refused 3 'point.geojson: there are no polygons in it'
 printf '{"type":"Polygon","coordinates":[[[0,0],[1,1],[2,2],[0,0]]]}' >flat.geojson
 run_on $'0 0\n' locate --polygons flat.geojson -; refused 3 'flat.geojson: .*line'
-printf '5 2 0 0\n1 0 0\n2 2 2\n3 2 0\n4 0 2\n5 5 5\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n0\n' >crossing.poly
-run_on $'0 0\n' locate --polygons crossing.poly -; refused 3 'crossing.poly: segments .* cross near 1 1'
+printf '5 2 0 0\n1 0 0\n2 2 2\n3 2 0\n4 0 2\n5 5 5\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n0\n' \
+    >crossing.poly
+run_on $'0 0\n' locate --polygons crossing.poly -
+refused 3 'crossing.poly: segments .* cross near 1 1'
 
 # Attributes, by GDAL.
 run_on "$points" locate --points-crs same --polygons parcels.geojson --attribute id,use,area,n -
@@ -176,7 +189,8 @@ prints 'id;x;y;status;feature;others;id_mw;use;area;n
 run_on "$points" locate --polygons parcels.geojson --attribute ID -; exits 0; prints_line ';id_mw$'
 run_on "$points" locate --polygons parcels.geojson --attribute use,owner -
 refused 3 "parcels.geojson: has no attribute 'owner', but: id, use, area, n"
-run_on "$points" locate --polygons parcels.geojson --polygon-layer none -; refused 3 "has no layer 'none', but: parcels"
+run_on "$points" locate --polygons parcels.geojson --polygon-layer none -
+refused 3 "has no layer 'none', but: parcels"
 # Through a vector file, both ways; with several layers one has to be chosen.
 cat >points.geojson <<'END'
 {"type":"FeatureCollection","features":[
@@ -195,7 +209,8 @@ cat >two.gml <<'END'
 <gml:featureMember><c:lake gml:id="l1"><c:name>See</c:name><c:g><gml:Polygon><gml:outerBoundaryIs><gml:LinearRing><gml:coordinates>5,5 6,5 6,6 5,6 5,5</gml:coordinates></gml:LinearRing></gml:outerBoundaryIs></gml:Polygon></c:g></c:lake></gml:featureMember>
 </c:FeatureCollection>
 END
-run_on $'0.5 0.5\n' locate --polygons two.gml -; refused 2 'two.gml: which layer has the polygons\? --polygon-layer may be one of: town, lake'
+run_on $'0.5 0.5\n' locate --polygons two.gml -
+refused 2 'two.gml: which layer has the polygons\? --polygon-layer may be one of: town, lake'
 run_on $'5.5 5.5\n' locate --polygons two.gml --polygon-layer lake --attribute name -; exits 0
 prints $'x,y,status,feature,others,name\n5.5,5.5,inside,0,,See'
 finish

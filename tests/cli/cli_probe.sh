@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# probe: triangles that a line touches, on surfaces small enough to know the answers; what is refused; real surfaces.
+# probe: triangles that a line touches, on surfaces small enough to know the answers; what is
+# refused; real surfaces.
 # shellcheck source=driver.sh disable=SC2154
 . "$(dirname "$0")/driver.sh"
 header=x,y,z,status,triangle,distance,w0,w1,w2
@@ -28,7 +29,8 @@ cube='OFF
 3 3 0 4
 3 3 4 7'
 printf '%s\n' "$cube" >cube.off
-# From above, also from within and from beyond; upwards; on an edge of two triangles, at a corner, on the rim; sideways.
+# From above, also from within and from beyond; upwards; on an edge of two triangles, at a corner,
+# on the rim; sideways.
 queries='.75,.25,2,0,0,-1
 .25,.75,2,0,0,-9
 .75,.25,.5,0,0,-1
@@ -51,20 +53,27 @@ answers="$header
 0.5,0,4,hit,2,3,0.5,0.5,0
 7,0.25,0.5,hit,7,6,0.5,0.25,0.25
 -1,0.5,0.75,hit,11,1,0.25,0.5,0.25"
-names() { "$meshwalk" probe --help all | sed -nE "/ --$1 NAME/,/^ {0,6}-/p" | sed -nE 's/^ {26}.([a-z-]+). .*/\1/p'; }
+names() { "$meshwalk" probe --help all | sed -nE "/ --$1 NAME/,/^ {0,6}-/p" |
+    sed -nE 's/^ {26}.([a-z-]+). .*/\1/p'; }
 starts=$(names start)
 holds "there are starts" test "$(wc -w <<<"$starts")" -ge 4
 for certain in '' --certain; do
-    run_on "$queries" probe --only-answers $certain cube.off -; exits 0; says_nothing; prints "$answers"
+    run_on "$queries" probe --only-answers $certain cube.off -; exits 0; says_nothing
+    prints "$answers"
     for start in $starts; do
-        run_on "$queries" probe --only-answers $certain --start "$start" --seed 3 --threads 2 cube.off -; exits 0; prints "$answers"
+        run_on "$queries" probe --only-answers $certain --start "$start" --seed 3 --threads 2 \
+            cube.off -
+        exits 0; prints "$answers"
     done
-    for options in '--samples 1' '--samples 100' '--iterations 50' '--race 2' '--weld' '--any' '--strict'; do
+    for options in '--samples 1' '--samples 100' '--iterations 50' '--race 2' '--weld' '--any' \
+        '--strict'; do
         # shellcheck disable=SC2086 # words
-        run_on "$queries" probe --only-answers $certain $options cube.off -; exits 0; prints "$answers"
+        run_on "$queries" probe --only-answers $certain $options cube.off -; exits 0
+        prints "$answers"
     done
 done
-run_on "$(cat cube.off)" probe --only-answers - <(printf '%s' "$queries"); exits 0; prints "$answers"
+run_on "$(cat cube.off)" probe --only-answers - <(printf '%s' "$queries"); exits 0
+prints "$answers"
 
 # Nothing there: walks cannot know it. No motion, no number.
 away='2,2,2,0,0,1
@@ -94,13 +103,18 @@ done
 
 # The distance counts on either side, the limit included.
 for distance in 1 2 1e9; do
-    run_on $'.75,.25,2,0,0,-7\n' probe --only-answers --max-distance $distance cube.off -; exits 0; prints_line ',hit,2,1,'
-    run_on $'.75,.25,0,0,0,-7\n' probe --only-answers --certain --max-distance $distance cube.off -; exits 0; prints_line ',hit,2,-1,'
+    run_on $'.75,.25,2,0,0,-7\n' probe --only-answers --max-distance $distance cube.off -; exits 0
+    prints_line ',hit,2,1,'
+    run_on $'.75,.25,0,0,0,-7\n' probe --only-answers --certain --max-distance $distance cube.off -
+    exits 0; prints_line ',hit,2,-1,'
 done
-run_on $'.75,.25,2,0,0,-7\n' probe --only-answers --max-distance 0.999 cube.off -; exits 0; prints_line ',limit,-1,,,,$'
-run_on $'.75,.25,2,0,0,-7\n' probe --only-answers --certain --max-distance 0.999 cube.off -; exits 0; prints_line ',none,-1,,,,$'
+run_on $'.75,.25,2,0,0,-7\n' probe --only-answers --max-distance 0.999 cube.off -; exits 0
+prints_line ',limit,-1,,,,$'
+run_on $'.75,.25,2,0,0,-7\n' probe --only-answers --certain --max-distance 0.999 cube.off -; exits 0
+prints_line ',none,-1,,,,$'
 
-# 0 leaves what is at the point, on the outermost facets and far from the origin too; without the option all is in reach.
+# 0 leaves what is at the point, on the outermost facets and far from the origin too; without the
+# option all is in reach.
 at='.75,.25,1,0,0,-1
 .75,.25,1.0000000000000002,0,0,-1
 .3,.1,0,1e-300,0,1e-300
@@ -111,7 +125,8 @@ at='.75,.25,1,0,0,-1
 '
 for certain in '' --certain; do
     for zero in 0 0.0 -0; do
-        run_on "$at" probe --only-answers $certain --max-distance $zero cube.off -; exits 0; says_nothing
+        run_on "$at" probe --only-answers $certain --max-distance $zero cube.off -; exits 0
+        says_nothing
         states=$(sed 1d "$logs/out" | awk -F, '{ printf "%s %s ", $4, $6 }')
         none=limit; [[ $certain ]] && none=none
         holds "what is at the point is touched: $states" \
@@ -119,7 +134,8 @@ for certain in '' --certain; do
     done
     run_on "$at" probe --only-answers $certain cube.off -; exits 0
     holds "without a limit all are touched" test "$(grep -c ',hit,' "$logs/out")" == 7
-    run_on "$at" probe --only-answers $certain --max-distance 1e-319 cube.off -; exits 0; prints_line '^0.75,0.25,[0-9.]+e-[0-9]+,hit,'
+    run_on "$at" probe --only-answers $certain --max-distance 1e-319 cube.off -; exits 0
+    prints_line '^0.75,0.25,[0-9.]+e-[0-9]+,hit,'
 done
 
 # Fronts only: two plates whose fronts face up, at heights 0 and 3, and one that faces down at 1.
@@ -147,16 +163,20 @@ for input in $'mx,my,mz,x,y,z\n0,0,-1,.75,.25,2' $'id;X;Y;Z;MX;MY;MZ\n5;.75;.25;
     $'.75 .25 2 0 0 -1' $'a,b,c,d,e,f\n.75,.25,2,0,0,-1' $'x,y,z,nx,ny,nz\n.75,.25,2,0,0,-1'; do
     run_on "$input"$'\n' probe --only-answers cube.off -; exits 0; prints "$touched"
 done
-run_on $'.75 .25 2 0 0 -1 99\n' probe cube.off -; refused 2 'which of its 7 columns are x,y,z,mx,my,mz\?'
+run_on $'.75 .25 2 0 0 -1 99\n' probe cube.off -
+refused 2 'which of its 7 columns are x,y,z,mx,my,mz\?'
 table=$'t,x,y,z,u,v,w\n1,.75,.25,2,0,0,-1\n'
 run_on "$table" probe --only-answers --columns x,y,z,u,v,w cube.off -; exits 0; prints "$touched"
 run_on "$table" probe --columns x,y,z,u,v,w cube.off -; exits 0
 prints $'t,x,y,z,u,v,w,status,triangle,distance,w0,w1,w2\n1,.75,.25,2,0,0,-1,hit,2,1,0.25,0.5,0.25'
 run_on "$table" probe --only-answers --columns 2,3,4,5,6,7 cube.off -; exits 0; prints "$touched"
-run_on "$table" probe --only-answers cube.off -; refused 2 'standard input: which of its 7 columns are x,y,z,mx,my,mz\? They are: '
-run_on "$table" probe --only-answers --columns x,y,z cube.off -; refused 2 "'--columns' wants 6 columns, x,y,z,mx,my,mz, not 3"
+run_on "$table" probe --only-answers cube.off -
+refused 2 'standard input: which of its 7 columns are x,y,z,mx,my,mz\? They are: '
+run_on "$table" probe --only-answers --columns x,y,z cube.off -
+refused 2 "'--columns' wants 6 columns, x,y,z,mx,my,mz, not 3"
 printf '.75,.25,2,0,0\n' >five.csv
-run probe --only-answers cube.off five.csv -o o.csv; refused 3 'five\.csv: has 5 columns, but a row is x,y,z,mx,my,mz'; absent o.csv
+run probe --only-answers cube.off five.csv -o o.csv
+refused 3 'five\.csv: has 5 columns, but a row is x,y,z,mx,my,mz'; absent o.csv
 
 # Files that are none, or not of the kind wanted.
 printf '%s' "$queries" >q.csv
@@ -173,9 +193,11 @@ run probe --only-answers none.off q.csv; refused 3 'none\.off: '
 # Three triangles at one edge.
 printf 'OFF\n5 3 0\n0 0 0\n1 0 0\n0 1 0\n0 -1 0\n0 0 1\n3 0 1 2\n3 1 0 3\n3 0 1 4\n' >three.off
 run_on $'.25,.25,2,0,0,-1\n' probe --only-answers three.off - -o o.csv
-refused 3 "three\.off: "; says "'meshwalk check --as surface three\.off' lists every defect; --any"; absent o.csv
+refused 3 "three\.off: "; says "'meshwalk check --as surface three\.off' lists every defect; --any"
+absent o.csv
 for certain in '' --certain; do
-    run_on $'.25,.25,2,0,0,-1\n' probe --only-answers $certain --any three.off -; exits 0; prints_line '^0.25,0.25,2,hit,0,2,0.5,0.25,0.25$'
+    run_on $'.25,.25,2,0,0,-1\n' probe --only-answers $certain --any three.off -; exits 0
+    prints_line '^0.25,0.25,2,hit,0,2,0.5,0.25,0.25$'
 done
 
 # Output that cannot be written.
@@ -189,15 +211,19 @@ fi
 
 # Statistics.
 run_on "$queries$away$bad" probe --only-answers --stats cube.off -; exits 0
-says '^points +15$'; says '^hit +10$'; says '^limit +2$'; says '^none +0$'; says '^bad +3$'; says '^certain +no$'
-says '^samples +[1-9]'; says '^triangles per query +[0-9]'; says '^box bytes +0$'; says '^surface bytes +[1-9]'
-run_on "$queries$away$bad" probe --only-answers --stats --json --certain --start random cube.off -; exits 0
+says '^points +15$'; says '^hit +10$'; says '^limit +2$'; says '^none +0$'; says '^bad +3$'
+says '^certain +no$'
+says '^samples +[1-9]'; says '^triangles per query +[0-9]'; says '^box bytes +0$'
+says '^surface bytes +[1-9]'
+run_on "$queries$away$bad" probe --only-answers --stats --json --certain --start random cube.off -
+exits 0
 holds "the statistics are JSON" is_json "$logs/err"
 says '"none": 2'; says '"certain": true'; says '"box_bytes": [1-9]'; says '"start": "random"'
 
 # More probes than one block holds: in order, and the same for any number of threads.
 awk 'BEGIN { for (i = 0; i < 300000; i++)
-    printf "%.3f,%.3f,%d,%.2f,%.2f,-1\n", i % 1009 / 800 - .1, i % 503 / 400 - .1, i % 5, i % 7 / 9, i % 3 / 9 }' >many.csv
+    printf "%.3f,%.3f,%d,%.2f,%.2f,-1\n",
+    i % 1009 / 800 - .1, i % 503 / 400 - .1, i % 5, i % 7 / 9, i % 3 / 9 }' >many.csv
 run probe --only-answers --threads 1 cube.off many.csv -o one.csv; exits 0
 run probe --only-answers --threads 2 cube.off many.csv -o two.csv; exits 0
 holds "one thread and two print the same" same_text one.csv two.csv
@@ -212,17 +238,23 @@ holds "one thread and two print the same" same_text 1.csv 2.csv
 
 # Real surfaces, where they are at hand: what walks find, certain probes find, or something nearer.
 data=${MW_SHARED:-}/surface
-[[ -d $data ]] || finish
-for file in bunny_closed.off.gz pawn.obj knot2.off.gz shark_holes.off.gz plate_holes.stl bunny_zipper.ply.gz; do
+[[ -d $data ]] || { left_out "there is no ../shared/data"; finish; }
+for file in bunny_closed.off.gz pawn.obj knot2.off.gz shark_holes.off.gz plate_holes.stl \
+    bunny_zipper.ply.gz; do
     run info --as surface --json "$data/$file"; exits 0
     perl -MJSON::PP -e 'local $/; my $f = decode_json(<STDIN>); my ($l, $h) = @{$f}{qw(low high)}; srand 5;
-        for (1 .. 1000) { print join(",", (map { $l->[$_] + rand() * ($h->[$_] - $l->[$_]) } 0 .. 2), map { rand() - .5 } 0 .. 2), "\n" }' \
+        for (1 .. 1000) {
+            print join(",", (map { $l->[$_] + rand() * ($h->[$_] - $l->[$_]) } 0 .. 2),
+                map { rand() - .5 } 0 .. 2), "\n"
+        }' \
         <"$logs/out" >lines.csv
-    run probe --only-answers --any --certain --strict "$data/$file" lines.csv -o certain.csv; exits 0
+    run probe --only-answers --any --certain --strict "$data/$file" lines.csv -o certain.csv
+    exits 0
     run probe --only-answers --any "$data/$file" lines.csv -o walks.csv; exits 0
     holds "$file: some are touched" grep -q ',hit,' walks.csv
     paste -d, walks.csv certain.csv | awk -F, 'NR > 1 && $4 == "hit" {
-            a = $6 < 0 ? -$6 : $6; b = $15 < 0 ? -$15 : $15; if ($13 != "hit" || b > a) { print; exit 1 } }
+            a = $6 < 0 ? -$6 : $6; b = $15 < 0 ? -$15 : $15;
+            if ($13 != "hit" || b > a) { print; exit 1 } }
         NR > 1 && $4 != "hit" && $4 != "limit" { print; exit 1 }' >"$logs/differ"
     holds "$file: walks and certain probes agree: $(<"$logs/differ")" test ! -s "$logs/differ"
 done

@@ -16,14 +16,16 @@ awk -F, -v CONVFMT=%.17g 'FNR == 1 { next } NR == FNR { z[($1 + 0) "," ($2 + 0)]
     z[($1 + 0) "," ($2 + 0)] != $3 + 0 { print; exit }' "$terrain" "$logs/out" >"$logs/differ"
 holds "each height is the one in the file: $(<"$logs/differ")" test ! -s "$logs/differ"
 
-[[ -d $data ]] || finish
+[[ -d $data ]] || { left_out "there is no ../shared/data"; finish; }
 printf '0 0\n' >q.xyz
 printf '0 0 1\n' >ray.xyz
 printf '0 0 9 0 0 -1\n' >probe.xyz
-survives() { # survives COMMAND...: 0 or 3, or 2 if it asks for columns, and messages as they should be
+# survives COMMAND...: 0 or 3, or 2 if it asks for columns, and messages as they should be
+survives() {
     run "$@"
     checks=$((checks + 1))
-    [[ $code == 0 || $code == 3 ]] || grep -q -- '; --columns tells' "$logs/err" || fail "the exit code should be 0 or 3"
+    [[ $code == 0 || $code == 3 ]] || grep -q -- '; --columns tells' "$logs/err" ||
+        fail "the exit code should be 0 or 3"
     ! grep -Evq '^meshwalk: ' "$logs/err" || fail "every message should begin with 'meshwalk: '"
     [[ $code == 0 || $1 == check || -s $logs/err ]] || fail "it should say what is wrong"
 }
@@ -52,6 +54,7 @@ for class in ground 2 1,2; do
     run triangulate "$data/terrain/1.2-with-color.las" --class $class -o class.ply
     holds "a class is taken or has no points" test $code == 0 -o $code == 3
 done
-run info "$data/domain/greenland.node.gz"; exits 0; prints_line '^triangles +64125$'; prints_line '^border loops +1$'
+run info "$data/domain/greenland.node.gz"; exits 0; prints_line '^triangles +64125$'
+prints_line '^border loops +1$'
 run info "$data/ocean/malpasset.ele.gz"; exits 0; prints_line '^triangles +26000$'
 finish

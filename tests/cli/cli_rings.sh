@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Rings of fewer than three different points: skipped with a warning that names them, or refused with --strict.
+# Rings of fewer than three different points: skipped with a warning that names them, or refused
+# with --strict.
 # shellcheck source=driver.sh disable=SC2154
 . "$(dirname "$0")/driver.sh"
 outer='[[0,0],[9,0],[9,9],[0,9],[0,0]]'
@@ -26,15 +27,18 @@ if ! grep -q 'built without Jansson' "$logs/err"; then
     run triangulate --constraints rings.geojson --strict -o m.off
     refused 3 'rings.geojson: feature 0: ring 1 of polygon 0 has fewer than three different points, which --strict refuses$'
     absent m.off
-    run triangulate --constraints rings.geojson --strict -q -o m.off; refused 3 'which --strict refuses$'
+    run triangulate --constraints rings.geojson --strict -q -o m.off
+    refused 3 'which --strict refuses$'
     run triangulate --constraints sound.geojson --strict -o m.off; exits 0; says_nothing
     # Of many the first are named.
-    { printf '{"type":"Polygon","coordinates":[%s' "$outer"; for _ in {1..15}; do printf ',[[5,5]]'; done; echo ']}'; } >many.geojson
+    { printf '{"type":"Polygon","coordinates":[%s' "$outer"; for _ in {1..15}; do printf \
+        ',[[5,5]]'; done; echo ']}'; } >many.geojson
     run triangulate --constraints many.geojson -o m.off; exits 0
     says '^meshwalk: many\.geojson: warning: 5 more such rings are skipped$'
     holds "ten are named" test "$(grep -c 'of polygon 0 has fewer' "$logs/err")" == 10
 fi
-run triangulate many.xyz --strict -o m.off; refused 2 '--keep, --split and --strict are about --constraints'
+run triangulate many.xyz --strict -o m.off
+refused 2 '--keep, --split and --strict are about --constraints'
 
 # The same by GDAL, from another format.
 cat >rings.csv <<'CSV'

@@ -17,7 +17,8 @@ prints $'x,y,z\n0.75,0.25,1\n1,1,2\n2,0.5,1.5\n-1,-1,\nnan,0,'
 run_on "$points" sample --strict square.off -; exits 1
 run_on $'3 3\n' sample --strict --outside nearest square.off -; exits 0; prints $'x,y,z\n3,3,2'
 for start in grid two-level-grid layers; do
-    run_on "$points" sample --start $start --cells 9 --layers 2 --finish stochastic square.off -; exits 0
+    run_on "$points" sample --start $start --cells 9 --layers 2 --finish stochastic square.off -
+    exits 0
     prints $'x,y,z\n0.75,0.25,1\n1,1,2\n2,0.5,\n-1,-1,\nnan,0,'
 done
 for threads in 1 2; do
@@ -27,7 +28,8 @@ done
 
 # Missing values: of a square of four triangles about its middle, vertex 1 has none.
 missing_mesh() { # missing_mesh VALUE: z at vertex 1
-    printf '%s\n' 'OFF' '5 4 0' '0 0 1' "2 0 $1" '2 2 3' '0 2 4' '1 1 5' '3 0 1 4' '3 1 2 4' '3 2 3 4' '3 3 0 4'
+    printf '%s\n' 'OFF' '5 4 0' '0 0 1' "2 0 $1" '2 2 3' '0 2 4' '1 1 5' '3 0 1 4' '3 1 2 4' \
+        '3 2 3 4' '3 3 0 4'
 }
 lost=$'x,y\n1,0.5\n1.75,1\n0.5,0.5\n2,0\n1,1.5\n3,0.25\n'
 for value in nan -99999; do
@@ -37,18 +39,25 @@ for value in nan -99999; do
     run_on "$lost" sample --status lost.off -
     prints $'x,y,z,status\n1,0.5,,missing\n1.75,1,,missing\n0.5,0.5,3,edge\n2,0,,missing\n1,1.5,4.25,inside\n3,0.25,,outside'
     [[ $value == nan ]] && says_nothing
-    [[ $value == nan ]] || says 'lost\.off: remark: z is -99999 at 1 vertex; --nodata none would take it for a value'
-    run_on "$lost" sample -q --strict --status --missing nearest --outside nearest lost.off -; exits 0; says_nothing
+    [[ $value == nan ]] || says \
+        'lost\.off: remark: z is -99999 at 1 vertex; --nodata none would take it for a value'
+    run_on "$lost" sample -q --strict --status --missing nearest --outside nearest lost.off -
+    exits 0; says_nothing
     prints $'x,y,z,status\n1,0.5,5,missing\n1.75,1,5,missing\n0.5,0.5,3,edge\n2,0,5,missing\n1,1.5,4.25,inside\n3,0.25,3,missing'
 done
-run_on "$lost" sample --nodata none lost.off -; exits 0; says_nothing; prints_line '^2,0,-99999$'; prints_line '^1,0.5,-24997$'
+run_on "$lost" sample --nodata none lost.off -; exits 0; says_nothing; prints_line '^2,0,-99999$'
+prints_line '^1,0.5,-24997$'
 missing_mesh -9999 >lost.off
 run_on "$lost" sample lost.off -; exits 0; prints_line '^2,0,-9999$'
 says 'lost\.off: remark: z is -9999 at 1 vertex; --nodata -9999 would take it for missing'
-run_on "$lost" sample --nodata -9999 lost.off -; exits 0; says_nothing; prints_line '^2,0,$'; prints_line '^0.5,0.5,3$'
+run_on "$lost" sample --nodata -9999 lost.off -; exits 0; says_nothing; prints_line '^2,0,$'
+prints_line '^0.5,0.5,3$'
 missing_mesh 0.10000000149011612 >lost.off
 run_on "$lost" sample --nodata 0.1 lost.off -; exits 0; prints_line '^2,0,$'
-for wrong in x 1x ''; do run sample --nodata "$wrong" absent.off p.xyz; refused 2 "'--nodata' wants"; done
+for wrong in x 1x ''; do
+    run sample --nodata "$wrong" absent.off p.xyz
+    refused 2 "'--nodata' wants"
+done
 
 # Fields: attributes of a .node file, named in the header.
 printf '4 2 2 0\n0 0 0 10 5\n1 1 0 20 5\n2 1 1 30 5\n3 0 1 20 5\n' >flow.node
@@ -60,11 +69,13 @@ for field in "${fields[@]}"; do
     run_on $'0.5 0.5\n' sample --field "$field" flow.ele -; exits 0
     prints_line "^x,y,$field\$"; prints_line '^0.5,0.5,(20|5)$'
 done
-run_on $'0.5 0.5\n' sample --field salt flow.node -; refused 3 "flow\.node: has no field 'salt'; --field may be one of:"
+run_on $'0.5 0.5\n' sample --field salt flow.node -
+refused 3 "flow\.node: has no field 'salt'; --field may be one of:"
 
 # A mesh with nothing to sample.
 printf '3 2 0 0\n1 0 0\n2 1 0\n3 0 1\n' >bare.node
 printf '1 3 0\n1 1 2 3\n' >bare.ele
-run_on $'0.1 0.1\n' sample bare.node - -o out.csv; refused 3 'bare\.node: has neither heights nor fields'; absent out.csv
+run_on $'0.1 0.1\n' sample bare.node - -o out.csv
+refused 3 'bare\.node: has neither heights nor fields'; absent out.csv
 run_on $'0.1 0.1\n' locate bare -; exits 0; prints_line '^0.1,0.1,inside,0,'
 finish

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# star: facets that rays meet, on polyhedra small enough to know the answers; poles, seam, centres; what is refused.
+# star: facets that rays meet, on polyhedra small enough to know the answers; poles, seam, centres;
+# what is refused.
 # shellcheck source=driver.sh disable=SC2154
 . "$(dirname "$0")/driver.sh"
 header=x,y,z,status,triangle,w0,w1,w2
@@ -64,17 +65,21 @@ prints "$answers"
 
 # Whatever the walk, the start, the threads and the seed.
 names() { # names OPTION: as the help lists them
-    "$meshwalk" star --help all | sed -nE "/ --$1 NAME/,/^ {0,6}-/p" | sed -nE 's/^ {26}.([a-z-]+). .*/\1/p'
+    "$meshwalk" star --help all | sed -nE "/ --$1 NAME/,/^ {0,6}-/p" |
+        sed -nE 's/^ {26}.([a-z-]+). .*/\1/p'
 }
 walks=$(names walk) starts=$(names start)
 holds "there are walks and starts" test "$(wc -w <<<"$walks $starts")" -ge 12
 for walk in $walks; do
     for start in $starts; do
-        run_on "$points" star --walk "$walk" --start "$start" octahedron.off -; exits 0; prints "$answers"
+        run_on "$points" star --walk "$walk" --start "$start" octahedron.off -; exits 0
+        prints "$answers"
     done
-    run_on "$points" star --walk "$walk" --threads 3 --seed 7 octahedron.off -; exits 0; prints "$answers"
+    run_on "$points" star --walk "$walk" --threads 3 --seed 7 octahedron.off -; exits 0
+    prints "$answers"
 done
-for options in '--finish auto' '--finish stochastic' '--finish forgetful' '--walk orthogonal --finish auto' \
+for options in '--finish auto' '--finish stochastic' '--finish forgetful' \
+    '--walk orthogonal --finish auto' \
     '--walk orthogonal --finish stochastic' '--walk orthogonal --finish forgetful' \
     '--start grid --cells 1' '--start grid --cells 1000' '--start nonuniform-grid --cells 3' \
     '--start octahedron --levels 1' '--start octahedron --levels 5' '--start sample --sample 1'; do
@@ -121,43 +126,59 @@ nan,0,bad,-1,,,
 0,-91,bad,-1,,,
 inf,0,bad,-1,,,"
 for walk in $walks; do
-    run_on "$sphere" star --lonlat --walk "$walk" octahedron.off -; exits 0; prints "$sphere_answers"
+    run_on "$sphere" star --lonlat --walk "$walk" octahedron.off -; exits 0
+    prints "$sphere_answers"
 done
 run_on $'180 45\n-180 45\n45 0\n45 10\n-135 -10\n' star --lonlat octahedron.off -; exits 0
 prints_line '^180,45,edge,1,0,0\.5[0-9]*,0\.(5|4999)[0-9]*$'; prints_line '^-180,45,edge,1,0,0\.5'
 prints_line '^45,0,edge,0,0\.(5|4999)[0-9]*,0\.(5|4999)[0-9]*,0$'
 prints_line '^45,10,inside,0,'; prints_line '^-135,-10,inside,6,'
 # Columns: what a header calls so, in any order; by name and by number.
-for input in $'lon,lat\n10,90' $'lat,lon\n90,10' $'id;latitude;longitude\n7;90;10' $'Lat (deg),LNG\n90,10'; do
-    run_on "$input"$'\n' star --lonlat --only-answers octahedron.off -; exits 0; prints "$sphere_header"$'\n'10,90,vertex,0,0,0,1
+for input in $'lon,lat\n10,90' $'lat,lon\n90,10' $'id;latitude;longitude\n7;90;10' \
+    $'Lat (deg),LNG\n90,10'; do
+    run_on "$input"$'\n' star --lonlat --only-answers octahedron.off -; exits 0
+    prints "$sphere_header"$'\n'10,90,vertex,0,0,0,1
 done
 run_on $'a,b,c\n90,0,10\n' star --lonlat --columns c,a octahedron.off -; exits 0
 prints $'a,b,c,status,triangle,w0,w1,w2\n90,0,10,vertex,0,0,0,1'
-for input in $'z,y,x\n2,1,-1' $'id,X,Y,Z\n9,-1,1,2' $'-1 1 2' $'x,y,z,lon,lat\n-1,1,2,0,0' $'u,v,w\n-1,1,2'; do
-    run_on "$input"$'\n' star --only-answers octahedron.off -; exits 0; prints "$header"$'\n'-1,1,2,inside,1,0.25,0.25,0.5
+for input in $'z,y,x\n2,1,-1' $'id,X,Y,Z\n9,-1,1,2' $'-1 1 2' $'x,y,z,lon,lat\n-1,1,2,0,0' \
+    $'u,v,w\n-1,1,2'; do
+    run_on "$input"$'\n' star --only-answers octahedron.off -; exits 0
+    prints "$header"$'\n'-1,1,2,inside,1,0.25,0.25,0.5
 done
-run_on $'a,b,c,d\n5,-1,1,2\n' star --columns b,c,d octahedron.off -; exits 0; prints_line '^5,-1,1,2,inside,1,'
-run_on $'a,b,c,d\n5,-1,1,2\n' star --columns 2,3,4 octahedron.off -; exits 0; prints_line '^5,-1,1,2,inside,1,'
-run_on $'a,b,c,d\n5,-1,1,2\n' star octahedron.off - -o o.csv; exits 2; says 'standard input: which of its 4 columns are x,y,z\?'
-run_on $'-1 1 2 77\n' star octahedron.off - -o o.csv; refused 2 'which of its 4 columns are x,y,z\? They have no names'
-run_on $'10 90 5\n' star --lonlat octahedron.off - -o o.csv; refused 2 'which of its 3 columns are lon,lat\?'
-run_on $'lon,lat,height\n5,1,2\n' star octahedron.off - -o o.csv; refused 2 '; --lonlat reads longitude and latitude'
-run_on $'5,1\n' star octahedron.off - -o o.csv; exits 3; says 'has 2 columns, but a row is x,y,z; --lonlat'
-run_on $'a,b,c,d\n5,-1,1,2\n' star --columns a,b octahedron.off -; refused 2 "'--columns' wants 3 columns, x,y,z, not 2"
+run_on $'a,b,c,d\n5,-1,1,2\n' star --columns b,c,d octahedron.off -; exits 0
+prints_line '^5,-1,1,2,inside,1,'
+run_on $'a,b,c,d\n5,-1,1,2\n' star --columns 2,3,4 octahedron.off -; exits 0
+prints_line '^5,-1,1,2,inside,1,'
+run_on $'a,b,c,d\n5,-1,1,2\n' star octahedron.off - -o o.csv; exits 2
+says 'standard input: which of its 4 columns are x,y,z\?'
+run_on $'-1 1 2 77\n' star octahedron.off - -o o.csv
+refused 2 'which of its 4 columns are x,y,z\? They have no names'
+run_on $'10 90 5\n' star --lonlat octahedron.off - -o o.csv
+refused 2 'which of its 3 columns are lon,lat\?'
+run_on $'lon,lat,height\n5,1,2\n' star octahedron.off - -o o.csv
+refused 2 '; --lonlat reads longitude and latitude'
+run_on $'5,1\n' star octahedron.off - -o o.csv; exits 3
+says 'has 2 columns, but a row is x,y,z; --lonlat'
+run_on $'a,b,c,d\n5,-1,1,2\n' star --columns a,b octahedron.off -
+refused 2 "'--columns' wants 3 columns, x,y,z, not 2"
 for list in 1,2,3 c,a,b; do
     run_on $'a,b,c,d\n90,0,10,2\n' star --lonlat --columns $list octahedron.off -
     refused 2 "'--columns' wants 2 columns, lon,lat, not 3"
 done
-run_on $'a,b,c,d\n5,-1,1,2\n' star --columns 1,2,3,4 octahedron.off -; refused 2 "'--columns' wants 3 columns, x,y,z, not 4"
+run_on $'a,b,c,d\n5,-1,1,2\n' star --columns 1,2,3,4 octahedron.off -
+refused 2 "'--columns' wants 3 columns, x,y,z, not 4"
 run_on $'a,b,c,d\n5,-1,1,2\n' star --columns a,b,e octahedron.off -; refused 3 "no column 'e'"
 absent o.csv
 
-# A grid of longitudes and latitudes: a seam at 180 degrees, rows of vertices at the poles, and no z. Facets without
-# area at the poles own nothing. Vertices 0 to 4 south, 5 to 9 on the equator, 10 to 14 north.
+# A grid of longitudes and latitudes: a seam at 180 degrees, rows of vertices at the poles, and no
+# z. Facets without area at the poles own nothing. Vertices 0 to 4 south, 5 to 9 on the equator, 10
+# to 14 north.
 awk 'BEGIN { print 15, 2, 0, 0; for (i = 0; i < 15; i++) print i, (i % 5) * 90 - 180, int(i / 5) * 90 - 90 }' >globe.node
 awk 'BEGIN { print 16, 3, 0
     for (i = 0; i < 4; i++) { print 2*i, i, i+1, i+6; print 2*i+1, i, i+6, i+5 }
-    for (i = 0; i < 4; i++) { print 8+2*i, i+5, i+6, i+11; print 9+2*i, i+5, i+11, i+10 } }' >globe.ele
+    for (i = 0; i < 4; i++) { print 8+2*i, i+5, i+6, i+11;
+    print 9+2*i, i+5, i+11, i+10 } }' >globe.ele
 for walk in $walks; do
     run_on "$sphere" star --lonlat --walk "$walk" globe.node -; exits 0; says_nothing
     prints "$sphere_header
@@ -180,9 +201,11 @@ done
 run_on $'180 45\n-180 45\n45 45\n45 0\n' star --lonlat globe -; exits 0
 prints_line '^180,45,edge,8,0\.(5|4999)[0-9]*,0,0\.(5|4999)[0-9]*$'; prints_line '^-180,45,edge,8,'
 prints_line '^45,45,inside,12,'; prints_line '^45,0,edge,5,0,'
-run_on $'1 2 3\n' star globe.node -; refused 3 'globe\.node: '; says 'has no z; --lonlat takes x and y as longitude'
+run_on $'1 2 3\n' star globe.node -; refused 3 'globe\.node: '
+says 'has no z; --lonlat takes x and y as longitude'
 sed 's/^7 .*/7 0 91/' globe.node >far.node; cp globe.ele far.ele
-run_on $'1 2\n' star --lonlat far.node -; refused 3 'far\.node: vertex 7: 0, 91 is no longitude and latitude'
+run_on $'1 2\n' star --lonlat far.node -
+refused 3 'far\.node: vertex 7: 0, 91 is no longitude and latitude'
 
 # Facets of mixed orientation; weights are those of the corners as the file has them.
 sed 's/^3 0 1 4$/3 1 0 4/; s/^3 3 2 5$/3 3 5 2/' octahedron.off >mixed.off
@@ -192,7 +215,8 @@ prints_line '^0,0,1,vertex,0,0,0,1$'; prints_line '^-1,-2,-5,inside,6,0\.25,0\.6
 
 # Other centres. A cube sees all of its facets from inside, not from a corner or outside.
 moved() { # moved X Y Z: the octahedron there
-    awk -v x="$1" -v y="$2" -v z="$3" 'NR > 2 && NR < 9 { $1 += x; $2 += y; $3 += z } { print }' OFMT=%.17g octahedron.off
+    awk -v x="$1" -v y="$2" -v z="$3" 'NR > 2 && NR < 9 { $1 += x; $2 += y; $3 += z } { print }' \
+        OFMT=%.17g octahedron.off
 }
 moved 5 -6 7 >moved.off
 run_on $'6 -5 9\n5 -6 0\n5 -6 7\n' star --centre 5,-6,7 moved.off -; exits 0
@@ -207,7 +231,8 @@ run_on $'45 35.26\n' star --centre 3e6,5e6,0 --lonlat far.off -; exits 0
 prints_line '^45,35\.26,inside,0,0\.333[0-9]*,0\.333[0-9]*,0\.333[0-9]*$'
 run_on $'1 2 3\n' star moved.off - -o o.csv; refused 3 'moved\.off: triangle [0-7]: '
 says "'meshwalk check --as star moved\.off' lists every defect"; absent o.csv
-run_on $'1 2 3\n' star --centre 9,0,0.5 octahedron.off -; refused 3 'octahedron\.off: triangle [0-7]: '
+run_on $'1 2 3\n' star --centre 9,0,0.5 octahedron.off -
+refused 3 'octahedron\.off: triangle [0-7]: '
 says "'meshwalk check --as star --centre 9,0,0.5 octahedron\.off'"
 run_on $'1 2 3\n' star --centre 1,0,0 octahedron.off -; refused 3 'triangle [0-7]: .*centre'
 sed 's/^6 8 0/6 7 0/; $d' octahedron.off >open.off
@@ -237,9 +262,12 @@ if [[ -w /dev/full ]]; then
 fi
 
 # Statistics.
-run_on "$points" star --stats --walk straight --start grid octahedron.off -; exits 0; prints "$answers"
-says '^points +17$'; says '^inside +6$'; says '^edge +4$'; says '^vertex +4$'; says '^bad +3$'; says '^walk +straight$'
-says '^start +grid$'; says '^start bytes +[1-9]'; says '^surface bytes +[1-9]'; says '^triangles per query +[1-9]'
+run_on "$points" star --stats --walk straight --start grid octahedron.off -; exits 0
+prints "$answers"
+says '^points +17$'; says '^inside +6$'; says '^edge +4$'; says '^vertex +4$'; says '^bad +3$'
+says '^walk +straight$'
+says '^start +grid$'; says '^start bytes +[1-9]'; says '^surface bytes +[1-9]'
+says '^triangles per query +[1-9]'
 says '^angle bytes +0$'
 run_on "$points" star --stats --json --walk orthogonal octahedron.off -; exits 0; prints "$answers"
 holds "the statistics are JSON" is_json "$logs/err"
@@ -247,7 +275,8 @@ says '"angle_bytes": 96'; says '"walk": "orthogonal"'
 
 # More rays than one block holds: in order, and the same for any number of threads.
 awk 'BEGIN { for (i = 0; i < 300000; i++)
-    printf "%.3f,%.3f\n", (i * 7919) % 360000 / 1000 - 180, (i * 104729) % 180000 / 1000 - 90 }' >many.csv
+    printf "%.3f,%.3f\n",
+    (i * 7919) % 360000 / 1000 - 180, (i * 104729) % 180000 / 1000 - 90 }' >many.csv
 run star --lonlat --threads 1 globe.node many.csv -o one.csv; exits 0
 run star --lonlat --threads 2 globe.node many.csv -o two.csv; exits 0
 holds "one thread and two print the same" same_text one.csv two.csv
@@ -255,14 +284,18 @@ paste -d, many.csv <(tail -n +2 two.csv) |
     awk -F, '$1 != $3 || $2 != $4 || $5 == "bad" { exit 1 } END { if (NR != 300000) exit 1 }'
 holds "there is a row for each, in order" test "${PIPESTATUS[*]}" == "0 0"
 
-# What ends the orthogonal walk changes the tests, not the answers. Parallels turned against each other.
+# What ends the orthogonal walk changes the tests, not the answers. Parallels turned against each
+# other.
 awk 'BEGIN { print 56, 2, 0, 0; for (i = 0; i < 56; i++) print i, i % 8 * 45 + int(i / 8) * 17, int(i / 8) * 30 - 90 }' >turned.node
 awk 'BEGIN { print 96, 3, 0
     for (i = 0; i < 48; i++) {
-        a = i; b = i % 8 == 7 ? i - 7 : i + 1; print 2*i, a, b, b+8; print 2*i+1, a, b+8, a+8 } }' >turned.ele
+        a = i; b = i % 8 == 7 ? i - 7 : i + 1;
+        print 2*i, a, b, b+8; print 2*i+1, a, b+8, a+8 } }' >turned.ele
 head -n 30000 many.csv >some.csv
 final_tests() { # final_tests NAME: those per query of the final location that --finish NAME makes
-    run star --lonlat --walk orthogonal --finish "$1" --stats --json turned.node some.csv -o finish.csv; exits 0
+    run star --lonlat --walk orthogonal --finish "$1" --stats --json turned.node some.csv -o \
+        finish.csv
+    exits 0
     holds "auto and --finish $1 agree" same_text auto.csv finish.csv
     tests=$(sed -nE 's/.*"orient_final": ([0-9.]+).*/\1/p' "$logs/err")
 }
@@ -276,9 +309,10 @@ holds "forgetful makes $forgetful tests, stochastic $stochastic" \
 
 # Real polyhedra, where they are at hand: every walk and start agrees, nothing is lost.
 data=${MW_SHARED:-}/star
-[[ -d $data ]] || finish
+[[ -d $data ]] || { left_out "there is no ../shared/data"; finish; }
 head -n 3000 many.csv >some.csv
-for file in eros_7790.obj.gz psyche.obj kw4_alpha.obj.gz sphere_1620.off geosphere.off ellipsoid.off sphere_1280.obj \
+for file in eros_7790.obj.gz psyche.obj kw4_alpha.obj.gz sphere_1620.off geosphere.off \
+    ellipsoid.off sphere_1280.obj \
     brain_sphere_left.off.gz; do
     run star --lonlat --strict "$data/$file" some.csv -o auto.csv; exits 0; says_nothing
     for walk in $walks; do
@@ -290,5 +324,6 @@ for file in eros_7790.obj.gz psyche.obj kw4_alpha.obj.gz sphere_1620.off geosphe
         holds "$file: auto and --start $start agree" same_text auto.csv start.csv
     done
 done
-run star --lonlat "$data/brain_pial_left.off.gz" some.csv; refused 3 'triangle [0-9]+: '; says 'check --as star --lonlat '
+run star --lonlat "$data/brain_pial_left.off.gz" some.csv; refused 3 'triangle [0-9]+: '
+says 'check --as star --lonlat '
 finish

@@ -1,21 +1,27 @@
 #!/usr/bin/env bash
-# Points from vector files, by GDAL: attributes, layers, conditions, missing geometries; what is refused.
+# Points from vector files, by GDAL: attributes, layers, conditions, missing geometries; what is
+# refused.
 # shellcheck source=driver.sh disable=SC2154
 . "$(dirname "$0")/driver.sh"
-# LeakSanitizer stops all threads when the program ends, and sometimes crashes over those of GDAL, which end at that time.
+# LeakSanitizer stops all threads when the program ends, and sometimes crashes over those of GDAL,
+# which end at that time.
 export ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0"
 printf '%s\n' "$square" >square.off # on the plane z = x + y
 
 # Outputs whose names say that they are no text are refused before anything is read.
 for name in out.kml out.GPX out.csv.gz out.xlsx ./a.b/out.tif; do
-    run sample absent.off absent.csv -o $name; refused 2 "${name//./\\.}: answers are written as text \(CSV\), or as \.gpkg"
+    run sample absent.off absent.csv -o $name
+    refused 2 "${name//./\\.}: answers are written as text \(CSV\), or as \.gpkg"
     run star absent.off absent.csv -o $name; refused 2 'as text'
     run probe absent.off absent.csv -o $name; refused 2 'as text'
 done
 run_on $'0.75,0.25\n' sample square.off - -o gpkg; exits 0
-run_on '{"type":"Point","coordinates":[0.75,0.25]}' sample square.off -; refused 3 'standard input: this is JSON, not a table'
-run_on $'x,y\n0,0\n' sample square.off - --layer a; refused 2 "'--layer' is for files that GDAL reads"
-run_on $'x,y\n0,0\n' sample square.off - --where a; refused 2 "'--where' is for files that GDAL reads"
+run_on '{"type":"Point","coordinates":[0.75,0.25]}' sample square.off -
+refused 3 'standard input: this is JSON, not a table'
+run_on $'x,y\n0,0\n' sample square.off - --layer a
+refused 2 "'--layer' is for files that GDAL reads"
+run_on $'x,y\n0,0\n' sample square.off - --where a
+refused 2 "'--where' is for files that GDAL reads"
 
 cat >one.geojson <<'END'
 {"type":"FeatureCollection","features":[{"type":"Feature","properties":{"id":"007","x":1.5,"n":3,"t":"a, \"b\"\nc"},"geometry":{"type":"Point","coordinates":[0.75,0.25]}},{"type":"Feature","properties":{"id":"B8","x":null,"n":9007199254740993},"geometry":null},{"type":"Feature","properties":{"id":" 9","x":0.1},"geometry":{"type":"MultiPoint","coordinates":[[0.5,0.5]]}}]}
@@ -44,7 +50,8 @@ run sample square.off without-ending; exits 0; prints "$(<one.csv)"
 run sample --strict --status square.off one.geojson; exits 1; prints_line ',,bad$'
 run locate --only-answers --where 'n = 3' square.off one.geojson; exits 0
 prints $'x,y,status,triangle,w0,w1,w2\n0.75,0.25,inside,0,0.25,0.5,0.25'
-run sample --where 'm = 3' square.off one.geojson; refused 2 "'--where' is no condition on the layer: GDAL says: "
+run sample --where 'm = 3' square.off one.geojson
+refused 2 "'--where' is no condition on the layer: GDAL says: "
 run sample --layer none square.off one.geojson; refused 3 "has no layer 'none', but: one"
 run sample --columns x,y square.off one.geojson; refused 2 "'--columns' is for tables"
 
@@ -56,27 +63,36 @@ cat >tracks.gpx <<'END'
 <wpt lat="2" lon="3"></wpt>
 </gpx>
 END
-run sample square.off tracks.gpx; exits 0; prints_line '^x,y,ele,.*,name,.*,z$'; prints_line '^0.75,0.25,12.5,.*,spring,.*,1$'
+run sample square.off tracks.gpx; exits 0; prints_line '^x,y,ele,.*,name,.*,z$'
+prints_line '^0.75,0.25,12.5,.*,spring,.*,1$'
 prints_line '^3,2,,.*,$'
 sed -i 's|</gpx>|<trk><trkseg><trkpt lat="0" lon="1"/><trkpt lat="1" lon="1"/></trkseg></trk></gpx>|' tracks.gpx
-run sample square.off tracks.gpx; refused 2 'tracks\.gpx: which layer has the points\? --layer may be one of: waypoints, routes, tracks,'
-run sample --only-answers --layer track_points square.off tracks.gpx; exits 0; prints $'x,y,z\n1,0,1\n1,1,2'
+run sample square.off tracks.gpx
+refused 2 'tracks\.gpx: which layer has the points\? --layer may be one of: waypoints, routes, tracks,'
+run sample --only-answers --layer track_points square.off tracks.gpx; exits 0
+prints $'x,y,z\n1,0,1\n1,1,2'
 
 # Heights, for rays from a centre; lines and damage.
 printf '{"type":"FeatureCollection","features":[%s%s]}' \
     '{"type":"Feature","properties":{"k":1},"geometry":{"type":"Point","coordinates":[0,0,2]}},' \
-    '{"type":"Feature","properties":{"k":2},"geometry":{"type":"Point","coordinates":[1,1,3]}}' >heights.geojson
-run locate square.off heights.geojson; exits 0; prints_line '^x,y,z,k,status,'; prints_line '^1,1,3,2,vertex,0,0,0,1$'
-printf '%s\n' OFF '4 4 0' '1 1 1' '-1 -1 1' '-1 1 -1' '1 -1 -1' '3 0 1 2' '3 0 3 1' '3 0 2 3' '3 1 3 2' >tetra.off
+    '{"type":"Feature","properties":{"k":2},"geometry":{"type":"Point","coordinates":[1,1,3]}}' \
+    >heights.geojson
+run locate square.off heights.geojson; exits 0; prints_line '^x,y,z,k,status,'
+prints_line '^1,1,3,2,vertex,0,0,0,1$'
+printf '%s\n' OFF '4 4 0' '1 1 1' '-1 -1 1' '-1 1 -1' '1 -1 -1' '3 0 1 2' '3 0 3 1' '3 0 2 3' \
+    '3 1 3 2' >tetra.off
 run star tetra.off heights.geojson; exits 0; prints_line '^0,0,2,1,edge,'
 echo '{"type":"Point","coordinates":[0,1]}' >flat.geojson
-run star tetra.off flat.geojson; refused 3 'flat\.geojson: its points have x and y, but 3 numbers are wanted'
+run star tetra.off flat.geojson
+refused 3 'flat\.geojson: its points have x and y, but 3 numbers are wanted'
 run probe tetra.off heights.geojson; refused 3 'but 6 numbers are wanted'
 echo '{"type":"LineString","coordinates":[[0,0],[1,1]]}' >line.geojson
 run sample square.off line.geojson -o out.csv; refused 3 'line\.geojson: GDAL finds no points in it'
 echo '{"type":"FeatureCollection","features":[{"type":"Feature","properties":{},"geometry":{"type":"Point","coordinates":[0,0]}},
-{"type":"Feature","properties":{},"geometry":{"type":"LineString","coordinates":[[0,0],[1,1]]}}]}' >mixed.geojson
-run sample square.off mixed.geojson -o out.csv; refused 3 'mixed\.geojson: feature 1 is a LINESTRING, not a point'
+{"type":"Feature","properties":{},"geometry":{"type":"LineString",
+"coordinates":[[0,0],[1,1]]}}]}' >mixed.geojson
+run sample square.off mixed.geojson -o out.csv
+refused 3 'mixed\.geojson: feature 1 is a LINESTRING, not a point'
 echo '{"type":' >damaged.geojson
 run sample square.off damaged.geojson -o out.csv; refused 3 'damaged\.geojson: GDAL says: '
 printf 'SQLite format 3\0 and nothing more' >damaged.gpkg
@@ -84,7 +100,8 @@ run sample square.off damaged.gpkg -o out.csv; refused 3 'damaged\.gpkg: GDAL sa
 run sample square.off absent.gpkg -o out.csv; refused 3 'absent\.gpkg: No such file'
 absent out.csv
 
-# Answers as vector files: every column with its kind, missing values, rows without a point, in order.
+# Answers as vector files: every column with its kind, missing values, rows without a point, in
+# order.
 cat >wells.csv <<'END'
 site,code,depth,n,remark,x,y,fid
 B12,007,1.50,3,"dry, ""windy""",0.75,0.25,1
@@ -93,36 +110,45 @@ B14,100,-2e3,12,-,0.5,0.5,3
 END
 for ending in gpkg geojson geojsonl shp gml sqlite fgb; do
     if [[ $ending == fgb ]]; then
-        run sample square.off wells.csv -o out.fgb; refused 3 'out\.fgb: row 2 has no point, which FlatGeobuf cannot hold'
+        run sample square.off wells.csv -o out.fgb
+        refused 3 'out\.fgb: row 2 has no point, which FlatGeobuf cannot hold'
         absent out.fgb
         sed -i /B13/d wells.csv
     fi
     run sample --status square.off wells.csv -o out.$ending; exits 0; says_nothing; prints ''
     holds "no temporary directory is left" test -z "$(find . -name '.meshwalk*')"
     run locate -q square.off out.$ending -o back.csv; exits 0
-    holds "$ending: the columns are there" grep -Eq '^x(_mw)?,y(_mw)?,(.*,)?site,code,depth,n,remark,' back.csv
-    holds "$ending: numbers, texts and points" grep -Eq '^0.75,0.25,(.*,)?B12,007,1.5,3,"dry, ""windy""",.*,1,inside,' back.csv
-    [[ $ending == fgb ]] || holds "$ending: missing values, and no point" grep -Eq '^,,(.*,)?B13,012,,,,.*,bad,.*bad,-1,,,$' back.csv
-    holds "$ending: the order" grep -Eq '^0.5,0.5,(.*,)?B14,100,-2000,12,-,.*,1,edge,' <(tail -n 1 back.csv)
+    holds "$ending: the columns are there" grep -Eq \
+        '^x(_mw)?,y(_mw)?,(.*,)?site,code,depth,n,remark,' back.csv
+    holds "$ending: numbers, texts and points" grep -Eq \
+        '^0.75,0.25,(.*,)?B12,007,1.5,3,"dry, ""windy""",.*,1,inside,' back.csv
+    [[ $ending == fgb ]] || holds "$ending: missing values, and no point" grep -Eq \
+        '^,,(.*,)?B13,012,,,,.*,bad,.*bad,-1,,,$' back.csv
+    holds "$ending: the order" grep -Eq '^0.5,0.5,(.*,)?B14,100,-2000,12,-,.*,1,edge,' \
+        <(tail -n 1 back.csv)
 done
 run sample square.off wells.csv -o out.gpkg; exits 0 # over an older one
 run sample -q square.off out.gpkg; prints_line '^0.75,0.25,B12,007,1.5,3,.*,1,1,1$'
 printf 'id;x;y\nA;0,75;0,25\n' >comma.csv
 run locate --only-answers square.off comma.csv -o comma.geojson; exits 0
-run sample square.off comma.geojson; exits 0; prints $'x,y,status,triangle,w0,w1,w2,z\n0.75,0.25,inside,0,0.25,0.5,0.25,1'
+run sample square.off comma.geojson; exits 0
+prints $'x,y,status,triangle,w0,w1,w2,z\n0.75,0.25,inside,0,0.25,0.5,0.25,1'
 run sample square.off comma.csv -o comma.fgb; exits 0
-run sample square.off comma.fgb; exits 0; prints $'x_mw,y_mw,id,x,y,z,z_mw\n0.75,0.25,A,0.75,0.25,1,1'
+run sample square.off comma.fgb; exits 0
+prints $'x_mw,y_mw,id,x,y,z,z_mw\n0.75,0.25,A,0.75,0.25,1,1'
 : >none.csv
 run sample square.off none.csv -o none.gpkg; exits 0
 run sample square.off none.gpkg; exits 0; prints x_mw,y_mw,x,y,z,z_mw
 run star --lonlat tetra.off none.csv -o none.gpkg; exits 0
 run star tetra.off heights.geojson -o rays.gpkg; exits 0
-run star tetra.off rays.gpkg; exits 0; prints_line '^x,y,z,k,status,triangle,w0,w1,w2,status_mw,'; prints_line '^0,0,2,1,edge,'
+run star tetra.off rays.gpkg; exits 0; prints_line '^x,y,z,k,status,triangle,w0,w1,w2,status_mw,'
+prints_line '^0,0,2,1,edge,'
 # The coordinate system goes along.
 run sample -q square.off tracks.gpx --layer waypoints -o crs.gpkg; exits 0
 holds "the coordinate system is kept" grep -q 'WGS 84' crs.gpkg
 # A column of numbers with a text far behind; a name that the format has no room for.
-if (ulimit -v 4000000; "$meshwalk" --version) >/dev/null 2>&1; then # a sanitizer takes more, and long
+# a sanitizer takes more, and long
+if (ulimit -v 4000000; "$meshwalk" --version) >/dev/null 2>&1; then
     { echo id,x,y; yes 1,0,0 | head -n 262144; echo B7,0,0; } >late.csv
     run sample square.off late.csv -o late.fgb
     exits 3; says "row 262145: the column 'id' had numbers only, but here 'B7'"; absent late.fgb
@@ -137,7 +163,8 @@ holds "no temporary directory is left" test -z "$(find . -name '.meshwalk*')"
 # Formats that this GDAL may lack: tried if it has them, refused by name if not.
 run --version
 if grep -q 'GDAL.*not .*Parquet' "$logs/out"; then
-    run sample absent.off absent.csv -o out.parquet; refused 2 'out\.parquet: this GDAL does not write Parquet'
+    run sample absent.off absent.csv -o out.parquet
+    refused 2 'out\.parquet: this GDAL does not write Parquet'
     printf 'PAR1 and nothing more' >in.parquet
     run sample square.off in.parquet; refused 3 'in\.parquet: this GDAL has no driver for Parquet'
 else
@@ -152,5 +179,7 @@ if [[ -d $data ]]; then
     holds "every track point has its row" test "$(wc -l <real.csv)" == 872
     gunzip -c "$data/b_pump.gpkg.gz" >pump.gpkg
     run sample -q square.off pump.gpkg; exits 0; prints_line '^x,y,cat,z$'
+else
+    left_out "there is no ../shared/data"
 fi
 finish

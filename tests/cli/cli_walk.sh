@@ -15,10 +15,12 @@ triangles() { tail -n +2 "$logs/out" | cut -d, -f2 | xargs; }
 
 # A row of four squares: triangles 0 to 7 from left to right.
 awk 'BEGIN { print "OFF\n10 8 0"; for (x = 0; x < 5; x++) print x " 0 0\n" x " 1 0"
-    for (x = 0; x < 4; x++) printf "3 %d %d %d\n3 %d %d %d\n", 2*x, 2*x+2, 2*x+1, 2*x+2, 2*x+3, 2*x+1 }' >row.off
+    for (x = 0; x < 4; x++) printf "3 %d %d %d\n3 %d %d %d\n",
+    2*x, 2*x+2, 2*x+1, 2*x+2, 2*x+3, 2*x+1 }' >row.off
 run walk --from 0.1,0.2 --to 3.9,0.8 --walk remembering row.off; exits 0; says_nothing
 prints "$(list 0 1 2 3 4 5 6 7)"
-run walk --from 3.9,0.8 --to 0.1,0.2 --walk=remembering row.off; exits 0; prints "$(list 7 6 5 4 3 2 1 0)"
+run walk --from 3.9,0.8 --to 0.1,0.2 --walk=remembering row.off; exits 0
+prints "$(list 7 6 5 4 3 2 1 0)"
 run walk --from=1.6,0.1 --to 2.9,0.9 --walk lawson row.off; exits 0; prints "$(list 2 3 4 5)"
 run walk --from 1.1,0.1 --to 1.1,0.2 row.off; exits 0; prints "$(list 2)"
 run_on "$(<row.off)" walk --from 1.1,0.1 --to 1.9,0.9 --walk lawson -; exits 0; prints "$(list 2 3)"
@@ -31,11 +33,14 @@ for walk in $walks; do
     [[ $walk == all ]] && continue # pictures
     run walk --from 0.1,0.2 --to 3.9,0.8 --walk "$walk" row.off; exits 0; says_nothing
     prints_line '^0,0,0$'; prints_line '^[0-9]+,7,0$'
-    holds "$walk: the last line is the last triangle" test "$(tail -n 1 "$logs/out" | cut -d, -f2)" == 7
+    holds "$walk: the last line is the last triangle" test \
+        "$(tail -n 1 "$logs/out" | cut -d, -f2)" == 7
 done
 
-# Outside: on the far side of the hull; in the hole of a ring, where the triangles that fill it are not listed.
-run walk --from 3.9,0.8 --to -5,0.5 --walk remembering row.off; exits 0; prints "$(list 7 6 5 4 3 2 1 0)"
+# Outside: on the far side of the hull; in the hole of a ring, where the triangles that fill it are
+# not listed.
+run walk --from 3.9,0.8 --to -5,0.5 --walk remembering row.off; exits 0
+prints "$(list 7 6 5 4 3 2 1 0)"
 says '^meshwalk: row\.off: --to lies outside the mesh$'
 run walk --from -5,0.5 --to 1.1,0.1 --walk remembering row.off; exits 0; prints "$(list 0 1 2)"
 says '^meshwalk: row\.off: --from lies outside the mesh: the walk begins where one to it ends$'
@@ -53,29 +58,38 @@ printf '%s\n' OFF '6 8 0' '1 0 0' '0 1 0' '-1 0 0' '0 -1 0' '0 0 1' '0 0 -1' \
     '3 0 1 4' '3 1 2 4' '3 2 3 4' '3 3 0 4' '3 1 0 5' '3 2 1 5' '3 3 2 5' '3 0 3 5' >octahedron.off
 for walk in auto stochastic forgetful barycentric straight orthogonal; do
     run walk --as star --from 1,1,1 --to 1,1.1,-1 --walk $walk octahedron.off; exits 0; says_nothing
-    holds "$walk begins and ends where it should: $(triangles)" grep -Eqx '0( [0-7])* 4' <<<"$(triangles)"
+    holds "$walk begins and ends where it should: $(triangles)" grep -Eqx '0( [0-7])* 4' \
+        <<<"$(triangles)"
     run walk --as star --lonlat --from 45,30 --to -135,-30 --walk $walk octahedron.off; exits 0
-    holds "$walk begins and ends where it should: $(triangles)" grep -Eqx '0( [0-7])* 6' <<<"$(triangles)"
+    holds "$walk begins and ends where it should: $(triangles)" grep -Eqx '0( [0-7])* 6' \
+        <<<"$(triangles)"
 done
 run walk --as star --from 1,1,1 --to 1,1.1,-1 --walk stochastic octahedron.off; prints "$(list 0 4)"
 awk 'NR > 2 && NR < 9 { $3 += 10 } { print }' octahedron.off >raised.off
-run walk --as star --centre 0,0,10 --from 1,1,11 --to 1,1.1,9 --walk stochastic raised.off; exits 0; prints "$(list 0 4)"
-run walk --as star --from 1,1,11 --to 1,1.1,9 raised.off; refused 3 'raised.off: '; says 'check --as star raised.off'
+run walk --as star --centre 0,0,10 --from 1,1,11 --to 1,1.1,9 --walk stochastic raised.off; exits 0
+prints "$(list 0 4)"
+run walk --as star --from 1,1,11 --to 1,1.1,9 raised.off; refused 3 'raised.off: '
+says 'check --as star raised.off'
 
-# A probe that goes into the octahedron from above: it ends in the facet that it touches, and begins with one that the
-# motion points at.
+# A probe that goes into the octahedron from above: it ends in the facet that it touches, and begins
+# with one that the motion points at.
 for seed in 1 2 3 4 5; do
-    run walk --as surface --seed $seed --from 0.1,0.2,5 --to 0.1,0.2,4 octahedron.off; exits 0; says_nothing
+    run walk --as surface --seed $seed --from 0.1,0.2,5 --to 0.1,0.2,4 octahedron.off; exits 0
+    says_nothing
     holds "the probe ends in facet 0: $(triangles)" grep -Eqx '([0-3] )*0' <<<"$(triangles)"
 done
 run walk --as surface --iterations 3 --from 7,7,5 --to 7,7,4 octahedron.off; exits 0
 says '^meshwalk: octahedron.off: the probe touched nothing'
 prints_line ',[0-7],2$'
-run walk --as surface --max-distance 1 --iterations 1 --from 0.1,0.2,5 --to 0.1,0.2,4 octahedron.off; exits 0
+run walk --as surface --max-distance 1 --iterations 1 --from 0.1,0.2,5 --to 0.1,0.2,4 octahedron.off
+exits 0
 says 'touched nothing'
-run walk --as surface --max-distance 0 --from 0.5,0.25,5 --to 0.5,0.25,4 octahedron.off; exits 0; says 'touched nothing'
-run walk --as surface --max-distance 0 --from 0.5,0.25,0.25 --to 0.5,0.25,0 octahedron.off; exits 0; says_nothing
-run walk --as surface --from 1,2,3 --to 1,2,3 octahedron.off; refused 2 "'--to' wants another point than --from"
+run walk --as surface --max-distance 0 --from 0.5,0.25,5 --to 0.5,0.25,4 octahedron.off; exits 0
+says 'touched nothing'
+run walk --as surface --max-distance 0 --from 0.5,0.25,0.25 --to 0.5,0.25,0 octahedron.off; exits 0
+says_nothing
+run walk --as surface --from 1,2,3 --to 1,2,3 octahedron.off
+refused 2 "'--to' wants another point than --from"
 
 # What is refused, before anything is read.
 run walk row.off; refused 2 "'--from' is missing"
@@ -83,31 +97,41 @@ run walk --from 1,2 absent.off; refused 2 "'--to' is missing"
 run walk --from 1,2,3 --to 1,2 absent.off; refused 2 "'--from' wants X,Y with --as plane"
 run walk --as star --from 1,2,3 --to 1,2 absent.off; refused 2 "'--to' wants X,Y,Z"
 run walk --as star --lonlat --from 1,2,3 --to 1,2 absent.off; refused 2 "'--from' wants LON,LAT"
-run walk --as star --lonlat --from 1,91 --to 1,2 octahedron.off; refused 2 "'--from' wants a latitude"
-run walk --as star --from 0,0,0 --to 1,2,3 octahedron.off; refused 2 "'--from' wants another point than the centre"
+run walk --as star --lonlat --from 1,91 --to 1,2 octahedron.off
+refused 2 "'--from' wants a latitude"
+run walk --as star --from 0,0,0 --to 1,2,3 octahedron.off
+refused 2 "'--from' wants another point than the centre"
 for value in '' x 1 '1,' 1,x 1,2,3,4 1,inf ' 1,2' '1;2'; do
-    run walk --from "$value" --to 1,2 row.off; refused 2 "'--from' wants coordinates X,Y or X,Y,Z, not"
+    run walk --from "$value" --to 1,2 row.off
+    refused 2 "'--from' wants coordinates X,Y or X,Y,Z, not"
 done
 run walk --from 1,2 --to 3,4 --walk lawsn row.off; refused 2 "did you mean 'lawson'\?"
-run walk --from 1,2 --to 3,4 --walk all row.off; refused 2 '--walk all wants --as plane and a picture'
+run walk --from 1,2 --to 3,4 --walk all row.off
+refused 2 '--walk all wants --as plane and a picture'
 run walk --from 1,2 --to 3,4 --walk all row.off -o all.csv; refused 2 '--walk all wants'
-run walk --as star --from 1,2,3 --to 3,4,5 --walk all row.off -o all.svg; refused 2 '--walk all wants'
-run walk --as star --from 1,2,3 --to 3,4,5 --walk lawson row.off; refused 2 "no walk 'lawson' with --as star"
-run walk --as surface --from 1,2,3 --to 3,4,5 --walk straight row.off; refused 2 "'--walk' wants --as"
+run walk --as star --from 1,2,3 --to 3,4,5 --walk all row.off -o all.svg
+refused 2 '--walk all wants'
+run walk --as star --from 1,2,3 --to 3,4,5 --walk lawson row.off
+refused 2 "no walk 'lawson' with --as star"
+run walk --as surface --from 1,2,3 --to 3,4,5 --walk straight row.off
+refused 2 "'--walk' wants --as"
 for option in max-distance samples iterations; do
     run walk --from 1,2 --to 3,4 --$option 2 row.off; refused 2 "'--$option' wants --as surface"
 done
-run walk --from 1,2 --to 3,4 --max-distance 0 row.off; refused 2 "'--max-distance' wants --as surface"
+run walk --from 1,2 --to 3,4 --max-distance 0 row.off
+refused 2 "'--max-distance' wants --as surface"
 run walk --from 1,2 --to 3,4 --centre 0,0,0 row.off; refused 2 "'--centre' wants --as star"
 run walk --lonlat --from 1,2 --to 3,4 row.off; refused 2 "'--lonlat' wants --as star"
 run walk --from 1,2 --to 3,4 absent.off; refused 3 'absent.off'
 for name in walk.gif walk.txt walk; do
-    run walk --from 0.1,0.2 --to 3.9,0.8 row.off -o $name; refused 2 "$name: .*\.csv.*\.svg, \.png or \.pdf"
+    run walk --from 0.1,0.2 --to 3.9,0.8 row.off -o $name
+    refused 2 "$name: .*\.csv.*\.svg, \.png or \.pdf"
     absent $name
 done
 run walk --from 0.1,0.2 --to 3.9,0.8 row.off -o row.off; refused 2 'row.off'
 printf '%s\n' "$overlap" >overlap.off
-run walk --from 0.1,0.2 --to 3.9,0.8 overlap.off; refused 3 'overlap.off: '; says 'check overlap.off'
+run walk --from 0.1,0.2 --to 3.9,0.8 overlap.off; refused 3 'overlap.off: '
+says 'check overlap.off'
 
 # Pictures, where the program can draw.
 run walk --from 0.1,0.2 --to 3.9,0.8 row.off -o row.svg
@@ -128,7 +152,8 @@ pictures() { # pictures NAME ARGUMENTS...: all three kinds
     holds "$name.png is PNG" test "$(head -c 4 "$name.png" | tail -c 3)" == PNG
     holds "$name.pdf is PDF" begins_with "$name.pdf" %PDF-
 }
-fills() { grep -Eo 'fill="rgb\([^"]*"|fill:rgb\([^;]*;|fill-rule:[^;]*;fill:rgb\([^;]*' "$1" | grep -o 'rgb(.*' | sort -u | wc -l; }
+fills() { grep -Eo 'fill="rgb\([^"]*"|fill:rgb\([^;]*;|fill-rule:[^;]*;fill:rgb\([^;]*' "$1" |
+    grep -o 'rgb(.*' | sort -u | wc -l; }
 pictures row --from 0.1,0.2 --to 3.9,0.8 --walk remembering row.off
 holds "each of the eight triangles has a colour of its own" test "$(fills row.svg)" -ge 8
 pictures ring --from 0.5,1.4 --to 2.5,1.6 --walk border ring.off
@@ -139,12 +164,16 @@ run walk --from 0.1,0.2 --to 3.9,0.8 row.off -o absent/row.svg; exits 4; says 'a
 # All walks on one sheet: a caption each. In a list, or in space, they have no place.
 run walk --from 0.1,0.2 --to 3.9,0.8 --walk all row.off -o all.svg; exits 0; says_nothing
 run walk --from 0.1,0.2 --to 3.9,0.8 --walk straight row.off -o straight.svg; exits 0
-holds "all walks take more room than one" test "$(wc -c <all.svg)" -gt $((4 * $(wc -c <straight.svg)))
+holds "all walks take more room than one" test "$(wc -c <all.svg)" -gt \
+    $((4 * $(wc -c <straight.svg)))
 holds "the stages of the straight walk have colours" test "$(fills straight.svg)" -ge 8
 run walk --from 0.1,0.2 --to 3.9,9 --walk all row.off -o all.png; exits 0
 holds "what is outside is said once" test "$(grep -c outside "$logs/err")" == 1
-# Step by step: a chunk fcTL for each triangle, numbers that count up, checksums that are right; the list with -o only.
-chunks() { # chunks FILE: the types of its chunks, with the number of those that have one; fails where a checksum is wrong
+# Step by step: a chunk fcTL for each triangle, numbers that count up, checksums that are right; the
+# list with -o only.
+# chunks FILE: the types of its chunks, with the number of those that have one; fails where a
+# checksum is wrong
+chunks() {
     python3 - "$1" <<'EOF'
 import struct, sys, zlib
 data, at = open(sys.argv[1], "rb").read(), 8
@@ -162,20 +191,27 @@ while at < len(data):
     at += 12 + size
 EOF
 }
-run walk --from 0.1,0.2 --to 3.9,0.8 --walk remembering row.off --animate row.apng; exits 0; prints ''; says_nothing
+run walk --from 0.1,0.2 --to 3.9,0.8 --walk remembering row.off --animate row.apng; exits 0
+prints ''; says_nothing
 holds "the chunks are right" chunks row.apng >row.chunks
 holds "eight frames" test "$(grep -c fcTL row.chunks)" == 8
 holds "eight are announced" grep -qx 'acTL 8' row.chunks
-holds "numbers count up" test "$(grep -E '^f' row.chunks | cut -d' ' -f2 | xargs)" == "$(seq 0 $(($(grep -cE '^f' row.chunks) - 1)) | xargs)"
-holds "the picture of those who show no frames comes first" test "$(cut -d' ' -f1 row.chunks | uniq | head -4 | xargs)" == 'IHDR acTL IDAT fcTL'
-run walk --from 0.1,0.2 --to 3.9,0.8 --walk remembering row.off --animate two.png -o two.csv; exits 0; prints ''
+holds "numbers count up" test "$(grep -E '^f' row.chunks | cut -d' ' -f2 | xargs)" == \
+    "$(seq 0 $(($(grep -cE '^f' row.chunks) - 1)) | xargs)"
+holds "the picture of those who show no frames comes first" test \
+    "$(cut -d' ' -f1 row.chunks | uniq | head -4 | xargs)" == 'IHDR acTL IDAT fcTL'
+run walk --from 0.1,0.2 --to 3.9,0.8 --walk remembering row.off --animate two.png -o two.csv
+exits 0; prints ''
 holds "the list is there, too" test "$(<two.csv)" == "$(list 0 1 2 3 4 5 6 7)"
 run walk --as star --lonlat --from 45,30 --to -135,-30 octahedron.off --animate star.png; exits 0
 holds "frames of a polyhedron" chunks star.png >star.chunks
 run walk --from 9,9 --to 9,8 row.off --animate none.png; exits 0
-run walk --from 1,2 --to 3,4 row.off --animate steps.gif; refused 2 "'--animate' wants a .png or .apng file"; absent steps.gif
-run walk --from 1,2 --to 3,4 row.off --walk all --animate all.png -o all.svg; refused 2 "'--animate' wants one walk"
-run walk --from 1,2 --to 3,4 row.off --animate same.png -o same.png; refused 2 "'--animate' wants another file"
+run walk --from 1,2 --to 3,4 row.off --animate steps.gif
+refused 2 "'--animate' wants a .png or .apng file"; absent steps.gif
+run walk --from 1,2 --to 3,4 row.off --walk all --animate all.png -o all.svg
+refused 2 "'--animate' wants one walk"
+run walk --from 1,2 --to 3,4 row.off --animate same.png -o same.png
+refused 2 "'--animate' wants another file"
 run walk --from 1,2 --to 3,4 row.off --animate absent/a.png; exits 4; says 'absent/a.png'
 # Of a mesh with 80,000 triangles, lines near the walk.
 awk 'BEGIN { srand(1); for (i = 0; i < 40000; i++) print rand(), rand() }' >points.xyz

@@ -18,7 +18,9 @@ awk -v n=40 'BEGIN {
         print 3, v, v + n + 1, v + n + 2; print 3, v, v + n + 2, v + 1
     }
 }' >mesh.off
-awk -v OFS=, -v n=20000 'BEGIN { print "x,y"; for (i = 0; i < n; i++) print (i * 0.618) % 40, (i * 0.414) % 40 }' >points.csv
+awk -v OFS=, -v n=20000 \
+    'BEGIN { print "x,y"; for (i = 0; i < n; i++) print (i * 0.618) % 40, (i * 0.414) % 40 }' \
+    >points.csv
 awk -v n=2000 'BEGIN { for (i = 0; i < n; i++) print "insert", (i * 0.618) % 40, (i * 0.414) % 40 }' >edits.txt
 echo '{"type":"LineString","coordinates":[[1.5,1.5],[30.5,20.5],[10.5,33.5]]}' >lines.geojson
 "$meshwalk" star --help >/dev/null || exit 1
@@ -63,7 +65,8 @@ commands=(
 declare -A complete
 for command in "${commands[@]}"; do
     # shellcheck disable=SC2086
-    "$meshwalk" $command >"$logs/out" 2>"$logs/err" || { echo "$command: $(<"$logs/err")" >&2; exit 1; }
+    "$meshwalk" $command >"$logs/out" 2>"$logs/err" ||
+        { echo "$command: $(<"$logs/err")" >&2; exit 1; }
     complete[$command]=absent
     [[ $command != *' -o '* ]] || complete[$command]=$(cat out.* | cksum)
     rm -f out.*
@@ -141,7 +144,8 @@ changed_input() {
     code=$?
     checks=$((checks + 1))
     ((code <= 4)) || fail "seed $seed: the exit code should be 0 to 4"
-    ((code < 2)) || [[ -z $(find . -name 'out.*') ]] || fail "seed $seed: no output should be left: $(ls -A)"
+    ((code < 2)) || [[ -z $(find . -name 'out.*') ]] ||
+        fail "seed $seed: no output should be left: $(ls -A)"
     rm -f out.*
     mv saved "$name"
 }

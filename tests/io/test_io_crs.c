@@ -184,6 +184,58 @@ static void test_las(void **state)
     files_clear();
 }
 
+/* Put a record of those that stand behind the points of LAS 1.4. */
+static size_t put_extended(unsigned char *at, const char *user, unsigned number, uint64_t length,
+                           const void *contents, size_t size)
+{
+    memset(at, 0, 60);
+    snprintf((char *)at + 2, 16, "%s", user);
+    mw__put_bytes(at + 18, 2, number);
+    mw__put_bytes(at + 20, 8, length);
+    memcpy(at + 60, contents, size);
+    return 60 + size;
+}
+
+/* LAS 1.4 of no points, with these records behind them, the first at byte `begin`. */
+static void expect_las_trailer(const unsigned char *records, size_t size, uint64_t begin,
+                               uint32_t count, const char *crs)
+{
+    unsigned char file[2048] = "LASF";
+    file[24] = 1;
+    file[25] = 4;
+    mw__put_bytes(file + 94, 2, 375);
+    mw__put_bytes(file + 96, 4, 375);
+    mw__put_bytes(file + 105, 2, 20);
+    mw__put_bytes(file + 235, 8, begin);
+    mw__put_bytes(file + 243, 4, count);
+    memcpy(file + 375, records, size);
+    expect_points("p.las", (bytes){(const char *)file, 375 + size}, crs);
+    files_write_gzip("p.las.gz", (bytes){(const char *)file, 375 + size});
+    expect_points("p.las.gz", (bytes){NULL, 0}, crs);
+}
+
+static void test_las_trailer(void **state)
+{
+    unsigned char r[1024] = {0};
+    (void)state;
+    size_t first = put_extended(r, "somebody", 2112, 9, "not this", 9);
+    size_t size =
+        first + put_extended(r + first, "LASF_Projection", 2112, sizeof WKT, WKT, sizeof WKT);
+    expect_las_trailer(r, size, 375, 2, WKT);
+    expect_las_trailer(r, size, 375 + first, 1, WKT);
+    expect_las_trailer(r, size, 375 + first, UINT32_MAX, WKT);
+    expect_las_trailer(r, size, 375, 1, NULL);
+    expect_las_trailer(r, size, 375, 0, NULL);
+    expect_las_trailer(r, size - 1, 375, 2, NULL); /* the file ends before the text does */
+    expect_las_trailer(r, size, UINT64_MAX, 2, NULL);
+    expect_las_trailer(r, size, UINT64_MAX / 2, 2, NULL);
+    put_extended(r, "somebody", 2112, UINT64_MAX, "not this", 9);
+    expect_las_trailer(r, size, 375, 2, NULL);
+    put_extended(r, "LASF_Projection", 2112, 1 << 20, "not this", 9);
+    expect_las_trailer(r, size, 375, 2, NULL);
+    files_clear();
+}
+
 static void expect_constraints(const char *name, const char *text, const char *crs)
 {
     mw_constraint_file file;
@@ -235,7 +287,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_ply),         cmocka_unit_test(test_ply_round_trip),
         cmocka_unit_test(test_beside),      cmocka_unit_test(test_las),
-        cmocka_unit_test(test_constraints), cmocka_unit_test(test_real),
+        cmocka_unit_test(test_las_trailer), cmocka_unit_test(test_constraints),
+        cmocka_unit_test(test_real),
     };
     return cmocka_run_group_tests_name("crs", tests, files_enter, files_leave);
 }

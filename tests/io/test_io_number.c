@@ -308,7 +308,7 @@ static void test_locale(void **state)
         set = setlocale(LC_ALL, names[i]);
     if (!set || localeconv()->decimal_point[0] != ',') {
         setlocale(LC_ALL, "C");
-        print_message("no locale with a decimal comma is installed\n");
+        print_message("left out: no locale with a decimal comma is installed\n");
         skip();
     }
     char text[32];

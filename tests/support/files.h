@@ -38,8 +38,8 @@ char *files_read(const char *name, size_t *size);
 /* Is there anything with that name, a dangling link included? */
 bool files_exists(const char *name);
 
-/* The path of a file of the data beside the project; NULL where it is not present. Valid until
- * the next call. */
+/* The path of a file of the data beside the project; NULL where it is not present, which is told.
+ * Valid until the next call. */
 const char *files_shared(const char *name);
 
 /* Fails unless the error has this status and line (-1: none), and its message contains `says`. */

@@ -102,7 +102,7 @@ static bool star_is_whole_mesh(const mw_dynamic_tiling *dynamic, const mw_vertex
 mw_status mw__dynamic_move(mw_dynamic_tiling *dynamic, uint32_t vertex, mw_point q, uint32_t t,
                            mw_error *error)
 {
-    mw_journal_step *step = &dynamic->step[dynamic->step_count - 1];
+    mw_journal_edit *step = &dynamic->step[dynamic->step_count - 1];
     mw_vertex_star star;
     if (!mw__vertex_star_collect(dynamic, vertex, &star)) return mw__fail_memory(error);
     step->vertex = vertex;

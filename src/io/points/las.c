@@ -2,9 +2,12 @@
  * compressed form, is refused.
  *
  * The number of points that the header gives is where reading stops; where the data end before,
- * that is an error. Of the variable length records before the points, those are read that tell the
- * coordinate system; what else stands in the file (other records, waveforms) is passed over. */
+ * that is an error. Of the variable length records before the points, and in 1.4 behind them, those
+ * are read that tell the coordinate system; what else stands in the file (other records, waveforms)
+ * is passed over. */
 #include "io/points/las.h"
+
+#include "io/points/las_trailer.h"
 
 #include "io/text/byte_order.h"
 #include "io/text/crs_text.h"
@@ -222,6 +225,15 @@ static mw_status las_read_records(mw_source *source, uint64_t end, las_records *
     return mw__source_skip(source, end - source->offset, error);
 }
 
+/* In LAS 1.4 the WKT may stand behind the points. A pipe has no way there and back. */
+static mw_status las_read_trailer(const mw_source *source, mw_las_trailer trailer,
+                                  las_records *records, mw_error *error)
+{
+    if (records->wkt || records->compressed || trailer.count == 0 || source->size == 0)
+        return MW_OK;
+    return mw__las_trailer_wkt(source->path, trailer, &records->wkt, error);
+}
+
 /* Keep the coordinate system that the records name: WKT, or else EPSG:n. */
 static mw_status las_keep_crs(mw_point_reader *reader, las_records *records, mw_error *error)
 {
@@ -254,6 +266,9 @@ static mw_status las_read_header(mw_point_reader *reader, las_reader *l, mw_erro
                                   minor);
     if (minor == 4 && header_size >= HEADER_1_4 && have == HEADER_1_4 && mw__get_u64(h + 247) > 0)
         l->count = mw__get_u64(h + 247);
+    mw_las_trailer trailer = {0};
+    if (minor == 4 && header_size >= HEADER_1_4 && have == HEADER_1_4)
+        trailer = (mw_las_trailer){mw__get_u64(h + 235), mw__get_u32(h + 243)};
     for (int k = 0; k < 3; k++) {
         l->scale[k] = mw__get_f64(h + 131 + 8 * k);
         l->offset[k] = mw__get_f64(h + 155 + 8 * k);
@@ -274,6 +289,7 @@ static mw_status las_read_header(mw_point_reader *reader, las_reader *l, mw_erro
     status = mw__source_skip(source, header_size, error);
     las_records records = {0};
     if (!status) status = las_read_records(source, points_at, &records, error);
+    if (!status) status = las_read_trailer(source, trailer, &records, error);
     if (!status && records.compressed) status = las_refuse_laz(source, error);
     mw_status kept = las_keep_crs(reader, &records, status ? NULL : error);
     return status ? status : kept;

@@ -14,7 +14,7 @@
 
 enum { UNUSED = 0xffff }; /* a column that is not read */
 
-typedef struct point_table {
+typedef struct table_state {
     char separator;
     bool point, comma;       /* decimal points, decimal commas were seen: a table has one of them */
     bool header;             /* the file names its columns */
@@ -23,12 +23,12 @@ typedef struct point_table {
     mw_text_cells *texts;    /* these, per value; NULL if none may be */
     uint64_t expected, done; /* rows announced (UINT64_MAX: none are) and read */
     uint16_t slot[];         /* for each column: its position among the values, or UNUSED */
-} point_table;
+} table_state;
 
 static mw_status table_take_column(mw_point_reader *reader, size_t column, mw_error *error)
 {
     static const char *const letters[] = {"x", "y", "z"};
-    point_table *t = reader->state;
+    table_state *t = reader->state;
     const mw_table_header *c = &reader->header;
     char number[32];
     snprintf(number, sizeof number, "c%zu", reader->width + 1);
@@ -73,7 +73,7 @@ static mw_status table_find_column(mw_point_reader *reader, const char *item, si
 
 static mw_status table_select_named(mw_point_reader *reader, const char *selection, mw_error *error)
 {
-    const point_table *t = reader->state;
+    const table_state *t = reader->state;
     size_t length, column;
     const char *rest = selection;
     for (const char *item; (item = mw__selection_item(&rest, &length));) {
@@ -91,7 +91,7 @@ static mw_status table_select_named(mw_point_reader *reader, const char *selecti
 /* Values from number `first` on may be texts, if the caller wants that. */
 static mw_status table_allow_texts(mw_point_reader *reader, size_t first, mw_error *error)
 {
-    point_table *t = reader->state;
+    table_state *t = reader->state;
     if (!reader->texts_allowed) return MW_OK;
     t->texts = reader->texts = mw__calloc(reader->width, sizeof *t->texts);
     t->optional = first;
@@ -102,7 +102,7 @@ static mw_status table_allow_texts(mw_point_reader *reader, size_t first, mw_err
 static mw_status table_select_numbers(mw_point_reader *reader, mw_error *error)
 {
     const mw_table_header *c = &reader->header;
-    const point_table *t = reader->state;
+    const table_state *t = reader->state;
     size_t found[3];
     if (mw__table_header_coordinates(c, found))
         for (int k = 0; k < 3; k++) {
@@ -125,7 +125,7 @@ static mw_status table_select_numbers(mw_point_reader *reader, mw_error *error)
 static mw_status table_select(mw_point_reader *reader, const size_t *columns, size_t count,
                               mw_error *error)
 {
-    point_table *t = reader->state;
+    table_state *t = reader->state;
     for (size_t i = 0; i < t->columns; i++) t->slot[i] = UNUSED;
     for (size_t k = 0; k < count; k++) {
         mw_status status = table_take_column(reader, columns[k], error);
@@ -137,7 +137,7 @@ static mw_status table_select(mw_point_reader *reader, const size_t *columns, si
 /* A row that was refused: say why. `row` may have got points for its decimal commas. */
 static mw_status table_explain_row(mw_point_reader *reader, const char *row, mw_error *error)
 {
-    const point_table *t = reader->state;
+    const table_state *t = reader->state;
     size_t count = mw__delimited_count(row, t->separator);
     if (count != t->columns)
         return mw__source_fail(
@@ -168,7 +168,7 @@ static MW_INLINE char *table_skip_gap(char *p, char separator)
 }
 
 /* A number where a decimal comma is one of the ways to write it; the comma becomes a point. */
-static char *table_read_either_point(point_table *t, char *p, double *value)
+static char *table_read_either_point(table_state *t, char *p, double *value)
 {
     char *mark = p + (*p == '-' || *p == '+');
     while (*mark >= '0' && *mark <= '9') mark++;
@@ -180,7 +180,7 @@ static char *table_read_either_point(point_table *t, char *p, double *value)
     return end ? p + (end - p) : NULL;
 }
 
-static MW_INLINE char *table_read_value(point_table *t, char *p, double *value)
+static MW_INLINE char *table_read_value(table_state *t, char *p, double *value)
 {
     if (mw__delimited_takes_comma(t->separator)) return table_read_either_point(t, p, value);
     const char *end = mw__read_double(p, value);
@@ -189,7 +189,7 @@ static MW_INLINE char *table_read_value(point_table *t, char *p, double *value)
 
 /* A cell that holds no number, but says that the value is missing. Returns its end; NULL if it says
  * something else. */
-static char *table_read_missing(const point_table *t, char *p, double *value)
+static char *table_read_missing(const table_state *t, char *p, double *value)
 {
     mw_text_cell cell;
     const char *row = p, *end = mw__delimited_skip(p, t->separator);
@@ -202,7 +202,7 @@ static char *table_read_missing(const point_table *t, char *p, double *value)
 }
 
 /* Read the cell that begins at p, behind the gap. Returns its end, or NULL if it is no number. */
-static MW_INLINE char *table_read_cell(point_table *t, char *p, double *value)
+static MW_INLINE char *table_read_cell(table_state *t, char *p, double *value)
 {
     bool quoted = *p == '"';
     char *end = table_read_value(t, p + quoted, value);
@@ -212,7 +212,7 @@ static MW_INLINE char *table_read_cell(point_table *t, char *p, double *value)
 }
 
 /* Skip a cell that holds a text. Returns its end, or NULL if a number belongs there. */
-static char *table_skip_text(point_table *t, char *p, size_t slot, int64_t line, double *value)
+static char *table_skip_text(table_state *t, char *p, size_t slot, int64_t line, double *value)
 {
     if (!t->texts || slot < t->optional) return NULL;
     mw_text_cells *texts = &t->texts[slot];
@@ -223,7 +223,7 @@ static char *table_skip_text(point_table *t, char *p, size_t slot, int64_t line,
 
 /* Read a cell of a table where texts may stand in some columns. What looks like a decimal mark in
  * a text is none. */
-static char *table_read_cell_or_text(point_table *t, char *p, size_t slot, int64_t line,
+static char *table_read_cell_or_text(table_state *t, char *p, size_t slot, int64_t line,
                                      double *value)
 {
     bool point = t->point, comma = t->comma;
@@ -237,7 +237,7 @@ static char *table_read_cell_or_text(point_table *t, char *p, size_t slot, int64
 }
 
 /* Read the values of a row, which begins in that line; false if something is wrong with it. */
-static bool table_parse_row(point_table *t, char *p, int64_t line, double *values)
+static bool table_parse_row(table_state *t, char *p, int64_t line, double *values)
 {
     for (size_t i = 0; i < t->columns; i++) {
         p = table_skip_gap(p, t->separator);
@@ -264,11 +264,11 @@ static bool table_parse_row(point_table *t, char *p, int64_t line, double *value
 static mw_status table_keep_row(mw_point_reader *reader, const char *row, mw_error *error)
 {
     if (!reader->table) return MW_OK;
-    const point_table *t = reader->state;
+    const table_state *t = reader->state;
     return mw__row_texts_add(&reader->rows, row, reader->source.line_length, t->separator, error);
 }
 
-static mw_status table_check_count(const mw_point_reader *reader, const point_table *t,
+static mw_status table_check_count(const mw_point_reader *reader, const table_state *t,
                                    mw_error *error)
 {
     if (t->expected == UINT64_MAX || t->done == t->expected) return MW_OK;
@@ -280,7 +280,7 @@ static mw_status table_check_count(const mw_point_reader *reader, const point_ta
 static mw_status table_read_rows(mw_point_reader *reader, double *values, size_t capacity,
                                  size_t *count, mw_error *error)
 {
-    point_table *t = reader->state;
+    table_state *t = reader->state;
     /* an id like #12 begins a row of a table, a number does not */
     size_t marks = reader->table && t->columns > 0 && t->slot[0] == UNUSED ? t->columns : 0;
     while (*count < capacity && reader->rows.size < MW_ROW_TEXTS_LIMIT) {
@@ -326,9 +326,9 @@ static mw_status table_select_first(mw_point_reader *reader, const char *selecti
 static mw_status table_make(mw_point_reader *reader, char separator, mw_error *error)
 {
     size_t columns = reader->header.count;
-    point_table *t = mw__alloc(1, sizeof *t + columns * sizeof *t->slot);
+    table_state *t = mw__alloc(1, sizeof *t + columns * sizeof *t->slot);
     if (!t) return mw__fail_memory(error);
-    *t = (point_table){.separator = separator,
+    *t = (table_state){.separator = separator,
                        .header = reader->header.names != NULL,
                        .columns = columns,
                        .expected = reader->header.expected};

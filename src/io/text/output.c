@@ -139,8 +139,8 @@ mw_status mw_output_resolve(const char *path, char **name, mw_error *error)
     return *name ? MW_OK : mw__fail_system(path, errno, error);
 }
 
-/* Opens output->fd, -1 with errno if that fails. */
-static int output_open_target(mw_output *output, const char *path)
+/* Opens output->fd, -1 with errno if that fails. `named`: under a temporary name at once. */
+static int output_open_target(mw_output *output, const char *path, bool named)
 {
     output->standard = strcmp(path, "-") == 0;
     if (output->standard) return STDOUT_FILENO;
@@ -155,7 +155,7 @@ static int output_open_target(mw_output *output, const char *path)
         errno = ENOMEM;
         return -1;
     }
-    int fd = output_open_nameless(output);
+    int fd = named ? -1 : output_open_nameless(output);
     output->nameless = fd >= 0;
     if (fd < 0) {
         fd = output_open_named(output);
@@ -165,9 +165,8 @@ static int output_open_target(mw_output *output, const char *path)
     return fd;
 }
 
-mw_status mw_output_open(const char *path, mw_output **out, mw_error *error)
+static mw_status output_open(const char *path, bool named, mw_output **out, mw_error *error)
 {
-    if (!path || !out) return mw__fail(error, MW_ERROR_ARGUMENT, "mw_output_open: NULL");
     *out = NULL;
     mw_output *output = mw__alloc(1, sizeof *output);
     if (!output) return mw__fail_memory(error);
@@ -177,7 +176,7 @@ mw_status mw_output_open(const char *path, mw_output **out, mw_error *error)
         output_release(output);
         return mw__fail_memory(error);
     }
-    output->fd = output_open_target(output, path);
+    output->fd = output_open_target(output, path, named);
     if (output->fd < 0) {
         mw_status status = mw__fail_system(output->shown, errno, error);
         output_release(output);
@@ -185,6 +184,17 @@ mw_status mw_output_open(const char *path, mw_output **out, mw_error *error)
     }
     *out = output;
     return MW_OK;
+}
+
+mw_status mw_output_open(const char *path, mw_output **out, mw_error *error)
+{
+    if (!path || !out) return mw__fail(error, MW_ERROR_ARGUMENT, "mw_output_open: NULL");
+    return output_open(path, false, out, error);
+}
+
+mw_status mw__output_open_named(const char *path, mw_output **out, mw_error *error)
+{
+    return output_open(path, true, out, error);
 }
 
 void mw__output_watch(mw_output *output, mw_job *job, uint64_t expected)

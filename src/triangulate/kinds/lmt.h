@@ -103,24 +103,24 @@ void mw__lmt_reduce(mw_lmt *lmt, mw_effort *effort);
 
 /* A polygon, perhaps with vertices and edges that its border meets twice, and chords from corner to
  * corner inside. */
-typedef struct mw_chord {
+typedef struct mw_lmt_diagonal {
     uint32_t low, high; /* corners, low + 1 < high */
     double length;
-} mw_chord;
+} mw_lmt_diagonal;
 
-typedef struct mw_polygon {
+typedef struct mw_lmt_face {
     uint32_t corner_count;
-    const mw_chord *chord;
+    const mw_lmt_diagonal *chord;
     size_t chord_count; /* at most UINT32_MAX */
-} mw_polygon;
+} mw_lmt_face;
 
-/* About how many steps mw__polygon_fill takes. False when out of memory. */
-bool mw__polygon_steps(const mw_polygon *polygon, uint64_t *steps);
+/* About how many steps mw__lmt_face_fill takes. False when out of memory. */
+bool mw__lmt_face_steps(const mw_lmt_face *polygon, uint64_t *steps);
 
 /* Triangulate with chords of least total length, by dynamic programming [Gilbert 1979; Klincsek
  * 1980]. The chords must hold a triangulation. Writes three corners, counter-clockwise, for each of
  * corner_count - 2 triangles. Steps of the present stage. False when out of memory, or cancelled.
  * */
-bool mw__polygon_fill(const mw_polygon *polygon, mw_job *job, uint32_t *corners);
+bool mw__lmt_face_fill(const mw_lmt_face *polygon, mw_job *job, uint32_t *corners);
 
 #endif

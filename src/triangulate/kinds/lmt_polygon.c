@@ -47,7 +47,7 @@ static void table_prefix_sums(size_t *first, uint32_t n)
 }
 
 /* Chords in two rounds of counting sort: by j, then by i. */
-static bool table_sort_chords(chord_table *t, const mw_polygon *p)
+static bool table_sort_chords(chord_table *t, const mw_lmt_face *p)
 {
     uint32_t n = t->corner_count;
     uint32_t *by_high = mw__alloc(p->chord_count, sizeof *by_high);
@@ -67,7 +67,7 @@ static bool table_sort_chords(chord_table *t, const mw_polygon *p)
     return done;
 }
 
-static bool table_create(chord_table *t, const mw_polygon *p)
+static bool table_create(chord_table *t, const mw_lmt_face *p)
 {
     uint32_t n = p->corner_count;
     *t = (chord_table){.corner_count = n};
@@ -106,7 +106,7 @@ static void chord_close(chord_table *t, uint32_t i, uint32_t j, double length)
 }
 
 /* Returns false if the job is to stop. */
-static bool table_fill(chord_table *t, const mw_polygon *p, mw_job *job)
+static bool table_fill(chord_table *t, const mw_lmt_face *p, mw_job *job)
 {
     uint32_t n = t->corner_count;
     for (uint32_t i = n - 1; i-- > 0;) {
@@ -160,7 +160,7 @@ static void table_collect(const chord_table *t, uint32_t *corners)
     }
 }
 
-bool mw__polygon_steps(const mw_polygon *polygon, uint64_t *steps)
+bool mw__lmt_face_steps(const mw_lmt_face *polygon, uint64_t *steps)
 {
     uint32_t *count = mw__calloc(polygon->corner_count, sizeof *count);
     if (!count) return false;
@@ -172,7 +172,7 @@ bool mw__polygon_steps(const mw_polygon *polygon, uint64_t *steps)
     return true;
 }
 
-bool mw__polygon_fill(const mw_polygon *polygon, mw_job *job, uint32_t *corners)
+bool mw__lmt_face_fill(const mw_lmt_face *polygon, mw_job *job, uint32_t *corners)
 {
     chord_table t;
     bool done = table_create(&t, polygon) && table_fill(&t, polygon, job);

@@ -385,10 +385,10 @@ static void face_number_corners(weigher *w, const skeleton_face *f)
     }
 }
 
-static mw_chord weigher_make_chord(const weigher *w, uint32_t a, uint32_t b)
+static mw_lmt_diagonal weigher_make_chord(const weigher *w, uint32_t a, uint32_t b)
 {
     double length = sqrt(mw__square(&w->points, w->vertex[a], w->vertex[b]));
-    return a < b ? (mw_chord){a, b, length} : (mw_chord){b, a, length};
+    return a < b ? (mw_lmt_diagonal){a, b, length} : (mw_lmt_diagonal){b, a, length};
 }
 
 static uint32_t weigher_corner_at(const weigher *w, uint32_t half)
@@ -404,7 +404,7 @@ static size_t face_count_chords(const weigher *w, const skeleton_face *f)
     return count;
 }
 
-static size_t face_gather_chords(const weigher *w, const skeleton_face *f, mw_chord *chord)
+static size_t face_gather_chords(const weigher *w, const skeleton_face *f, mw_lmt_diagonal *chord)
 {
     size_t count = 0;
     for (uint32_t i = 0; i < f->triangles; i++) {
@@ -426,21 +426,21 @@ static size_t face_gather_chords(const weigher *w, const skeleton_face *f, mw_ch
 }
 
 /* May this polygon be filled, for what has been spent so far? */
-static bool weigher_afford(weigher *w, uint32_t limit, const mw_polygon *p, bool *filling)
+static bool weigher_afford(weigher *w, uint32_t limit, const mw_lmt_face *p, bool *filling)
 {
     uint64_t steps = 0;
     *filling = limit > 0 && p->corner_count <= limit;
     if (limit > 0) return true;
-    if (!mw__polygon_steps(p, &steps)) return false;
+    if (!mw__lmt_face_steps(p, &steps)) return false;
     *filling = steps <= w->face_steps;
     if (*filling) w->face_steps -= steps;
     return true;
 }
 
-static bool face_write_triangles(weigher *w, const skeleton_face *f, const mw_polygon *p)
+static bool face_write_triangles(weigher *w, const skeleton_face *f, const mw_lmt_face *p)
 {
     uint32_t *corners = mw__alloc(f->triangles, 3 * sizeof *corners);
-    bool done = corners && mw__polygon_fill(p, w->t->job, corners);
+    bool done = corners && mw__lmt_face_fill(p, w->t->job, corners);
     for (uint32_t i = 0; done && i < f->triangles; i++) {
         mw_triangle *tri = &w->t->tri[w->list[i]];
         for (uint32_t k = 0; k < 4; k++) tri->v[k] = w->vertex[corners[3 * (size_t)i + k % 3]];
@@ -457,10 +457,10 @@ static bool face_fill(weigher *w, skeleton_face *f, uint32_t limit, bool *filled
     if (w->whole || (limit > 0 && f->border > limit)) return true;
     size_t most = face_count_chords(w, f);
     if (most > UINT32_MAX) return true;
-    mw_chord *chord = mw__alloc(most, sizeof *chord);
+    mw_lmt_diagonal *chord = mw__alloc(most, sizeof *chord);
     if (!chord) return false;
     face_number_corners(w, f);
-    mw_polygon p = {f->border, chord, face_gather_chords(w, f, chord)};
+    mw_lmt_face p = {f->border, chord, face_gather_chords(w, f, chord)};
     bool done = weigher_afford(w, limit, &p, filled);
     if (done && *filled) done = face_write_triangles(w, f, &p);
     if (f->is_cut) *filled = false;

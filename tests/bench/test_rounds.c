@@ -1,4 +1,4 @@
-/* rounds_test.c - the loop of interleaved rounds (bench/core): who runs when, which figures count,
+/* test_rounds.c - the loop of interleaved rounds (bench/core): who runs when, which figures count,
  * medians and minima. */
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,0 +1,37 @@
+/* trap_mesh.h - meshes on which point location can be slow, and queries for them. */
+#ifndef MW_BENCH_WORST_TRAP_MESH_H
+#define MW_BENCH_WORST_TRAP_MESH_H
+
+#include <meshwalk/meshwalk.h>
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/* The arrays of a mesh; it owns them. Without triangles it is a set of points to triangulate. */
+typedef struct trap_mesh {
+    double *points;
+    uint32_t *triangles;
+    size_t point_count, triangle_count;
+} trap_mesh;
+
+/* Fill *m with about n vertices; false when memory runs out. Release it in either case. */
+typedef bool trap_mesh_make(trap_mesh *m, size_t n, uint64_t seed);
+
+trap_mesh_make trap_strip_30, trap_strip_300, trap_strip_2000, trap_fan, trap_half_fan, trap_hubs,
+    trap_rings, trap_uniform, trap_tiny, trap_tinier, trap_huge, trap_least, trap_denormal,
+    trap_clusters, trap_circle;
+
+void trap_mesh_release(trap_mesh *m);
+
+/* Where queries lie. */
+typedef enum trap_place {
+    TRAP_IN_TRIANGLES, /* in random triangles, at a random place in each */
+    TRAP_ON_VERTICES,
+    TRAP_ON_EDGES /* at rounded middles of edges */
+} trap_place;
+
+/* Set n queries, x0 y0 x1 y1 ... */
+void trap_draw(const mw_mesh *mesh, trap_place place, double *queries, size_t n, uint64_t seed);
+
+#endif

@@ -1,0 +1,353 @@
+#include "io/netcdf/netcdf_file.h"
+
+#include "io/netcdf/netcdf_library.h"
+#include "io/text/byte_source.h"
+#include "io/text/system_error.h"
+
+#include <errno.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Longest text of an attribute that is taken; a CRS as WKT is the longest of use. */
+enum { TEXT_LIMIT = 1 << 16 };
+
+typedef struct netcdf_dimension {
+    size_t length;
+    char name[MW_NETCDF_NAME];
+} netcdf_dimension;
+
+struct mw_netcdf {
+    mw_netcdf_functions nc;
+    int id;
+    bool open;
+    char *name;
+    mw_netcdf_variable *variables;
+    size_t variable_count;
+    netcdf_dimension *dimensions;
+    size_t dimension_count;
+};
+
+bool mw__netcdf_begins(const char *head, size_t size)
+{
+    if (size >= 8 && memcmp(head, "\211HDF\r\n\032\n", 8) == 0) return true;
+    return size >= 4 && memcmp(head, "CDF", 3) == 0 &&
+           (head[3] == 1 || head[3] == 2 || head[3] == 5);
+}
+
+mw_status mw__netcdf_fail(const mw_netcdf *file, const mw_netcdf_variable *variable,
+                          mw_error *error, const char *format, ...)
+{
+    if (!error) return MW_ERROR_INPUT;
+    char message[256];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(message, sizeof message, format, arguments);
+    va_end(arguments);
+    if (variable)
+        mw__fail(error, MW_ERROR_INPUT, "%.160s: variable %.64s: %s", file->name, variable->name,
+                 message);
+    else
+        mw__fail(error, MW_ERROR_INPUT, "%.240s: %s", file->name, message);
+    mw__message_clean(error->message);
+    return MW_ERROR_INPUT;
+}
+
+/* What libnetcdf says of a code. Codes above 0 are those of the system; a file that ends too early
+ * gives such a one, too. */
+static mw_status netcdf_file_refuse(const mw_netcdf *file, const mw_netcdf_variable *variable,
+                                    int code, mw_error *error)
+{
+    static const int refusals[] = {ENOENT, EACCES, EPERM, EISDIR, EMFILE, ENFILE};
+    if (code == NETCDF_NO_MEMORY || code == ENOMEM) return mw__fail_memory(error);
+    for (size_t i = 0; i < sizeof refusals / sizeof *refusals; i++)
+        if (code == refusals[i]) return mw__fail_system(file->name, code, error);
+    if (code > 0) return mw__netcdf_fail(file, variable, error, "damaged, or not all of the file");
+    return mw__netcdf_fail(file, variable, error, "%s", file->nc.nc_strerror(code));
+}
+
+static mw_status netcdf_file_dimensions(mw_netcdf *file, mw_error *error)
+{
+    file->dimensions = mw__calloc(file->dimension_count, sizeof *file->dimensions);
+    if (!file->dimensions) return mw__fail_memory(error);
+    for (size_t i = 0; i < file->dimension_count; i++) {
+        netcdf_dimension *dimension = &file->dimensions[i];
+        int code = file->nc.nc_inq_dim(file->id, (int)i, dimension->name, &dimension->length);
+        if (code) return netcdf_file_refuse(file, NULL, code, error);
+    }
+    return MW_OK;
+}
+
+static mw_status netcdf_file_variable(mw_netcdf *file, size_t i, mw_error *error)
+{
+    mw_netcdf_variable *variable = &file->variables[i];
+    int type = 0, rank = 0, code;
+    variable->id = (int)i;
+    code = file->nc.nc_inq_var(file->id, (int)i, variable->name, &type, &rank, NULL, NULL);
+    variable->type = (mw_netcdf_type)type;
+    variable->rank = (size_t)rank;
+    if (!code && variable->rank <= MW_NETCDF_RANK)
+        code = file->nc.nc_inq_vardimid(file->id, (int)i, variable->dimensions);
+    if (code) return netcdf_file_refuse(file, NULL, code, error);
+    for (size_t k = 0; k < variable->rank && variable->rank <= MW_NETCDF_RANK; k++) {
+        size_t dimension = (size_t)variable->dimensions[k];
+        if (dimension >= file->dimension_count)
+            return mw__netcdf_fail(file, variable, error, "its dimensions are in another group");
+        variable->lengths[k] = file->dimensions[dimension].length;
+    }
+    return MW_OK;
+}
+
+/* All that can be asked for by name is asked for once. */
+static mw_status netcdf_file_inquire(mw_netcdf *file, mw_error *error)
+{
+    int dimensions = 0, variables = 0;
+    int code = file->nc.nc_inq(file->id, &dimensions, &variables, NULL, NULL);
+    if (code) return netcdf_file_refuse(file, NULL, code, error);
+    file->dimension_count = (size_t)dimensions;
+    file->variable_count = (size_t)variables;
+    file->variables = mw__calloc(file->variable_count, sizeof *file->variables);
+    if (!file->variables) return mw__fail_memory(error);
+    mw_status status = netcdf_file_dimensions(file, error);
+    for (size_t i = 0; !status && i < file->variable_count; i++)
+        status = netcdf_file_variable(file, i, error);
+    return status;
+}
+
+static mw_status netcdf_file_start(const char *name, mw_netcdf **out, mw_error *error)
+{
+    *out = NULL;
+    mw_netcdf *file = mw__calloc(1, sizeof *file);
+    char *copy = strdup(name);
+    mw_status status = file && copy ? mw__netcdf_load(name, &file->nc, error) : MW_ERROR_MEMORY;
+    if (status) {
+        if (!file || !copy) mw__fail_memory(error);
+        free(copy);
+        free(file);
+        return status;
+    }
+    file->name = copy;
+    *out = file;
+    return MW_OK;
+}
+
+static mw_status netcdf_file_finish(mw_netcdf **out, int code, mw_error *error)
+{
+    mw_netcdf *file = *out;
+    file->open = code == 0;
+    mw_status status =
+        code ? netcdf_file_refuse(file, NULL, code, error) : netcdf_file_inquire(file, error);
+    mw__netcdf_unlock();
+    if (!status) return MW_OK;
+    mw__netcdf_close(file);
+    *out = NULL;
+    return status;
+}
+
+/* libnetcdf takes a name such as http://... for the address of a server. */
+static char *netcdf_file_plain_path(const char *path)
+{
+    size_t length = strlen(path) + 3;
+    char *plain = mw__alloc(length, 1);
+    if (plain) snprintf(plain, length, "%s%s", path[0] == '/' ? "" : "./", path);
+    return plain;
+}
+
+mw_status mw__netcdf_open(const char *path, mw_netcdf **out, mw_error *error)
+{
+    char *plain = netcdf_file_plain_path(path);
+    if (!plain) return mw__fail_memory(error);
+    mw_status status = netcdf_file_start(path, out, error);
+    if (!status) {
+        mw__netcdf_lock(&(*out)->nc);
+        int code = (*out)->nc.nc_open(plain, NETCDF_READ, &(*out)->id);
+        status = netcdf_file_finish(out, code, error);
+    }
+    free(plain);
+    return status;
+}
+
+mw_status mw__netcdf_open_memory(const char *name, void *bytes, size_t size, mw_netcdf **out,
+                                 mw_error *error)
+{
+    mw_status status = netcdf_file_start(name, out, error);
+    if (status) return status;
+    mw__netcdf_lock(&(*out)->nc);
+    int code = (*out)->nc.nc_open_mem("memory", NETCDF_READ, size, bytes, &(*out)->id);
+    return netcdf_file_finish(out, code, error);
+}
+
+void mw__netcdf_close(mw_netcdf *file)
+{
+    if (!file) return;
+    mw__netcdf_lock(&file->nc);
+    if (file->open) file->nc.nc_close(file->id);
+    mw__netcdf_unlock();
+    free(file->variables);
+    free(file->dimensions);
+    free(file->name);
+    free(file);
+}
+
+const char *mw__netcdf_name(const mw_netcdf *file)
+{
+    return file->name;
+}
+
+size_t mw__netcdf_variable_count(const mw_netcdf *file)
+{
+    return file->variable_count;
+}
+
+const mw_netcdf_variable *mw__netcdf_variable_at(const mw_netcdf *file, size_t i)
+{
+    return &file->variables[i];
+}
+
+const mw_netcdf_variable *mw__netcdf_find(const mw_netcdf *file, const char *name)
+{
+    for (size_t i = 0; i < file->variable_count; i++)
+        if (strcmp(file->variables[i].name, name) == 0) return &file->variables[i];
+    return NULL;
+}
+
+mw_status mw__netcdf_need(const mw_netcdf *file, const char *name, const mw_netcdf_variable **out,
+                          mw_error *error)
+{
+    *out = mw__netcdf_find(file, name);
+    if (*out) return MW_OK;
+    return mw__netcdf_fail(file, NULL, error, "there is no variable '%.80s'", name);
+}
+
+size_t mw__netcdf_dimension_count(const mw_netcdf *file)
+{
+    return file->dimension_count;
+}
+
+const char *mw__netcdf_dimension_at(const mw_netcdf *file, int dimension, size_t *length)
+{
+    if (length) *length = file->dimensions[dimension].length;
+    return file->dimensions[dimension].name;
+}
+
+int mw__netcdf_dimension_find(const mw_netcdf *file, const char *name, size_t *length)
+{
+    for (size_t i = 0; i < file->dimension_count; i++)
+        if (strcmp(file->dimensions[i].name, name) == 0) {
+            if (length) *length = file->dimensions[i].length;
+            return (int)i;
+        }
+    return -1;
+}
+
+static int netcdf_file_id(const mw_netcdf_variable *variable)
+{
+    return variable ? variable->id : NETCDF_GLOBAL;
+}
+
+/* A text of the type that netCDF-4 has for them; an attribute may hold several. */
+static int netcdf_file_string(const mw_netcdf *file, int id, const char *attribute, size_t count,
+                              char **text)
+{
+    char *first = NULL;
+    if (count != 1) return 0;
+    int code = file->nc.nc_get_att_string(file->id, id, attribute, &first);
+    if (code) return code;
+    if (first && strlen(first) <= TEXT_LIMIT) {
+        *text = strdup(first);
+        code = *text ? 0 : NETCDF_NO_MEMORY;
+    }
+    file->nc.nc_free_string(1, &first);
+    return code;
+}
+
+static int netcdf_file_text(const mw_netcdf *file, int id, const char *attribute, char **text)
+{
+    int type = 0;
+    size_t length = 0;
+    int code = file->nc.nc_inq_att(file->id, id, attribute, &type, &length);
+    if (code) return code == NETCDF_NO_ATTRIBUTE ? 0 : code;
+    if (type == MW_NETCDF_STRING) return netcdf_file_string(file, id, attribute, length, text);
+    if (type != MW_NETCDF_CHAR || length > TEXT_LIMIT) return 0;
+    char *copy = mw__alloc(length + 1, 1);
+    if (!copy) return NETCDF_NO_MEMORY;
+    code = file->nc.nc_get_att_text(file->id, id, attribute, copy);
+    copy[length] = 0;
+    *text = code ? NULL : copy;
+    if (code) free(copy);
+    return code;
+}
+
+mw_status mw__netcdf_text(const mw_netcdf *file, const mw_netcdf_variable *variable,
+                          const char *attribute, char **text, mw_error *error)
+{
+    *text = NULL;
+    mw__netcdf_lock(&file->nc);
+    int code = netcdf_file_text(file, netcdf_file_id(variable), attribute, text);
+    mw_status status = code ? netcdf_file_refuse(file, variable, code, error) : MW_OK;
+    mw__netcdf_unlock();
+    return status;
+}
+
+bool mw__netcdf_number(const mw_netcdf *file, const mw_netcdf_variable *variable,
+                       const char *attribute, double *value)
+{
+    int type = 0, id = netcdf_file_id(variable);
+    size_t length = 0;
+    mw__netcdf_lock(&file->nc);
+    int code = file->nc.nc_inq_att(file->id, id, attribute, &type, &length);
+    bool number =
+        !code && length == 1 && type != MW_NETCDF_CHAR && type > 0 && type < MW_NETCDF_STRING;
+    if (number) number = file->nc.nc_get_att_double(file->id, id, attribute, value) == 0;
+    mw__netcdf_unlock();
+    return number;
+}
+
+static mw_status netcdf_file_check_numbers(const mw_netcdf *file,
+                                           const mw_netcdf_variable *variable, mw_error *error)
+{
+    if (variable->type != MW_NETCDF_CHAR && variable->type < MW_NETCDF_STRING) return MW_OK;
+    return mw__netcdf_fail(file, variable, error, "it holds no numbers");
+}
+
+mw_status mw__netcdf_doubles(const mw_netcdf *file, const mw_netcdf_variable *variable,
+                             const size_t *starts, const size_t *counts, double *values,
+                             mw_error *error)
+{
+    mw_status status = netcdf_file_check_numbers(file, variable, error);
+    if (status) return status;
+    mw__netcdf_lock(&file->nc);
+    int code = file->nc.nc_get_vara_double(file->id, variable->id, starts, counts, values);
+    if (code) status = netcdf_file_refuse(file, variable, code, error);
+    mw__netcdf_unlock();
+    return status;
+}
+
+mw_status mw__netcdf_integers(const mw_netcdf *file, const mw_netcdf_variable *variable,
+                              const size_t *starts, const size_t *counts, int64_t *values,
+                              mw_error *error)
+{
+    _Static_assert(sizeof(long long) == sizeof *values, "both have 64 bits");
+    mw_status status = netcdf_file_check_numbers(file, variable, error);
+    if (status) return status;
+    mw__netcdf_lock(&file->nc);
+    int code =
+        file->nc.nc_get_vara_longlong(file->id, variable->id, starts, counts, (void *)values);
+    if (code) status = netcdf_file_refuse(file, variable, code, error);
+    mw__netcdf_unlock();
+    return status;
+}
+
+mw_status mw__netcdf_characters(const mw_netcdf *file, const mw_netcdf_variable *variable,
+                                const size_t *starts, const size_t *counts, char *text,
+                                mw_error *error)
+{
+    if (variable->type != MW_NETCDF_CHAR)
+        return mw__netcdf_fail(file, variable, error, "it holds no text");
+    mw__netcdf_lock(&file->nc);
+    int code = file->nc.nc_get_vara_text(file->id, variable->id, starts, counts, text);
+    mw_status status = code ? netcdf_file_refuse(file, variable, code, error) : MW_OK;
+    mw__netcdf_unlock();
+    return status;
+}
