@@ -408,6 +408,17 @@ static mw_status msh_read_elements(msh_mesh *m, mw_error *error)
 
 /* --- all of it --- */
 
+static mw_status msh_skip_lines(msh_mesh *m, const char *end, mw_error *error)
+{
+    char *line;
+    mw_status status;
+    do status = mw__source_line(msh_source(m), &line, error);
+    while (!status && line && strncmp(mw__skip_blanks(line), end, strlen(end)) != 0);
+    if (!status && !line)
+        status = mw__source_fail(msh_source(m), error, "the file ends before %s", end);
+    return status;
+}
+
 /* Pass over a section, whatever is in it: as bytes it may hold line ends and NULs, which no line
  * has, so its end is looked for byte by byte. */
 static mw_status msh_skip_section(msh_mesh *m, const char *name, mw_error *error)
@@ -418,6 +429,7 @@ static mw_status msh_skip_section(msh_mesh *m, const char *name, mw_error *error
     mw_status status = MW_OK;
     snprintf(end, sizeof end, "$End%s", name + 1);
     m->values.rest = NULL;
+    if (!m->values.binary) return msh_skip_lines(m, end, error);
     while (!status && end[matched]) {
         status = mw__source_bytes(msh_source(m), 1, &byte, error);
         if (!status) matched = *byte == (unsigned char)end[matched] ? matched + 1 : *byte == '$';
