@@ -2,7 +2,9 @@
 
 #include <math.h>
 #include <meshwalk/io.h>
+#include <meshwalk/operator.h>
 #include <meshwalk/polygons.h>
+#include <meshwalk/segment.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -466,6 +468,20 @@ static mw_status run_batch(const call_inputs *in, const call_setting *how, uint6
     return status;
 }
 
+/* From point to point. */
+static mw_status run_segments(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                              mw_error *error)
+{
+    mw_segment_pieces pieces;
+    mw_segment_options options = {.threads = how->threads, .progress = how->progress};
+    mw_status status =
+        mw_segment_batch(in->locator, in->points, in->point_count - 1, 2, &options, &pieces, error);
+    expect(!status == (pieces.offset != NULL), "there are pieces");
+    for (size_t i = 0; i < pieces.piece_count; i++) sum_add(sum, pieces.piece[i].triangle);
+    mw_segment_pieces_release(&pieces);
+    return status;
+}
+
 static mw_status run_table(const call_inputs *in, const call_setting *how, uint64_t *sum,
                            mw_error *error)
 {
@@ -494,6 +510,90 @@ static mw_status borrow_run(const call_inputs *in, mw_borrow_options options, mw
     mw_borrowed_arrays foreign = {.mesh = arrays_view(&in->whole), .neighbours = in->neighbours};
     mw_status status = mw_mesh_borrow(&foreign, &options, mesh, error);
     expect(!status == (*mesh != NULL), "there is a borrowed mesh");
+    return status;
+}
+
+/* An operator that was made, or was not. */
+static mw_status operator_made(mw_status status, mw_operator *weights, uint64_t *sum)
+{
+    mw_operator_info info;
+    expect(!status == (weights != NULL), "there is an operator");
+    if (status) return status;
+    mw_operator_describe(weights, &info);
+    sum_add(sum, (uint64_t)info.rows << 32 | info.entries);
+    mw_operator_destroy(weights);
+    return MW_OK;
+}
+
+static mw_operator *operator_of(const call_inputs *in, const call_setting *how, mw_status *status,
+                                mw_error *error)
+{
+    mw_operator *weights = NULL;
+    mw_location *at = malloc(in->point_count * sizeof *at);
+    mw_query_options alone = {.threads = 1};
+    mw_operator_options options = {.threads = how->threads, .progress = how->progress};
+    expect_ok(mw_locate_batch(in->locator, in->points, in->point_count, 2, &alone, at, NULL, error),
+              "locations", error);
+    *status = mw_operator_create(in->mesh, at, in->point_count, &options, &weights, error);
+    free(at);
+    return weights;
+}
+
+static mw_status run_operator(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                              mw_error *error)
+{
+    mw_status status;
+    mw_operator *weights = operator_of(in, how, &status, error);
+    return operator_made(status, weights, sum);
+}
+
+static mw_status run_transpose(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                               mw_error *error)
+{
+    mw_status status;
+    mw_operator *turned = NULL, *weights = operator_of(in, &(call_setting){0}, &status, error);
+    mw_operator_options options = {.threads = how->threads, .progress = how->progress};
+    status = mw_operator_transpose(weights, &options, &turned, error);
+    mw_operator_destroy(weights);
+    return operator_made(status, turned, sum);
+}
+
+static mw_status run_operator_entries(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                                      mw_error *error)
+{
+    mw_operator *weights;
+    double *ones = malloc(in->point_count * sizeof *ones);
+    uint32_t *number = malloc(in->point_count * sizeof *number);
+    for (uint32_t i = 0; i < in->point_count; i++) {
+        ones[i] = 1;
+        number[i] = i;
+    }
+    mw_operator_entries entries = {.row = number,
+                                   .column = number,
+                                   .weight = ones,
+                                   .count = in->point_count,
+                                   .rows = in->point_count,
+                                   .columns = in->point_count};
+    mw_operator_options options = {.threads = how->threads, .progress = how->progress};
+    mw_status status = mw_operator_create_from_entries(&entries, &options, &weights, error);
+    free(number);
+    free(ones);
+    return operator_made(status, weights, sum);
+}
+
+static mw_status run_operator_apply(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                                    mw_error *error)
+{
+    mw_status status;
+    mw_operator *weights = operator_of(in, &(call_setting){0}, &status, error);
+    double *result = malloc(2 * in->point_count * sizeof *result);
+    mw_value_table table = {.values = in->points, .count = 2};
+    mw_operator_apply_options options = {.threads = how->threads, .progress = how->progress};
+    status = mw_operator_apply(weights, &table, &options, result, error);
+    for (uint32_t i = 0; i < in->point_count && !status; i++)
+        sum_add(sum, (uint64_t)(result[2 * i] * 1e9));
+    free(result);
+    mw_operator_destroy(weights);
     return status;
 }
 
@@ -793,7 +893,12 @@ const long_call long_calls[] = {
     {"mw_index_create, triangle buckets", run_index_triangle_buckets},
     {"mw_index_create, kd tree", run_index_kd_tree},
     {"mw_locate_batch", run_batch},
+    {"mw_segment_batch", run_segments},
     {"mw_interpolate_table", run_table},
+    {"mw_operator_create", run_operator},
+    {"mw_operator_create_from_entries", run_operator_entries},
+    {"mw_operator_transpose", run_transpose},
+    {"mw_operator_apply", run_operator_apply},
     {"mw_mesh_borrow", run_borrow},
     {"mw_borrowed_locate_batch", run_borrowed_batch},
     {"mw_editor_create", run_editor},

@@ -1,0 +1,40 @@
+/* place_order.c - rows that read the same values come one after the other. */
+#include "operator/place_order.h"
+
+#include "base/hilbert.h"
+
+#include <stdlib.h>
+
+enum { NEAR = 1024 }; /* keys that differ by less than this read about the same memory */
+
+/* Whether at least seven of eight rows read near the row before them. */
+static bool order_is_there(const uint32_t *key, uint32_t rows)
+{
+    uint32_t far = 0, last = MW_NONE;
+    for (uint32_t i = 0; i < rows; i++) {
+        if (key[i] == MW_NONE) continue;
+        const uint32_t apart = key[i] > last ? key[i] - last : last - key[i];
+        if (last != MW_NONE && apart >= NEAR) far++;
+        last = key[i];
+    }
+    return far <= rows / 8;
+}
+
+bool mw__place_order(const uint32_t *key, uint32_t rows, uint32_t **row)
+{
+    *row = NULL;
+    if (order_is_there(key, rows)) return true;
+    mw_key *keys = mw__alloc(rows, sizeof *keys), *scratch = mw__alloc(rows, sizeof *scratch);
+    uint32_t *order = mw__alloc(rows, sizeof *order);
+    const bool made = keys && scratch && order;
+    for (uint32_t i = 0; i < rows && made; i++) keys[i] = (mw_key){key[i], i};
+    if (made) mw__sort_keys(keys, scratch, rows);
+    for (uint32_t i = 0; i < rows && made; i++) order[i] = keys[i].item;
+    free(keys);
+    free(scratch);
+    if (made)
+        *row = order;
+    else
+        free(order);
+    return made;
+}
