@@ -95,10 +95,25 @@ typedef struct mw_file_options {
  * - OFF: with normals, colours or texture coordinates, which are ignored
  * - OBJ: v and f; everything else is ignored
  * - PLY: text, little- and big-endian; other numbers of the vertices become fields; also triangle
- * strips - STL: text and binary; corners with equal coordinates become one vertex (-0.0 equals 0.0)
+ *   strips
+ * - STL: text and binary; corners with equal coordinates become one vertex (-0.0 equals 0.0)
  * - .node and .ele of Triangle: `path` names either, or both without ending; numbered from 0 or 1.
  *   Attributes become fields "attribute1", ..., unless a comment "# attributes: NAME, NAME" at the
  *   top names them; one named z is the height
+ * - fort.14 of ADCIRC (.14, .grd) and .gr3, .ll of SCHISM: the depth, positive downwards, becomes
+ *   the field "depth"; open and land boundaries mark edges; .ll is in longitudes and latitudes
+ * - 2DM of SMS: triangles and quadrilaterals, counted in the order of their numbers; the material
+ *   becomes the triangle field "material"
+ * - Selafin of TELEMAC (.slf): either byte order, single and double precision; the variables at the
+ *   first time become fields
+ * - MSH of Gmsh, 2.2, 4.0 and 4.1: text and binary; physical groups of faces become the triangle
+ *   field "physical", those of lines mark edges
+ * - VTK: legacy unstructured grids and polydata, text and binary; VTU: text, base64 and raw, with
+ *   zlib or without. Values of points become fields, those of cells triangle fields
+ * - SU2 in the plane; markers mark edges
+ * - NPZ of NumPy: arrays "points" and "triangles"; others of the length of one of these are values
+ *
+ * Volumes, lines and vertices among the cells are passed over; cells of higher order are refused.
  *
  * @param path     the file; "-": standard input
  * @param options  NULL selects the defaults

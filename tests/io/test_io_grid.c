@@ -55,10 +55,10 @@ static void expect_grid_bytes(const char *name, grid_bytes g, const grid_wanted 
 }
 
 #define FORT14_XY "1 0 0 0\n2 2 0 10\n3 2 2 20\n4 0 2 30\n5 4 0 4D1\n"
-static const char fort14_text[] = "a title\n2 5 ! elements, vertices\n" FORT14_XY
-                                  "1 4 1 2 3 4\n2 3 2 5 3\n"
-                                  "1 = open\n2\n2 ! boundary 1\n4\n1\n"
-                                  "1 = land\n3\n3 24 ! a barrier\n1 2 0.5\n2 3 0.5\n5 4 0.5\n";
+static const char fort14_text[] =
+    "a title\n2 5 ! elements, vertices\n" FORT14_XY "1 4 1 2 3 4\n2 3 2 5 3\n"
+    "1 = open\n2\n2 ! boundary 1\n4\n1\n"
+    "1 = land\n3\n3 24 ! a barrier\n1 2 0.5\n2 3 0.5\n5 4 0.5\n";
 
 static void test_fort14(void **state)
 {
@@ -87,8 +87,9 @@ static void test_fort14(void **state)
         mw_mesh_file_release(&file);
     }
     /* neither boundaries nor their types need be there */
-    mw_mesh_file file = mesh_file_read_text("a.gr3", "\n1 3\n1 0 0 -5\n2 1 0 1\n3 0 1 1\n1 3 1 2 3\n"
-                                                     "0\n0\n1\n2\n2 = land boundary 1\n1\n2\n");
+    mw_mesh_file file =
+        mesh_file_read_text("a.gr3", "\n1 3\n1 0 0 -5\n2 1 0 1\n3 0 1 1\n1 3 1 2 3\n"
+                                     "0\n0\n1\n2\n2 = land boundary 1\n1\n2\n");
     assert_true(file.fields[0][0] == -5);
     assert_string_equal(file.mark_names[0], "land 1 type 0");
     mw_mesh_file_release(&file);
@@ -114,7 +115,8 @@ static void test_2dm(void **state)
     assert_string_equal(file.triangle_field_names[0], "material");
     assert_true(file.triangle_fields[0][1] == 7 && file.triangle_fields[0][2] == 0);
     mw_mesh_file_release(&file);
-    file = mesh_file_read_text("a.txt", "MESH2D\nND 1 0 0 0\nND 2 1 0 0\nND 3 0 1 0\nE3T 1 1 2 3\n");
+    file =
+        mesh_file_read_text("a.txt", "MESH2D\nND 1 0 0 0\nND 2 1 0 0\nND 3 0 1 0\nE3T 1 1 2 3\n");
     assert_int_equal(file.triangle_field_count, 0);
     mw_mesh_file_release(&file);
 }
@@ -188,7 +190,8 @@ static void test_selafin(void **state)
 }
 
 static const char vtk_text[] =
-    "# vtk DataFile Version 2.0\na test\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 5 float\n0 0 0 2\n"
+    "# vtk DataFile Version 2.0\na test\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 5 float\n0 0 0 "
+    "2\n"
     "0 0 2 2 0 0 2 0 4 0 0\nCELLS 3 12\n4 0 1 2 3\n2 0 1\n3 1 4 2\nCELL_TYPES 3\n9 3 5\n"
     "CELL_DATA 3\nSCALARS physical int 1\nLOOKUP_TABLE default\n7 8 0\n"
     "POINT_DATA 5\nFIELD FieldData 1\nq 1 5 double\n0 10 20 30 40\nMETADATA\nINFORMATION 0\n\n";
@@ -322,9 +325,10 @@ static void test_damaged(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_fort14),  cmocka_unit_test(test_2dm), cmocka_unit_test(test_su2),
-        cmocka_unit_test(test_msh),     cmocka_unit_test(test_selafin),
-        cmocka_unit_test(test_vtk),     cmocka_unit_test(test_vtu), cmocka_unit_test(test_npz),
+        cmocka_unit_test(test_fort14),  cmocka_unit_test(test_2dm),
+        cmocka_unit_test(test_su2),     cmocka_unit_test(test_msh),
+        cmocka_unit_test(test_selafin), cmocka_unit_test(test_vtk),
+        cmocka_unit_test(test_vtu),     cmocka_unit_test(test_npz),
         cmocka_unit_test(test_damaged),
     };
     return cmocka_run_group_tests(tests, files_enter, files_leave);

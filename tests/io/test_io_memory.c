@@ -274,7 +274,8 @@ static void test_write(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_read_meshes), cmocka_unit_test(test_read_grids), cmocka_unit_test(test_read_points),
-        cmocka_unit_test(test_read_edits), cmocka_unit_test(test_write)};
+        cmocka_unit_test(test_read_meshes), cmocka_unit_test(test_read_grids),
+        cmocka_unit_test(test_read_points), cmocka_unit_test(test_read_edits),
+        cmocka_unit_test(test_write)};
     return cmocka_run_group_tests(tests, files_enter, files_leave);
 }

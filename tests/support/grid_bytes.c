@@ -308,9 +308,10 @@ grid_bytes grid_vtu(grid_form form, bool text)
         grid_real(&q, 10 * v, form.wide, form.big);
     }
     const char *real = form.wide ? "Float64" : "Float32";
-    grid_text(&g, "<?xml version=\"1.0\"?>\n<!-- a > test -->\n<VTKFile type=\"UnstructuredGrid\" "
-                  "version=\"1.0\" byte_order=\"%s\" header_type=\"%s\"%s>\n<UnstructuredGrid>\n"
-                  "<Piece NumberOfPoints=\"5\" NumberOfCells=\"3\">\n<PointData>\n",
+    grid_text(&g,
+              "<?xml version=\"1.0\"?>\n<!-- a > test -->\n<VTKFile type=\"UnstructuredGrid\" "
+              "version=\"1.0\" byte_order=\"%s\" header_type=\"%s\"%s>\n<UnstructuredGrid>\n"
+              "<Piece NumberOfPoints=\"5\" NumberOfCells=\"3\">\n<PointData>\n",
               form.big ? "BigEndian" : "LittleEndian", form.wide ? "UInt64" : "UInt32",
               form.packed ? " compressor=\"vtkZLibDataCompressor\"" : "");
     grid_vtu_array(&g, &end, real, "q", q, form, text);

@@ -87,16 +87,15 @@ static mw_status cells_build_cell(const mw_cell_builder *cells, size_t i, mw_mes
     if (end < begin)
         return mw__source_fail(builder->source, error, "cell %zu ends before it begins", i);
     if (wanted && count != wanted)
-        return mw__source_fail(builder->source, error, "cell %zu of type %" PRId64 " has %zu corners",
-                               i, type, count);
+        return mw__source_fail(builder->source, error,
+                               "cell %zu of type %" PRId64 " has %zu corners", i, type, count);
     if (type == MW_CELL_STRIP) return cells_build_strip(corner, count, builder, error);
     if (type == MW_CELL_TRIANGLE || type == MW_CELL_POLYGON || type == MW_CELL_QUAD ||
         type == MW_CELL_PIXEL)
         return cells_build_face(corner, count, type == MW_CELL_PIXEL, builder, error);
     if (type > MW_CELL_LAST_LINEAR || type < 0)
         return mw__source_fail(builder->source, error,
-                               "cell %zu: cells of type %" PRId64
-                               " are not read, only linear ones",
+                               "cell %zu: cells of type %" PRId64 " are not read, only linear ones",
                                i, type);
     return MW_OK;
 }

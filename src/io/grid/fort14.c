@@ -171,8 +171,9 @@ mw_status mw__read_fort14(mw_source *source, mw_mesh_builder *builder, mw_error 
     mw_status status = mw__source_line(source, &line, error); /* the title */
     if (!status) status = mw__source_line(source, &line, error);
     if (!status && !line)
-        status = mw__source_fail(source, error, "no line with the numbers of elements and "
-                                                "vertices");
+        status = mw__source_fail(source, error,
+                                 "no line with the numbers of elements and "
+                                 "vertices");
     if (status) return status;
     mw_number_row row = {source, line};
     status = mw__row_integer(&row, "number of elements", &elements, error);

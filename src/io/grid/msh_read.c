@@ -155,8 +155,7 @@ static mw_status msh_read_entity(msh_mesh *m, int64_t dimension, mw_error *error
     msh_group entity = {.dimension = dimension};
     int64_t count, ignored;
     mw_status status = msh_integer(m, "number of an entity", &entity.number, error);
-    if (!status)
-        status = msh_skip_reals(m, dimension == 0 && m->version == 41 ? 3 : 6, error);
+    if (!status) status = msh_skip_reals(m, dimension == 0 && m->version == 41 ? 3 : 6, error);
     if (!status) status = msh_count(m, "number of groups", &count, error);
     for (int64_t i = 0; !status && i < count; i++) {
         status = msh_integer(m, "physical group", i == 0 ? &entity.physical : &ignored, error);
@@ -190,9 +189,9 @@ static int msh_compare_groups(const void *one, const void *other)
 static const msh_group *msh_find_group(const msh_groups *groups, int64_t dimension, int64_t number)
 {
     const msh_group wanted = {.dimension = dimension, .number = number};
-    return groups->count ? bsearch(&wanted, groups->items, groups->count, sizeof wanted,
-                                   msh_compare_groups)
-                         : NULL;
+    return groups->count
+               ? bsearch(&wanted, groups->items, groups->count, sizeof wanted, msh_compare_groups)
+               : NULL;
 }
 
 static void msh_sort_groups(msh_groups *groups)
@@ -225,8 +224,7 @@ static mw_status msh_read_vertex_block(msh_mesh *m, mw_error *error)
     int64_t dimension, ignored, parametric, count, number;
     mw_status status = msh_integer(m, m->version == 41 ? "dimension" : "number of an entity",
                                    m->version == 41 ? &dimension : &ignored, error);
-    if (!status)
-        status = msh_integer(m, "entity", m->version == 41 ? &ignored : &dimension, error);
+    if (!status) status = msh_integer(m, "entity", m->version == 41 ? &ignored : &dimension, error);
     if (!status) status = msh_integer(m, "kind of vertices", &parametric, error);
     if (!status) status = msh_count(m, "number of vertices", &count, error);
     for (int64_t i = 0; !status && m->version == 41 && i < count; i++) {
@@ -288,9 +286,9 @@ enum { MSH_LINE = 1, MSH_TRIANGLE = 2, MSH_QUADRILATERAL = 3, MSH_TYPE_COUNT = 3
 /* How many vertices an element of a type has; 0: not known. */
 static int msh_corners(int64_t type)
 {
-    static const uint8_t counts[MSH_TYPE_COUNT] = {0,  2,  3,  4,  4,  8,  6,  5,  3,  6, 9,
-                                                   10, 27, 18, 14, 1,  8,  20, 15, 13, 9, 10,
-                                                   12, 15, 15, 21, 4,  5,  6,  20, 35, 56};
+    static const uint8_t counts[MSH_TYPE_COUNT] = {0,  2,  3,  4,  4, 8, 6,  5,  3,  6, 9,
+                                                   10, 27, 18, 14, 1, 8, 20, 15, 13, 9, 10,
+                                                   12, 15, 15, 21, 4, 5, 6,  20, 35, 56};
     return type > 0 && type < MSH_TYPE_COUNT ? counts[type] : 0;
 }
 
@@ -391,9 +389,9 @@ static mw_status msh_read_elements(msh_mesh *m, mw_error *error)
 {
     int64_t blocks, ignored;
     if (!m->have_nodes || m->have_elements)
-        return mw__source_fail(msh_source(m), error, m->have_nodes
-                                                         ? "the elements come a second time"
-                                                         : "elements before the vertices");
+        return mw__source_fail(msh_source(m), error,
+                               m->have_nodes ? "the elements come a second time"
+                                             : "elements before the vertices");
     m->have_elements = true;
     msh_sort_groups(&m->entities);
     mw_status status = msh_sort_vertices(m, error);
@@ -466,8 +464,8 @@ static mw_status msh_read_section(msh_mesh *m, const char *word, mw_error *error
     for (size_t i = 0; i < sizeof sections / sizeof *sections; i++) {
         if (strcmp(name, sections[i].name) != 0) continue;
         if ((i == 0) != (m->version == 0))
-            return mw__source_fail(msh_source(m), error, i == 0 ? "a second $MeshFormat"
-                                                                : "no $MeshFormat before this");
+            return mw__source_fail(msh_source(m), error,
+                                   i == 0 ? "a second $MeshFormat" : "no $MeshFormat before this");
         mw_status status = sections[i].read(m, error);
         return status ? status : msh_end_section(m, name, error);
     }

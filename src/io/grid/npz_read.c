@@ -71,7 +71,8 @@ static mw_status zip_find_data(const npz_file *z, const unsigned char *entry, si
     size_t local = mw__get_u32(entry + 42);
     *size = mw__get_u32(entry + 20);
     if (local > z->file.size || z->file.size - local < ZIP_LOCAL || !zip_is(z, local, 0x04034b50))
-        return npz_fail(z, local, error, "%s", "an entry of the zip file is not where it should be");
+        return npz_fail(z, local, error, "%s",
+                        "an entry of the zip file is not where it should be");
     const unsigned char *head = z->file.bytes + local;
     *begin = local + ZIP_LOCAL + mw__get_u16(head + 26) + mw__get_u16(head + 28);
     if (*begin > z->file.size || *size > z->file.size - *begin)
@@ -101,8 +102,8 @@ static mw_status zip_read_entry(npz_file *z, npz_array *a, mw_error *error)
     unsigned method = mw__get_u16(entry + 10);
     if (method == 8) {
         bool sound;
-        status = mw__bytes_unpack(&a->own, a->data, size, true, mw__get_u32(entry + 24), &sound,
-                                  error);
+        status =
+            mw__bytes_unpack(&a->own, a->data, size, true, mw__get_u32(entry + 24), &sound, error);
         if (!status && !sound)
             status = npz_fail(z, begin, error, "%s: the packed data are damaged", a->name);
         a->data = a->own.bytes;
@@ -273,8 +274,7 @@ static mw_status npz_take_values(const npz_file *z, const npz_array *a, mw_error
     mw_status status = MW_OK;
     if (a->dimensions < 1 || a->columns > 16 || a->rows == 0) return MW_OK;
     if (a->rows != file->point_count && a->rows != file->face_count) return MW_OK;
-    for (size_t k = 0; !status && k < a->columns; k++)
-        status = npz_take_column(z, a, k, error);
+    for (size_t k = 0; !status && k < a->columns; k++) status = npz_take_column(z, a, k, error);
     return status;
 }
 

@@ -38,7 +38,7 @@ typedef struct rank_pair {
     size_t position;
 } rank_pair;
 
-static int rank_compare(const void *one, const void *other)
+static int ranks_compare_pairs(const void *one, const void *other)
 {
     const rank_pair *a = one, *b = other;
     if (a->number != b->number) return a->number < b->number ? -1 : 1;
@@ -64,7 +64,7 @@ mw_status mw__ranks_sort(mw_rank_list *ranks, size_t *twice, mw_error *error)
         return mw__fail_memory(error);
     }
     for (size_t i = 0; i < list->count; i++) pairs[i] = (rank_pair){list->values[i], i};
-    qsort(pairs, list->count, sizeof *pairs, rank_compare);
+    qsort(pairs, list->count, sizeof *pairs, ranks_compare_pairs);
     for (size_t i = 0; i < list->count; i++) {
         list->values[i] = pairs[i].number;
         ranks->order[i] = pairs[i].position;

@@ -106,13 +106,12 @@ mw_status mw__selafin_start(mw_selafin *s, mw_source *source, mw_error *error)
     mw_status status = selafin_read_title(s, error);
     if (!status) status = selafin_integers(s, "numbers of variables", counts, 2, error);
     if (!status && (counts[0] < 0 || counts[1] < 0 || counts[0] + counts[1] > MW_COLUMN_LIMIT))
-        status = mw__source_fail(source, error, "%" PRId64 " and %" PRId64 " variables",
-                                 counts[0], counts[1]);
+        status = mw__source_fail(source, error, "%" PRId64 " and %" PRId64 " variables", counts[0],
+                                 counts[1]);
     for (int64_t i = 0; !status && i < counts[0] + counts[1]; i++)
         status = selafin_read_name(s, error);
     if (!status) status = selafin_integers(s, "parameters", s->parameters, 10, error);
-    if (!status && s->parameters[9] == 1)
-        status = selafin_integers(s, "date", s->date, 6, error);
+    if (!status && s->parameters[9] == 1) status = selafin_integers(s, "date", s->date, 6, error);
     if (!status) status = selafin_integers(s, "numbers of the mesh", counts, 4, error);
     s->elements = counts[0];
     s->vertices = counts[1];
@@ -150,8 +149,7 @@ mw_status mw__selafin_values(mw_selafin *s, const char *what, double *values, si
                              mw_error *error)
 {
     uint64_t length;
-    mw_status status =
-        mw__selafin_record(s, (uint64_t)s->vertices * s->real, what, &length, error);
+    mw_status status = mw__selafin_record(s, (uint64_t)s->vertices * s->real, what, &length, error);
     for (int64_t v = 0; !status && v < s->vertices; v++)
         status = mw__selafin_real(s, &values[stride * (size_t)v], error);
     return status ? status : mw__selafin_record_end(s, length, error);
@@ -206,8 +204,7 @@ static mw_status selafin_read_points(mw_selafin *s, mw_mesh_builder *builder, mw
     for (int64_t v = 0; !status && v < s->vertices; v++) {
         double x;
         status = mw__selafin_real(s, &x, error);
-        if (!status)
-            status = mw__build_point(builder, x + (double)s->parameters[2], 0, 0, error);
+        if (!status) status = mw__build_point(builder, x + (double)s->parameters[2], 0, 0, error);
     }
     if (!status) status = mw__selafin_record_end(s, length, error);
     builder->points_complete = true;

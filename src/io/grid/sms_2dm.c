@@ -112,8 +112,8 @@ static mw_status sms_build_vertices(const sms_mesh *m, mw_mesh_builder *builder,
     return status;
 }
 
-static mw_status sms_build_face(const sms_mesh *m, const int64_t *element,
-                                mw_mesh_builder *builder, mw_error *error)
+static mw_status sms_build_face(const sms_mesh *m, const int64_t *element, mw_mesh_builder *builder,
+                                mw_error *error)
 {
     mw_status status = MW_OK;
     m->source->line = element[0]; /* errors name it */

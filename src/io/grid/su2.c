@@ -75,8 +75,8 @@ static mw_status su2_read_edge(mw_source *source, const char *line, mw_mesh_buil
     mw_status status = mw__row_integer(&row, "type of the edge", &type, error);
     if (!status && type == 1) return MW_OK; /* a vertex */
     if (!status && type != 3)
-        status = mw__source_fail(source, error,
-                                 "a marker of type %" PRId64 "; edges have type 3", type);
+        status =
+            mw__source_fail(source, error, "a marker of type %" PRId64 "; edges have type 3", type);
     if (!status) status = mw__row_integer(&row, "first vertex", &a, error);
     if (!status) status = mw__row_integer(&row, "second vertex", &b, error);
     return status ? status : mw__build_edge(builder, a, b, error);
@@ -134,8 +134,9 @@ static mw_status su2_read_key(mw_source *source, const char *line, mw_mesh_build
     if (!zones && !(value = su2_value(line, "NDIME"))) return MW_OK;
     status = su2_count(source, value, zones ? "number of zones" : "dimension", &number, error);
     if (!status && number != (zones ? 1 : 2))
-        status = mw__source_fail(source, error, zones ? "a mesh of several zones is not read"
-                                                      : "the mesh is not in the plane");
+        status = mw__source_fail(source, error,
+                                 zones ? "a mesh of several zones is not read"
+                                       : "the mesh is not in the plane");
     return status;
 }
 

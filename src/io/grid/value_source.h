@@ -11,7 +11,11 @@ typedef struct mw_value_source {
     bool binary, big; /* numbers are bytes, in which order */
 } mw_value_source;
 
-typedef enum mw_number_kind { MW_NUMBER_SIGNED, MW_NUMBER_UNSIGNED, MW_NUMBER_FLOAT } mw_number_kind;
+typedef enum mw_number_kind {
+    MW_NUMBER_SIGNED,
+    MW_NUMBER_UNSIGNED,
+    MW_NUMBER_FLOAT
+} mw_number_kind;
 typedef struct mw_number_type {
     mw_number_kind kind;
     size_t size; /* in bytes: 1, 2, 4 or 8 */

@@ -15,9 +15,9 @@ typedef struct vtk_mesh {
     mw_value_source values;
     mw_mesh_builder *builder;
     mw_cell_builder cells;
-    bool old;        /* before version 5: each cell begins with its count of corners */
-    int64_t tuples;  /* of the data section: points or cells */
-    bool cell_data;  /* that section is of cells */
+    bool old;       /* before version 5: each cell begins with its count of corners */
+    int64_t tuples; /* of the data section: points or cells */
+    bool cell_data; /* that section is of cells */
 } vtk_mesh;
 
 static mw_source *vtk_source(const vtk_mesh *m)
@@ -31,13 +31,13 @@ static mw_status vtk_type(vtk_mesh *m, const char *word, mw_number_type *type, m
         const char *name;
         mw_number_type type;
     } types[] = {
-        {"double", {MW_NUMBER_FLOAT, 8}},          {"float", {MW_NUMBER_FLOAT, 4}},
-        {"int", {MW_NUMBER_SIGNED, 4}},            {"unsigned_int", {MW_NUMBER_UNSIGNED, 4}},
-        {"long", {MW_NUMBER_SIGNED, 8}},           {"unsigned_long", {MW_NUMBER_UNSIGNED, 8}},
-        {"short", {MW_NUMBER_SIGNED, 2}},          {"unsigned_short", {MW_NUMBER_UNSIGNED, 2}},
-        {"char", {MW_NUMBER_SIGNED, 1}},           {"unsigned_char", {MW_NUMBER_UNSIGNED, 1}},
-        {"vtktypeint64", {MW_NUMBER_SIGNED, 8}},   {"vtktypeuint64", {MW_NUMBER_UNSIGNED, 8}},
-        {"vtktypeint32", {MW_NUMBER_SIGNED, 4}},   {"vtktypeuint32", {MW_NUMBER_UNSIGNED, 4}},
+        {"double", {MW_NUMBER_FLOAT, 8}},        {"float", {MW_NUMBER_FLOAT, 4}},
+        {"int", {MW_NUMBER_SIGNED, 4}},          {"unsigned_int", {MW_NUMBER_UNSIGNED, 4}},
+        {"long", {MW_NUMBER_SIGNED, 8}},         {"unsigned_long", {MW_NUMBER_UNSIGNED, 8}},
+        {"short", {MW_NUMBER_SIGNED, 2}},        {"unsigned_short", {MW_NUMBER_UNSIGNED, 2}},
+        {"char", {MW_NUMBER_SIGNED, 1}},         {"unsigned_char", {MW_NUMBER_UNSIGNED, 1}},
+        {"vtktypeint64", {MW_NUMBER_SIGNED, 8}}, {"vtktypeuint64", {MW_NUMBER_UNSIGNED, 8}},
+        {"vtktypeint32", {MW_NUMBER_SIGNED, 4}}, {"vtktypeuint32", {MW_NUMBER_UNSIGNED, 4}},
         {"vtkidtype", {MW_NUMBER_SIGNED, 4}},
     };
     for (size_t i = 0; word && i < sizeof types / sizeof *types; i++)
@@ -102,10 +102,9 @@ static mw_status vtk_read_old_cells(vtk_mesh *m, int64_t count, int64_t all, mw_
         int64_t corners, vertex;
         status = mw__value_integer(&m->values, integer, "number of corners", &corners, error);
         if (!status && (corners < 0 || corners > all))
-            status = mw__source_fail(vtk_source(m), error,
-                                     "a cell of %" PRId64 " corners where %" PRId64
-                                     " numbers are left",
-                                     corners, all);
+            status = mw__source_fail(
+                vtk_source(m), error,
+                "a cell of %" PRId64 " corners where %" PRId64 " numbers are left", corners, all);
         if (status) break;
         all -= corners + 1;
         for (int64_t k = 0; !status && k < corners; k++) {
@@ -345,10 +344,15 @@ typedef enum vtk_keyword {
 } vtk_keyword;
 
 static const char *const vtk_keywords[VTK_KEYWORD_COUNT] = {
-    "POINTS",     "CELLS",     "CELL_TYPES", "POLYGONS", "TRIANGLE_STRIPS",     "LINES",
-    "VERTICES",   "POINT_DATA", "CELL_DATA", "SCALARS",  "VECTORS",             "NORMALS",
-    "TENSORS",    "TEXTURE_COORDINATES",     "COLOR_SCALARS",
-    "FIELD",      "LOOKUP_TABLE",            "METADATA"};
+    "POINTS",          "CELLS",
+    "CELL_TYPES",      "POLYGONS",
+    "TRIANGLE_STRIPS", "LINES",
+    "VERTICES",        "POINT_DATA",
+    "CELL_DATA",       "SCALARS",
+    "VECTORS",         "NORMALS",
+    "TENSORS",         "TEXTURE_COORDINATES",
+    "COLOR_SCALARS",   "FIELD",
+    "LOOKUP_TABLE",    "METADATA"};
 
 static mw_status vtk_read_keyword(vtk_mesh *m, vtk_keyword keyword, mw_error *error)
 {

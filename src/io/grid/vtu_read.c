@@ -19,13 +19,7 @@ typedef struct vtu_tag {
     bool closing, empty; /* </name>, <name/> */
 } vtu_tag;
 
-typedef enum vtu_part {
-    VTU_NONE,
-    VTU_POINTS,
-    VTU_CELLS,
-    VTU_POINT_DATA,
-    VTU_CELL_DATA
-} vtu_part;
+typedef enum vtu_part { VTU_NONE, VTU_POINTS, VTU_CELLS, VTU_POINT_DATA, VTU_CELL_DATA } vtu_part;
 
 typedef struct vtu_mesh {
     mw_source *source;
@@ -140,11 +134,11 @@ static bool vtu_type(const char *name, mw_number_type *type)
     static const struct {
         const char *name;
         mw_number_type type;
-    } types[] = {{"Float64", {MW_NUMBER_FLOAT, 8}},  {"Float32", {MW_NUMBER_FLOAT, 4}},
-                 {"Int64", {MW_NUMBER_SIGNED, 8}},   {"UInt64", {MW_NUMBER_UNSIGNED, 8}},
-                 {"Int32", {MW_NUMBER_SIGNED, 4}},   {"UInt32", {MW_NUMBER_UNSIGNED, 4}},
-                 {"Int16", {MW_NUMBER_SIGNED, 2}},   {"UInt16", {MW_NUMBER_UNSIGNED, 2}},
-                 {"Int8", {MW_NUMBER_SIGNED, 1}},    {"UInt8", {MW_NUMBER_UNSIGNED, 1}}};
+    } types[] = {{"Float64", {MW_NUMBER_FLOAT, 8}}, {"Float32", {MW_NUMBER_FLOAT, 4}},
+                 {"Int64", {MW_NUMBER_SIGNED, 8}},  {"UInt64", {MW_NUMBER_UNSIGNED, 8}},
+                 {"Int32", {MW_NUMBER_SIGNED, 4}},  {"UInt32", {MW_NUMBER_UNSIGNED, 4}},
+                 {"Int16", {MW_NUMBER_SIGNED, 2}},  {"UInt16", {MW_NUMBER_UNSIGNED, 2}},
+                 {"Int8", {MW_NUMBER_SIGNED, 1}},   {"UInt8", {MW_NUMBER_UNSIGNED, 1}}};
     for (size_t i = 0; i < sizeof types / sizeof *types; i++)
         if (strcmp(name, types[i].name) == 0) {
             *type = types[i].type;
@@ -183,7 +177,7 @@ static mw_status vtu_unpack(const vtu_mesh *m, const vtu_tag *tag, const unsigne
 {
     uint64_t room = size / m->header_size;
     uint64_t blocks = room ? vtu_header(m, bytes, 0) : 0;
-    if (room == 0 || (blocks > 0 && blocks > room - 3))
+    if (room == 0 || (blocks > 0 && (room < 3 || blocks > room - 3)))
         return vtu_fail(m, tag->begin, error, "%s", "the data of the array end early");
     size_t begin = (size_t)(3 + blocks) * m->header_size;
     for (uint64_t b = 0; b < blocks; b++) {
@@ -191,9 +185,9 @@ static mw_status vtu_unpack(const vtu_mesh *m, const vtu_tag *tag, const unsigne
         bool sound;
         if (packed > size - begin)
             return vtu_fail(m, tag->begin, error, "%s", "the data of the array end early");
-        mw_status status = mw__bytes_unpack(out, bytes + begin, (size_t)packed, false,
-                                            block < SIZE_MAX ? (size_t)block : SIZE_MAX, &sound,
-                                            error);
+        mw_status status =
+            mw__bytes_unpack(out, bytes + begin, (size_t)packed, false,
+                             block < SIZE_MAX ? (size_t)block : SIZE_MAX, &sound, error);
         if (status) return status;
         if (!sound) return vtu_fail(m, tag->begin, error, "%s", "the packed data are damaged");
         begin += (size_t)packed;
@@ -219,8 +213,8 @@ static mw_status vtu_read_bytes(const vtu_mesh *m, const vtu_tag *tag, const uns
         bytes += m->header_size;
     }
     for (size_t i = 0; !status && i < size / type.size; i++)
-        status = mw__numbers_add(list, mw__value_of_bytes(bytes + i * type.size, type, m->big),
-                                 error);
+        status =
+            mw__numbers_add(list, mw__value_of_bytes(bytes + i * type.size, type, m->big), error);
     free(unpacked.bytes);
     return status;
 }
@@ -230,8 +224,7 @@ static mw_status vtu_read_data(const vtu_mesh *m, const vtu_tag *tag, const char
                                mw_number_type type, mw_number_list *list, mw_error *error)
 {
     size_t size = (size_t)(vtu_file_end(m) - data);
-    if (!text)
-        return vtu_read_bytes(m, tag, (const unsigned char *)data, size, type, list, error);
+    if (!text) return vtu_read_bytes(m, tag, (const unsigned char *)data, size, type, list, error);
     mw_byte_array bytes = {0};
     const char *end = memchr(data, '<', size);
     if (end) size = (size_t)(end - data);
@@ -282,8 +275,7 @@ static mw_status vtu_take_points(vtu_mesh *m, const vtu_tag *tag, const mw_numbe
 {
     if (m->builder->points_complete)
         return vtu_fail(m, tag->begin, error, "%s", "the points come a second time");
-    if (m->points > INT64_MAX / 3)
-        return vtu_fail(m, tag->begin, error, "%s", "too many points");
+    if (m->points > INT64_MAX / 3) return vtu_fail(m, tag->begin, error, "%s", "too many points");
     mw_status status = vtu_expect(m, tag, list, 3 * (uint64_t)m->points, error);
     for (size_t i = 0; !status && i < list->count; i += 3) {
         const double *p = list->values + i;
@@ -355,8 +347,7 @@ static mw_status vtu_open_file(vtu_mesh *m, const vtu_tag *tag, mw_error *error)
     if (strcmp(text, "UnstructuredGrid") != 0)
         return vtu_fail(m, tag->begin, error, "a file of type '%s'; UnstructuredGrid is read",
                         text);
-    m->big = vtu_attribute(tag, "byte_order", text, sizeof text) &&
-             strcmp(text, "BigEndian") == 0;
+    m->big = vtu_attribute(tag, "byte_order", text, sizeof text) && strcmp(text, "BigEndian") == 0;
     m->header_size =
         vtu_attribute(tag, "header_type", text, sizeof text) && strcmp(text, "UInt64") == 0 ? 8 : 4;
     m->packed = vtu_attribute(tag, "compressor", text, sizeof text) && *text;

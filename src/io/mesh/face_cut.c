@@ -159,8 +159,7 @@ static double cut_fold(const cut_view *f, size_t i)
         for (size_t x = 0, y = 1, z = 2; x < 3; x++, y = (y + 1) % 3, z = (z + 1) % 3)
             normal[n][x] = (p[n + 1][y] - p[0][y]) * (p[n + 2][z] - p[0][z]) -
                            (p[n + 1][z] - p[0][z]) * (p[n + 2][y] - p[0][y]);
-    return normal[0][0] * normal[1][0] + normal[0][1] * normal[1][1] +
-           normal[0][2] * normal[1][2];
+    return normal[0][0] * normal[1][0] + normal[0][1] * normal[1][1] + normal[0][2] * normal[1][2];
 }
 
 /* A quadrilateral in space that is warped so much that it is convex from no side is cut along the

@@ -23,8 +23,8 @@ typedef struct mw_mesh_builder {
     uint64_t highest_position;
     uint32_t *corners; /* of the present face, each that differs from the one before */
     size_t corner_count, corner_room;
-    size_t named;                   /* how many corners of it the file names */
-    uint32_t start[3];              /* the first three of these */
+    size_t named;      /* how many corners of it the file names */
+    uint32_t start[3]; /* the first three of these */
     size_t edge_room;
     struct build_polygon *polygons; /* faces that wait for their points */
     size_t polygon_count, polygon_room;
