@@ -12,11 +12,11 @@ typedef struct locate_settings {
 } locate_settings;
 
 enum { BASE_0 = 0, BASE_1, BASE_FILE };
-static const char *base_name(int i)
+static const char *locate_base_name(int i)
 {
     return (const char *[]){"0", "1", "file", NULL}[i];
 }
-static const choices base_choices = {"base", base_name, NULL};
+static const choices locate_bases = {"base", locate_base_name, NULL};
 
 static const option locate_options[] = {
     {"details", 0, OPTION_FLAG, offsetof(locate_settings, details), NULL,
@@ -26,7 +26,7 @@ static const option locate_options[] = {
      NULL},
     {"base", 0, OPTION_CHOICE, offsetof(locate_settings, base), "B",
      "what triangles and faces are counted from; file: as the file of MESH counts (default: 0):",
-     &base_choices},
+     &locate_bases},
     {"polygons", 0, OPTION_TEXT, offsetof(locate_settings, polygons.path), "FILE",
      "locate the points in the polygons of FILE (GeoJSON, .poly, what GDAL reads), without a MESH: "
      "the columns are "
