@@ -14,6 +14,10 @@ _meshwalk_options() {
         locate) echo "--details --polygons --attribute --polygon-layer $query $stream $common" ;;
         sample) echo "--field --outside --missing --nodata --status $query $stream $common" ;;
         profile) echo "--field --nodata --attribute --layer --columns --crs --lines-crs --strict $common" ;;
+        raster)
+            echo "--resolution --like --extent --field --derive --nodata --outside --max-edge --vertex-nodata --type"
+            echo "--driver --creation --crs --json $common"
+            ;;
         edit)
             echo "--answers --heights --changes --numbers --log --constraints --undo --delaunay --skip --strict --walk"
             echo "--start --cells --layers --descent --format --stats --json $common"
@@ -61,7 +65,7 @@ _meshwalk_names() {
             case $1 in
                 star) echo 'auto random sample front last sorted grid nonuniform-grid octahedron' ;;
                 probe) echo 'auto last sample random' ;;
-                *) echo 'auto random sample centre last sorted grid buckets triangle-buckets two-level-grid layers kd-tree curve' ;;
+                *) echo 'auto random sample centre last sorted grid buckets triangle-buckets two-level-grid layers kd-tree curve chains' ;;
             esac
             ;;
         --arithmetic) echo 'exact double' ;;
@@ -72,7 +76,9 @@ _meshwalk_names() {
         --fill) echo 'auto yes no' ;;
         --descent) echo 'auto nearest coordinate' ;;
         --sample) [[ $1 == star ]] || echo 'cube-root fourth-root' ;;
-        --outside) echo 'empty nearest linear' ;;
+        --outside) [[ $1 == raster ]] && echo 'empty nearest' || echo 'empty nearest linear' ;;
+        --type) echo 'auto float32 float64' ;;
+        --derive) echo 'slope aspect hillshade triangle' ;;
         --missing) echo 'empty nearest' ;;
         --nodata) echo none ;;
         --points-crs) echo same ;;
@@ -126,7 +132,7 @@ _meshwalk() {
         before=${COMP_WORDS[COMP_CWORD - 2]}
     fi
     if ((COMP_CWORD == 1)); then
-        names='info check triangulate locate sample profile edit star probe walk bench --help --version'
+        names='info check triangulate locate sample profile raster edit star probe walk bench --help --version'
         mapfile -t COMPREPLY < <(compgen -W "$names" -- "$word")
         return
     fi
@@ -147,7 +153,9 @@ _meshwalk() {
             return
             ;;
         --threads | --seed | --steps | --sample | --cells | --layers | --levels | --tolerance | \
-            --columns | --crs | --lines-crs | --constraints-crs | --where) return ;;
+            --columns | --resolution | --extent | --nodata | --vertex-nodata | --driver | \
+            --creation | \
+            --crs | --lines-crs | --constraints-crs | --where) return ;;
         --from | --to | --centre | --max-distance | --samples | --iterations | --race | \
             --max-edge | --queries | --sizes | --limit | --rounds | --seeds | --undo) return ;;
     esac

@@ -3,7 +3,7 @@
 #include "cli/frame/message.h"
 #include "cli/frame/progress.h"
 #include "cli/gdal/gdal_crs.h"
-#include "cli/input/value_field.h"
+#include "cli/input/mesh_field.h"
 #include "cli/lines/profile_rows.h"
 #include "cli/stream/point_query.h"
 
@@ -85,14 +85,14 @@ static int profile_run(const void *settings, const char *const *operands)
 {
     const profile_settings *s = settings;
     point_query_settings query = {.stream = {.common = s->common}, .crs = s->crs, .lines = true};
-    value_field field = {.name = s->field ? s->field : "z", .quiet = s->common.quiet};
+    mesh_field_choice field = {.field = s->field ? s->field : "z", .quiet = s->common.quiet};
     line_file lines = {0};
     point_query q = {0};
-    int end = nodata_parse(s->nodata, &field.nodata);
+    int end = nodata_parse("nodata", s->nodata, &field.nodata);
     if (end == 0 && s->lines.crs && strcmp(s->lines.crs, "same") != 0)
         end = crs_check_option("lines-crs", s->lines.crs);
     if (end) return end;
-    end = point_query_open(&q, &query, operands, false, value_field_load, &field);
+    end = point_query_open(&q, &query, operands, false, mesh_field_load, &field);
     if (end == 0)
         end = line_file_read(&lines, operands[1], &s->lines, &s->common, operands[0], q.crs);
     if (end == 0) {

@@ -1,7 +1,7 @@
 /* sample - the value the mesh has at each point. */
 #include "cli/commands/commands.h"
 #include "cli/frame/message.h"
-#include "cli/input/value_field.h"
+#include "cli/input/mesh_field.h"
 #include "cli/output/csv_row.h"
 #include "cli/stream/point_query.h"
 
@@ -148,10 +148,10 @@ static int sample_run(const void *settings, const char *const *operands)
     point_query q;
     const char *const answers[] = {field, s->status ? "status" : NULL, NULL};
     sampled_field rows = {.outside = s->outside, .missing = s->missing, .status = s->status};
-    value_field choice = {.name = field, .quiet = s->query.stream.common.quiet};
-    int end = nodata_parse(s->nodata, &choice.nodata);
+    mesh_field_choice choice = {.field = field, .quiet = s->query.stream.common.quiet};
+    int end = nodata_parse("nodata", s->nodata, &choice.nodata);
     if (end) return end;
-    end = point_query_open(&q, &s->query, operands, s->outside != OUTSIDE_EMPTY, value_field_load,
+    end = point_query_open(&q, &s->query, operands, s->outside != OUTSIDE_EMPTY, mesh_field_load,
                            &choice);
     if (end == 0) {
         rows.values = mw_mesh_field(q.mesh, field);

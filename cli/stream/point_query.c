@@ -121,7 +121,7 @@ const option point_query_options[] = {
      "Points in another system than MESH are transformed",
      NULL},
     {"any", 0, OPTION_FLAG, offsetof(point_query_settings, any), NULL,
-     "take also a mesh that is no embedding; a warning says what is not promised then", NULL},
+     "accept a mesh that is not an embedding; a warning says which promise is void", NULL},
     {0},
 };
 
@@ -351,6 +351,8 @@ static void point_query_report_memory(report *r, const point_query *q)
     report_rounded(r, "start_seconds", index.seconds);
     report_count(r, "ghost_triangles", locator.ghost_triangles);
     report_count(r, "fill_bytes", locator.fill_bytes);
+    report_string(r, "guide", locator.guide ? mw_start_name(locator.guide) : "none");
+    report_count(r, "guide_bytes", locator.guide_bytes);
     report_count(r, "pieces", locator.components);
 }
 
