@@ -11,7 +11,7 @@ _meshwalk_options() {
         info) echo "--layer --as --centre --lonlat --weld --json $common" ;;
         check) echo "--fix --tolerance --numbers --format --as --centre --lonlat --weld --json $common" ;;
         triangulate) echo "--constraints --boundary --keep --split --strict --max-edge --kind --weight --hidden --limit --format --columns --class --layer --where --crs --points-crs --constraints-crs --json $common" ;;
-        locate) echo "--details --polygons --attribute --polygon-layer $query $stream $common" ;;
+        locate) echo "--details --base --polygons --attribute --polygon-layer $query $stream $common" ;;
         sample) echo "--field --outside --missing --nodata --status $query $stream $common" ;;
         profile) echo "--field --nodata --attribute --layer --columns --crs --lines-crs --strict $common" ;;
         raster)

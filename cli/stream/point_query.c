@@ -253,6 +253,9 @@ int point_query_open(point_query *q, const point_query_settings *settings,
     end = mesh_crs_settle(path, settings->crs, file.crs, settings->stream.common.quiet, &q->crs);
     if (end == 0) end = point_query_make_mesh(q, path, &file, area);
     if (end == 0 && load) end = load(q->own, path, &file, self);
+    q->faces = file.faces;
+    q->first_number = file.first_number;
+    file.faces = NULL;
     mw_mesh_file_release(&file);
     if (end == 0) end = point_query_make_locator(q, path, border, area);
     return end ? end : point_query_make_index(q);
@@ -264,6 +267,7 @@ void point_query_release(point_query *q)
     mw_locator_destroy(q->locator);
     mw_mesh_destroy(q->own);
     free(q->crs);
+    free(q->faces);
 }
 
 /* What the callbacks of the query stream need. */
