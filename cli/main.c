@@ -85,6 +85,7 @@ static int command_run(const command *c, int count, char **arguments)
     } else if (end == 0) {
         signals_begin();
         progress_begin(common->quiet);
+        files_use_layout(common->layout);
         end = c->run(settings, operands);
         progress_end();
     }

@@ -6,7 +6,7 @@ _meshwalk_options() {
     query="$query --columns --crs --points-crs"
     query="$query --any"
     local stream='--strict --stats --json --layer --where --only-answers'
-    local common='-o --output --threads --seed -q --quiet -h --help'
+    local common='-o --output --threads --seed --layout -q --quiet -h --help'
     case $1 in
         info) echo "--layer --as --centre --lonlat --weld --json $common" ;;
         check) echo "--fix --tolerance --numbers --format --as --centre --lonlat --weld --json $common" ;;
@@ -40,6 +40,7 @@ _meshwalk_names() {
                 echo 'auto off ply ply-ascii node obj stl csv vtk'
             fi
             ;;
+        --layout) echo 'ugrid schism fvcom adcirc anuga fesom icon mpas tuflowfv' ;;
         --enclose) echo 'auto yes no' ;;
         --tasks) echo 'random sorted coherent half-outside total dense delaunay connectivity' ;;
         --engines)
