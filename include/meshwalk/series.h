@@ -46,8 +46,8 @@ typedef struct mw_series_info {
     const double *times; /**< of the steps, increasing */
     /** Of the times, as CF has them: "seconds since 2015-12-14 00:00:00"; "" = not known. */
     const char *time_unit;
-    /** Calendar of CF: "standard", "noleap", "360_day" ...; "" = the file does not tell, which means
-     * "standard". */
+    /** Calendar of CF: "standard", "noleap", "360_day" ...; "" = the file does not tell, which
+     * means "standard". */
     const char *calendar;
     const mw_series_field *fields;
     size_t field_count;
