@@ -158,7 +158,7 @@ static bool collector_add_geometry(constraint_collector *c, OGRGeometryH geometr
 static int gdal_fail(const char *path)
 {
     const char *message = gdal.CPLGetLastErrorMsg();
-    complain("%s: GDAL says: %.1000s", path, *message ? message : "this is no vector file");
+    complain("%s: GDAL says: %.1000s", path, *message ? message : "this is not a vector file");
     return END_INPUT;
 }
 
@@ -281,9 +281,16 @@ static bool layer_may_have_polygons(OGRLayerH layer)
     }
 }
 
+static bool layer_has_points(OGRLayerH layer)
+{
+    OGRwkbGeometryType type = gdal.OGR_GT_Flatten(gdal.OGR_L_GetGeomType(layer));
+    return type == wkbPoint || type == wkbMultiPoint || type == wkbNone;
+}
+
 static bool layer_is_wanted(const gdal_constraints_options *o, OGRLayerH layer)
 {
     if (o->layer) return strcmp(gdal.OGR_L_GetName(layer), o->layer) == 0;
+    if (o->lines) return !layer_has_points(layer);
     return !o->polygons || layer_may_have_polygons(layer);
 }
 
@@ -299,8 +306,9 @@ static int layers_fail(const gdal_constraints_options *o, GDALDatasetH set, cons
     else if (o->layer)
         complain("%s: has no layer '%s', but: %.*s", path, o->layer, size, names.bytes);
     else
-        complain("%s: which layer has the polygons? --polygon-layer may be one of: %.*s", path,
-                 size, names.bytes);
+        complain("%s: which layer has the %s? %s may be one of: %.*s", path,
+                 o->lines ? "lines" : "polygons", o->lines ? "--layer" : "--polygon-layer", size,
+                 names.bytes);
     text_release(&names);
     return o->layer ? END_INPUT : END_USAGE;
 }
@@ -308,7 +316,7 @@ static int layers_fail(const gdal_constraints_options *o, GDALDatasetH set, cons
 static int collector_read_layers(constraint_collector *c, GDALDatasetH set, const char *path)
 {
     int end = 0, wanted = 0, count = gdal.GDALDatasetGetLayerCount(set);
-    bool one = c->options->layer || c->options->polygons;
+    bool one = c->options->layer || c->options->polygons || c->options->lines;
     for (int i = 0; i < count; i++)
         wanted += layer_is_wanted(c->options, gdal.GDALDatasetGetLayer(set, i));
     if (one && (c->options->layer ? wanted == 0 : wanted > 1))
@@ -328,10 +336,9 @@ int gdal_constraints_read(const char *path, const gdal_constraints_options *opti
     constraint_collector c = {.file = file, .options = options, .values = options->values};
     *file = (mw_constraint_file){.record_name = "feature"};
     if (!gdal_load()) {
-        complain(
-            "%s: is no GeoJSON or .poly, and GDAL, which might read it, cannot be loaded (" MW_GDAL
-            ")",
-            path);
+        complain("%s: is neither GeoJSON nor .poly, and GDAL, which might read it, cannot be "
+                 "loaded (" MW_GDAL ")",
+                 path);
         return END_INPUT;
     }
     GDALDatasetH set = gdal.GDALOpenEx(
@@ -341,7 +348,9 @@ int gdal_constraints_read(const char *path, const gdal_constraints_options *opti
     gdal.GDALClose(set);
     if (end == 0 && file->point_count == 0) {
         complain("%s: GDAL finds no %spolygons in it", path,
-                 options->polygons ? "" : "points, lines or ");
+                 options->polygons ? ""
+                 : options->lines  ? "lines or "
+                                   : "points, lines or ");
         end = END_INPUT;
     }
     if (end) mw_constraint_file_release(file);

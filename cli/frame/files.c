@@ -72,7 +72,7 @@ int files_check_output(const char *output, const char *const *inputs, int count)
         return END_USAGE;
     }
     if (streams <= 1) return 0;
-    complain("standard input ('-') can be read once only");
+    complain("standard input ('-') can be read only once");
     return END_USAGE;
 }
 
@@ -148,12 +148,20 @@ static bool file_holds_points(const char *path)
     return points;
 }
 
+static const char *files_layout;
+
+void files_use_layout(const char *layout)
+{
+    files_layout = layout;
+}
+
 int files_read_mesh(const char *path, mw_mesh_file *file)
 {
     mw_error error;
     progress_phase("reading", path);
-    mw_status status =
-        mw_read_mesh(path, &(mw_file_options){.progress = progress_of_call()}, file, &error);
+    mw_status status = mw_read_mesh(
+        path, &(mw_file_options){.progress = progress_of_call(), .layout = files_layout}, file,
+        &error);
     if (status == MW_OK) return 0;
     int end = fail_reading(&error);
     if (status == MW_ERROR_INPUT && !files_is_standard(path) && file_holds_points(path))

@@ -121,7 +121,7 @@ const option point_query_options[] = {
      "Points in another system than MESH are transformed",
      NULL},
     {"any", 0, OPTION_FLAG, offsetof(point_query_settings, any), NULL,
-     "take also a mesh that is no embedding; a warning says what is not promised then", NULL},
+     "accept a mesh that is not an embedding; a warning says which promise is void", NULL},
     {0},
 };
 
@@ -136,7 +136,9 @@ static int point_query_fail_mesh(const point_query *q, const char *path, bool ar
                                  const mw_error *error)
 {
     int end = fail_mesh(path, error);
-    if (end == END_INPUT && !q->settings->any && area)
+    if (end == END_INPUT && q->settings->lines && area)
+        complain("'meshwalk check %s' lists every defect; --fix mends some", path);
+    else if (end == END_INPUT && !q->settings->any && area)
         complain("'meshwalk check %s' lists every defect; --any locates points all the same", path);
     return end;
 }
@@ -251,6 +253,9 @@ int point_query_open(point_query *q, const point_query_settings *settings,
     end = mesh_crs_settle(path, settings->crs, file.crs, settings->stream.common.quiet, &q->crs);
     if (end == 0) end = point_query_make_mesh(q, path, &file, area);
     if (end == 0 && load) end = load(q->own, path, &file, self);
+    q->faces = file.faces;
+    q->first_number = file.first_number;
+    file.faces = NULL;
     mw_mesh_file_release(&file);
     if (end == 0) end = point_query_make_locator(q, path, border, area);
     return end ? end : point_query_make_index(q);
@@ -262,6 +267,7 @@ void point_query_release(point_query *q)
     mw_locator_destroy(q->locator);
     mw_mesh_destroy(q->own);
     free(q->crs);
+    free(q->faces);
 }
 
 /* What the callbacks of the query stream need. */

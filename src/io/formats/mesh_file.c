@@ -2,6 +2,7 @@
 #include "base/options.h"
 #include "io/mesh/mesh_builder.h"
 #include "io/formats/mesh_formats.h"
+#include "io/layouts/layout_find.h"
 #include "io/mesh/mesh_readers.h"
 #include "io/mesh/node_ele.h"
 #include "io/text/byte_source.h"
@@ -22,9 +23,9 @@ static mw_status mesh_read_source(mw_source *source, mw_mesh_builder *builder, m
     const mw_mesh_format *format = mw__mesh_format_by_content(head, size);
     if (!format) format = mw__mesh_format_by_path(source->path);
     if (format && format->read) return format->read(source, builder, error);
-    char names[128];
+    char names[256];
     mw__mesh_format_list(false, names, sizeof names);
-    return mw__fail(error, MW_ERROR_INPUT, "%.240s: this is no mesh in a format known here (%s)",
+    return mw__fail(error, MW_ERROR_INPUT, "%.240s: this is not a mesh in a known format (%s)",
                     mw__source_name(source), names);
 }
 
@@ -47,11 +48,13 @@ static mw_status mesh_read_path(const char *path, mw_mesh_builder *builder, mw_e
     return status;
 }
 
-static mw_status mesh_read(const char *path, mw_job *job, mw_mesh_file *file, mw_error *error)
+static mw_status mesh_read(const char *path, const char *layout, mw_job *job, mw_mesh_file *file,
+                           mw_error *error)
 {
     mw_mesh_builder builder;
     mw__build_start(&builder, file, NULL);
     builder.job = job;
+    builder.layout = layout;
     mw__job_stage(job, "reading", 1);
     mw_status status = mesh_read_path(path, &builder, error);
     mw__build_release(&builder);
@@ -66,9 +69,10 @@ mw_status mw_read_mesh(const char *path, const mw_file_options *options, mw_mesh
     if (!path || !file) return mw__fail(error, MW_ERROR_ARGUMENT, "mw_read_mesh: NULL");
     if (!options) options = &defaults;
     mw_status status = MW_RESERVED_CHECK(mw_file_options, options, error);
+    if (!status) status = mw__layout_check(options->layout, error);
     if (status) return status;
     mw_job job = mw__job(1, options->progress);
-    status = mw__job_end(&job, mesh_read(path, &job, file, error), error);
+    status = mw__job_end(&job, mesh_read(path, options->layout, &job, file, error), error);
     if (!status && !file->crs) status = mw_read_prj(path, &file->crs, error);
     if (status) mw_mesh_file_release(file);
     return status;
@@ -78,6 +82,11 @@ void mw_mesh_file_release(mw_mesh_file *file)
 {
     if (!file) return;
     mw__fields_release(file->field_names, file->fields, file->field_count);
+    mw__fields_release(file->triangle_field_names, file->triangle_fields,
+                       file->triangle_field_count);
+    for (size_t m = 0; m < file->mark_count; m++) free(file->mark_names[m]);
+    free(file->mark_names);
+    free(file->edges);
     free(file->points);
     free(file->triangles);
     free(file->faces);
@@ -102,14 +111,14 @@ static mw_status mesh_writer_find(const char *path, const char *name, const mw_m
         name ? mw__mesh_format_by_name(name) : mw__mesh_format_by_path(path);
     *found = format;
     size_t length = strlen(path);
-    char names[128];
+    char names[256];
     if (!format || !format->write) {
         mw__mesh_format_list(true, names, sizeof names);
         if (name)
-            return mw__fail(error, MW_ERROR_ARGUMENT, "no format '%.40s' for meshes (there are %s)",
+            return mw__fail(error, MW_ERROR_ARGUMENT, "unknown mesh format '%.40s' (known: %s)",
                             name, names);
         return mw__fail(error, MW_ERROR_ARGUMENT,
-                        "%.240s: the name tells no format for meshes (there are %s)", path, names);
+                        "%.240s: no mesh format has this ending (known: %s)", path, names);
     }
     if (length > 3 && strcasecmp(path + length - 3, ".gz") == 0)
         return mw__fail(error, MW_ERROR_ARGUMENT, "%.240s: gzip is read, but not written", path);
