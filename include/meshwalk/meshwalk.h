@@ -17,5 +17,6 @@
 #include <meshwalk/star.h>
 #include <meshwalk/probe.h>
 #include <meshwalk/io.h>
+#include <meshwalk/weights.h>
 
 #endif
