@@ -19,7 +19,7 @@ static bool dataset_grow(dataset *d, size_t count)
 static bool is_no_mesh(const mw_error *error)
 {
     return error->status == MW_ERROR_INPUT &&
-           strstr(error->message, ": this is no mesh in a format known here");
+           strstr(error->message, ": this is not a mesh in a known format");
 }
 
 /* A mesh; *none is set if the file is not one. Returns 0 or an exit code. */

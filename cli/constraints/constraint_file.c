@@ -105,9 +105,8 @@ static bool shares_node_file(const char *path, const char *output)
 int constraint_file_check_output(const char *path, const char *output)
 {
     if (!shares_node_file(path, output)) return 0;
-    complain(
-        "%s: its points may stand in the .node file that would be written: choose another output",
-        path);
+    complain("%s: its points may be in the .node file that would be written: choose another output",
+             path);
     return END_USAGE;
 }
 

@@ -158,7 +158,7 @@ static bool collector_add_geometry(constraint_collector *c, OGRGeometryH geometr
 static int gdal_fail(const char *path)
 {
     const char *message = gdal.CPLGetLastErrorMsg();
-    complain("%s: GDAL says: %.1000s", path, *message ? message : "this is no vector file");
+    complain("%s: GDAL says: %.1000s", path, *message ? message : "this is not a vector file");
     return END_INPUT;
 }
 
@@ -328,10 +328,9 @@ int gdal_constraints_read(const char *path, const gdal_constraints_options *opti
     constraint_collector c = {.file = file, .options = options, .values = options->values};
     *file = (mw_constraint_file){.record_name = "feature"};
     if (!gdal_load()) {
-        complain(
-            "%s: is no GeoJSON or .poly, and GDAL, which might read it, cannot be loaded (" MW_GDAL
-            ")",
-            path);
+        complain("%s: is neither GeoJSON nor .poly, and GDAL, which might read it, cannot be "
+                 "loaded (" MW_GDAL ")",
+                 path);
         return END_INPUT;
     }
     GDALDatasetH set = gdal.GDALOpenEx(

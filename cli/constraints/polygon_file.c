@@ -108,8 +108,8 @@ static int rings_take(mw_constraint_file *c, const char *path, const common_sett
     if (end) return end;
     size_t lines = rings_drop_lines(c);
     if (lines > 0 && !common->quiet)
-        complain("%s: warning: %zu segments of lines are passed over, since they bound nothing",
-                 path, lines);
+        complain("%s: warning: %zu segments of lines are skipped, since they bound nothing", path,
+                 lines);
     if (c->segment_count > 0) return rings_drop_points(c);
     complain("%s: there are no polygons in it", path);
     return END_INPUT;

@@ -92,7 +92,7 @@ int picture_write(const char *path, double width, double height, picture_draw *d
 
 int picture_check(const char *path)
 {
-    complain("%s: this program was built without Cairo, which draws pictures", path);
+    complain("%s: this program was built without Cairo and cannot draw pictures", path);
     return END_USAGE;
 }
 

@@ -72,7 +72,7 @@ int files_check_output(const char *output, const char *const *inputs, int count)
         return END_USAGE;
     }
     if (streams <= 1) return 0;
-    complain("standard input ('-') can be read once only");
+    complain("standard input ('-') can be read only once");
     return END_USAGE;
 }
 

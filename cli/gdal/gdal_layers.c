@@ -68,7 +68,7 @@ int gdal_layers_report(const char *path, const char *wanted, report *r)
         path, GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, NULL, NULL, NULL);
     if (!set) {
         const char *message = gdal->CPLGetLastErrorMsg();
-        complain("%s: GDAL says: %.1000s", path, *message ? message : "this is no vector file");
+        complain("%s: GDAL says: %.1000s", path, *message ? message : "this is not a vector file");
         return END_INPUT;
     }
     int end = layers_report_set(gdal, set, path, wanted, r);

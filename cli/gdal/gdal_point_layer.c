@@ -94,7 +94,7 @@ int point_layers_check(const char *const *paths, int count)
 static int point_layer_fail_format(const point_layer *p)
 {
     int end = path_check_driver(p->gdal, p->path);
-    return end ? end : point_layer_fail(p, "this is no vector file");
+    return end ? end : point_layer_fail(p, "this is not a vector file");
 }
 
 static bool layer_may_have_points(const point_layer *p, OGRLayerH layer)
@@ -206,7 +206,7 @@ int point_layer_open(point_layer *p, const char *path, const char *layer, const 
     if (end == 0) end = point_layer_name_columns(p);
     if (end || !where) return end;
     if (p->gdal->OGR_L_SetAttributeFilter(p->layer, where) == OGRERR_NONE) return 0;
-    complain("option '--where' is no condition on the layer: GDAL says: %.1000s",
+    complain("option '--where' is not a valid condition on the layer: GDAL says: %.1000s",
              p->gdal->CPLGetLastErrorMsg());
     return END_USAGE;
 }

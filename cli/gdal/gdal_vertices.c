@@ -84,7 +84,7 @@ static int vertices_choose(gdal_vertices *v, const char *list)
             if (v->values[k].column == column)
                 return vertices_fail_columns(v, item, shown, "is there twice");
         if (v->width < 2 && column != v->width)
-            return vertices_fail_columns(v, item, shown, "stands where x or y belongs");
+            return vertices_fail_columns(v, item, shown, "is where x or y should be");
         vertices_add(v, column);
         item += length;
         if (!*item) break;

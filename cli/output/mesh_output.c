@@ -35,7 +35,8 @@ int mesh_output_check(const char *command_name, const char *output, int format)
     else if (files_is_standard(output) && format == FORMAT_BY_ENDING)
         complain("%s: a mesh on standard output wants --format", command_name);
     else if (format == FORMAT_BY_ENDING && !ending_is_known(output))
-        complain("%s: the name tells no format for meshes; --format does (off, ply, ...)", output);
+        complain("%s: no mesh format has this ending; name one with --format (off, ply, ...)",
+                 output);
     else
         return 0;
     return END_USAGE;

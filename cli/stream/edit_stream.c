@@ -108,7 +108,7 @@ static int edit_stream_fail_no_answers(const edit_stream *s, const char *path,
     for (int i = 0; i < EDIT_STREAM_OUTPUTS; i++)
         if (s->output[i].path && files_is_standard(s->output[i].path)) taken = s->output[i].option;
     complain("%s:%" PRId64
-             ": standard output is taken by --%s: --answers FILE tells where answers go",
+             ": --%s already writes to standard output; use --answers FILE for the answers",
              input_name(path), line->line, taken);
     return END_USAGE;
 }

@@ -121,7 +121,7 @@ const option point_query_options[] = {
      "Points in another system than MESH are transformed",
      NULL},
     {"any", 0, OPTION_FLAG, offsetof(point_query_settings, any), NULL,
-     "take also a mesh that is no embedding; a warning says what is not promised then", NULL},
+     "accept a mesh that is not an embedding; a warning says which promise is void", NULL},
     {0},
 };
 

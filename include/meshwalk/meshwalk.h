@@ -9,6 +9,7 @@
 #include <meshwalk/mend.h>
 #include <meshwalk/triangulate.h>
 #include <meshwalk/locate.h>
+#include <meshwalk/segment.h>
 #include <meshwalk/operator.h>
 #include <meshwalk/polygons.h>
 #include <meshwalk/borrow.h>

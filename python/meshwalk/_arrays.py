@@ -189,7 +189,7 @@ def _integer_type(array: NDArray[Any], name: str) -> type[np.integer[Any]]:
     if array.dtype.kind == "u" and array.dtype.itemsize == 8:
         large = array > np.iinfo(np.int64).max
         if large.any():
-            raise ValueError(f"{_place(name, large)} is no vertex")
+            raise ValueError(f"{_place(name, large)} is not a vertex")
         return np.int64
     if array.dtype.itemsize == 8:
         return np.int64

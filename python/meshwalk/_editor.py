@@ -328,8 +328,8 @@ class Editor(_core.Editor):
         Raises
         ------
         InputError
-            The two triangles make no strictly convex quadrilateral. Where the exchange does not
-            leave the mesh Delaunay, it is not kept so from then on.
+            The two triangles do not form a strictly convex quadrilateral. If the mesh is not
+            Delaunay after the exchange, it is no longer kept Delaunay.
         """
         return self._edit(Edit(EditKind.FLIP, vertex, other))
 
@@ -349,7 +349,7 @@ class Editor(_core.Editor):
         Raises
         ------
         InputError
-            Part of the way is no constraint, or border.
+            A part of the segment is not a constraint, or is border.
         """
         return self._edit(Edit(EditKind.RELEASE, vertex, other))
 

@@ -63,7 +63,7 @@ mw_status mw_borrowed_locate_batch(const mw_borrowed *mesh, const double *points
     if (n && (!points || !locations))
         return mw__fail(error, MW_ERROR_ARGUMENT, "points or results are NULL");
     if (b.queries.stride == 1)
-        return mw__fail(error, MW_ERROR_ARGUMENT, "a stride of 1 holds no y");
+        return mw__fail(error, MW_ERROR_ARGUMENT, "the stride must be at least 2 (x and y), not 1");
     if (mesh->tri_count == 0) borrowed_batch_nowhere(&b.queries, n);
     if (!options->in_order && n >= MW_SORT_WORTHWHILE) b.queries.sort = borrowed_batch_sort;
     return mw__batch_run(&b.queries, mesh->tri_count ? n : 0, options->threads, options->progress,

@@ -27,7 +27,7 @@ static mw_status check_corners(const mw_borrowed *mesh, uint32_t t, mw_borrowed_
     for (uint32_t k = 0; k < 3; k++) {
         if (tile->v[k] == tile->v[mw__next(k)])
             return mw__fail_at(error, t, tile->v[k],
-                               "triangle %" PRIu32 ": vertex %" PRIu32 " stands in it twice", t,
+                               "triangle %" PRIu32 ": vertex %" PRIu32 " is in it twice", t,
                                tile->v[k]);
         if (!mw__is_finite(tile->p[k]))
             return mw__fail_at(error, t, tile->v[k],

@@ -75,13 +75,13 @@ static mw_status refuse_crossing(const mw_dynamic_tiling *dynamic, uint32_t half
              b = dynamic->vertex_number[mw__corner(dynamic, mw__half_next(half))];
     return mw__fail_at(
         error, -1, a,
-        "the constraint from vertex %" PRIu32 " to %" PRIu32 " or border is in the way", a, b);
+        "the constraint or border edge from vertex %" PRIu32 " to %" PRIu32 " is in the way", a, b);
 }
 
 static mw_status refuse_leaving(const mw_dynamic_tiling *dynamic, uint32_t from, mw_error *error)
 {
     return mw__fail_at(error, -1, dynamic->vertex_number[from],
-                       "at vertex %" PRIu32 " the way leaves the mesh",
+                       "the segment leaves the mesh at vertex %" PRIu32 "",
                        dynamic->vertex_number[from]);
 }
 
@@ -257,7 +257,7 @@ static mw_status release_next_edge(mw_dynamic_tiling *dynamic, uint32_t from, ui
     *end = exit.vertex;
     if (*end == MW_NONE)
         return mw__fail_at(error, -1, dynamic->vertex_number[from],
-                           "from vertex %" PRIu32 " to %" PRIu32 " there is no constraint",
+                           "there is no constraint from vertex %" PRIu32 " to %" PRIu32 "",
                            dynamic->vertex_number[from], dynamic->vertex_number[to]);
     dynamic->last = mw__link_triangle(exit.half);
     return release_edge(dynamic, exit.half, error);

@@ -116,7 +116,7 @@ mw_status mw__dynamic_flip(mw_dynamic_tiling *dynamic, uint32_t from, uint32_t t
     if (!(mw__orient2d(p[d], p[c], p[a]) > 0 && mw__orient2d(p[c], p[d], p[b]) > 0))
         return mw__fail_at(error, -1, number[0],
                            "the triangles beside the edge from vertex %" PRIu32 " to %" PRIu32
-                           " make no convex quadrilateral",
+                           " do not form a convex quadrilateral",
                            number[0], number[1]);
     if (mw__incircle(p[a], p[b], p[c], p[d]) != 0) dynamic->delaunay = false;
     dynamic->last = mw__link_triangle(half);

@@ -34,7 +34,7 @@ static mw_status insertion_make_vertex(mw_dynamic_tiling *dynamic, mw_point q, u
     if (*vertex != MW_NONE) return MW_OK;
     if (!mw__vertex_room(dynamic, 1))
         return dynamic->vertex_count >= MW_GONE - 1
-                   ? mw__fail(error, MW_ERROR_LIMIT, "no more numbers for vertices")
+                   ? mw__fail(error, MW_ERROR_LIMIT, "no vertex number is left; compact the editor")
                    : mw__fail_memory(error);
     *vertex = mw__add_vertex(dynamic, q);
     if (dynamic->under_way) dynamic->step[dynamic->step_count - 1].vertex = *vertex;
@@ -50,7 +50,7 @@ static mw_status insertion_tile_failure(const mw_dynamic_tiling *dynamic, size_t
 {
     if (dynamic->tiling->number_count > MW_USER_MASK - n ||
         dynamic->tiling->tri_count > MW_MAX_TRIANGLES - n)
-        return mw__fail(error, MW_ERROR_LIMIT, "no more numbers for triangles");
+        return mw__fail(error, MW_ERROR_LIMIT, "no triangle number is left; compact the editor");
     return mw__fail_memory(error);
 }
 

@@ -43,7 +43,7 @@ mw_status mw__fix_edges(mw_dynamic_tiling *dynamic, const uint32_t *ends, size_t
         if (a == MW_NONE || b == MW_NONE || a == b || mw__dynamic_edge(dynamic, a, b) == MW_NONE)
             status = mw__fail_at(error, -1, ends[2 * i],
                                  "the constraint from vertex %" PRIu32 " to %" PRIu32
-                                 " is no edge of the mesh",
+                                 " is not an edge of the mesh",
                                  ends[2 * i], ends[2 * i + 1]);
         else
             status = mw__dynamic_constrain(dynamic, a, b, false, &constrained_edges, error);
@@ -463,7 +463,8 @@ static mw_status editor_insert_unreported(mw_editor *editor, const mw_edit *edit
 
 mw_status mw_edit_apply(mw_editor *editor, const mw_edit *edit, mw_change *change, mw_error *error)
 {
-    if (!editor || !edit) return mw__fail(error, MW_ERROR_ARGUMENT, "an edit needs an editor");
+    if (!editor || !edit)
+        return mw__fail(error, MW_ERROR_ARGUMENT, "the editor or the edit is NULL");
     if (edit->kind == MW_EDIT_INSERT && !editor->keeps_log &&
         !mw__editor_needs_report(editor, change))
         return editor_insert_unreported(editor, edit, error);
@@ -502,9 +503,8 @@ static mw_change undone_change(const mw_dynamic_tiling *dynamic, const mw_journa
 
 mw_status mw_edit_undo(mw_editor *editor, mw_change *change, mw_error *error)
 {
-    if (!editor) return mw__fail(error, MW_ERROR_ARGUMENT, "an edit needs an editor");
-    if (editor->undoable == 0)
-        return mw__fail(error, MW_ERROR_INPUT, "there is no edit to take back");
+    if (!editor) return mw__fail(error, MW_ERROR_ARGUMENT, "the editor or the edit is NULL");
+    if (editor->undoable == 0) return mw__fail(error, MW_ERROR_INPUT, "there is no edit to undo");
     if (change && !report_room(editor)) return mw__fail_memory(error);
     mw_dynamic_tiling *dynamic = &editor->dynamic;
     uint32_t vertices = dynamic->vertex_count;

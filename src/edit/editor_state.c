@@ -69,7 +69,7 @@ uint32_t mw_editor_triangle_of(const mw_editor *editor, uint32_t vertex)
     return v == MW_NONE ? MW_NONE : mw__lowest_around_vertex(tiling, tiling->tile_at[v], v);
 }
 
-/* An edge between ghosts is no edge of the mesh. */
+/* An edge between ghosts is not an edge of the mesh. */
 static bool edge_is_of_mesh(const mw_dynamic_tiling *dynamic, uint32_t half)
 {
     uint32_t other = mw__beyond(dynamic, half);

@@ -266,9 +266,9 @@ mw_status mw_edit_insert_points(mw_editor *editor, const double *points, size_t 
                                 uint32_t *vertices, mw_change *change, mw_error *error)
 {
     if (!editor || (!points && n > 0))
-        return mw__fail(error, MW_ERROR_ARGUMENT, "an edit needs an editor and points");
+        return mw__fail(error, MW_ERROR_ARGUMENT, "the editor or the points are NULL");
     if (stride == 1)
-        return mw__fail(error, MW_ERROR_ARGUMENT, "points are two doubles apart, or more");
+        return mw__fail(error, MW_ERROR_ARGUMENT, "the stride must be at least 2 (x and y), not 1");
     if (n >= MW_NONE) return mw__fail(error, MW_ERROR_LIMIT, "too many points");
     if (change) *change = (mw_change){.vertex = MW_NONE};
     if (n == 0) return MW_OK;

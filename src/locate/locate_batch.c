@@ -259,7 +259,7 @@ mw_status mw_locate_batch(const mw_locator *locator, const double *points, size_
     if (n && (!points || !locations))
         return mw__fail(error, MW_ERROR_ARGUMENT, "points or results are NULL");
     if (b.queries.stride == 1)
-        return mw__fail(error, MW_ERROR_ARGUMENT, "a stride of 1 holds no y");
+        return mw__fail(error, MW_ERROR_ARGUMENT, "the stride must be at least 2 (x and y), not 1");
     batch_choose_start(&b, n);
     if (options->hints) batch_choose_start_beside_hints(&b);
     return batch_run(&b, n, options, counters, error);

@@ -176,9 +176,8 @@ static mw_status locator_prepare(mw_locator *locator, const mw_locator_options *
         char first[200];
         mw_defect_describe(&tiling->defect, first, sizeof first);
         snprintf(locator->promise, sizeof locator->promise,
-                 "the mesh is no embedding (%s): a point may be reported outside although a "
-                 "triangle contains it, and "
-                 "of several triangles that contain it any may be reported",
+                 "the mesh is not an embedding (%s): a point inside may be reported outside, and "
+                 "of several triangles that contain a point any may be reported",
                  first);
     }
     mw__job_stage(job, "building a tree of the border", 0.05);
@@ -228,7 +227,7 @@ mw_status mw_index_create(const mw_locator *locator, mw_start_kind start,
     static const mw_index_options defaults;
     if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "the pointer to the new index is NULL");
     *out = NULL;
-    if (!locator) return mw__fail(error, MW_ERROR_ARGUMENT, "an index needs a locator");
+    if (!locator) return mw__fail(error, MW_ERROR_ARGUMENT, "the locator is NULL");
     if (!mw_start_has_index(start))
         return mw__fail(error, MW_ERROR_ARGUMENT, "this start has no index");
     mw_index *index = mw__calloc(1, sizeof *index);

@@ -301,7 +301,8 @@ mw_status mw_cursor_init(const mw_locator *locator, const mw_query_options *opti
                          mw_cursor *cursor, mw_error *error)
 {
     static const mw_query_options defaults;
-    if (!cursor || !locator) return mw__fail(error, MW_ERROR_ARGUMENT, "a cursor needs a locator");
+    if (!cursor || !locator)
+        return mw__fail(error, MW_ERROR_ARGUMENT, "the cursor or the locator is NULL");
     if (!options) options = &defaults;
     if ((unsigned)options->walk >= MW_WALK_COUNT)
         return mw__fail(error, MW_ERROR_ARGUMENT, "unknown walk");
@@ -311,21 +312,19 @@ mw_status mw_cursor_init(const mw_locator *locator, const mw_query_options *opti
     if (status) return status;
     if (options->finish && options->finish != MW_WALK_REMEMBERING &&
         options->finish != MW_WALK_STOCHASTIC)
-        return mw__fail(error, MW_ERROR_ARGUMENT,
-                        "a walk is finished by remembering or stochastic");
+        return mw__fail(error, MW_ERROR_ARGUMENT, "finish must be remembering or stochastic");
     if ((unsigned)options->arithmetic > MW_DOUBLE)
         return mw__fail(error, MW_ERROR_ARGUMENT, "unknown arithmetic");
     if (!(options->tolerance >= 0) || isinf(options->tolerance))
-        return mw__fail(error, MW_ERROR_ARGUMENT, "the tolerance is not a length");
+        return mw__fail(error, MW_ERROR_ARGUMENT, "the tolerance must be finite and at least 0");
     if (options->tolerance > 0 && !locator->has_border)
         return mw__fail(error, MW_ERROR_ARGUMENT,
                         "a tolerance needs a locator with options.border");
     mw_walk_kind walk = options->walk ? options->walk : locator->auto_walk;
     if (locator->tiling.border_loops && walk != MW_WALK_BORDER)
-        return mw__fail(
-            error, MW_ERROR_ARGUMENT,
-            "where pockets and holes are not filled only the border walk finds its way, not %s",
-            mw_walk_name(walk));
+        return mw__fail(error, MW_ERROR_ARGUMENT,
+                        "pockets and holes are not filled, so only the border walk works, not %s",
+                        mw_walk_name(walk));
     *cursor = (mw_cursor){
         .index = options->index,
         .random = mw__random_seed(options->seed, 0),
@@ -442,7 +441,7 @@ mw_status mw_nearest_border(const mw_locator *locator, double x, double y,
 {
     if (!locator || !hit || !isfinite(x) || !isfinite(y))
         return mw__fail(error, MW_ERROR_ARGUMENT,
-                        "the nearest border needs a locator and a finite point");
+                        "the locator or the result is NULL, or the point is not finite");
     if (!locator->has_border)
         return mw__fail(error, MW_ERROR_ARGUMENT, "the locator was made without options.border");
     if (mw__border_tree_nearest(&locator->border_tree, locator->mesh, (mw_point){x, y}, hit))

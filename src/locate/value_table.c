@@ -228,7 +228,7 @@ mw_status mw_interpolate_table(const mw_mesh *mesh, const mw_value_table *table,
     if (!options) options = &defaults;
     if (!mesh || !table || (n && (!locations || !result)) || (table->count && !table->values))
         return mw__fail(error, MW_ERROR_ARGUMENT,
-                        "interpolation needs a mesh, values, locations and a result");
+                        "the mesh, the values, the locations or the result are NULL");
     mw_status status = MW_RESERVED_CHECK(mw_interpolate_options, options, error);
     if (!status) status = table_check(table, error);
     if (status || table->count == 0) return status;

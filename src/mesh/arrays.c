@@ -9,7 +9,7 @@ mw_status mw__arrays_validate(const mw_arrays *arrays, size_t dimension, mw_erro
         (!arrays->triangles && arrays->triangle_count))
         return mw__fail(error, MW_ERROR_ARGUMENT, "arrays are missing");
     if (arrays->point_stride > 0 && arrays->point_stride < dimension)
-        return mw__fail(error, MW_ERROR_ARGUMENT, "a point stride of %zu holds no %c",
+        return mw__fail(error, MW_ERROR_ARGUMENT, "a point stride of %zu leaves no room for %c",
                         arrays->point_stride, arrays->point_stride == 1 ? 'y' : 'z');
     if (arrays->integer_type > MW_INT64)
         return mw__fail(error, MW_ERROR_ARGUMENT, "unknown type of index");
@@ -36,8 +36,8 @@ mw_status mw__copy_triangle(const mw_arrays *arrays, size_t dimension, bool tole
         uint32_t v = mw__index_at(arrays, 3 * (size_t)t + k);
         if (v >= arrays->point_count)
             return mw__fail_at(error, t, -1,
-                               "triangle %" PRIu32 ": corner %zu is no vertex; there are %zu", t, k,
-                               arrays->point_count);
+                               "triangle %" PRIu32 ": corner %zu is not a vertex; there are %zu", t,
+                               k, arrays->point_count);
         if (!tolerant && !array_vertex_is_finite(arrays, dimension, v))
             return mw__fail_at(error, t, v,
                                "triangle %" PRIu32 ": vertex %" PRIu32 " is not finite", t, v);
@@ -49,7 +49,7 @@ mw_status mw__copy_triangle(const mw_arrays *arrays, size_t dimension, bool tole
     for (uint32_t k = 0; k < 3 && !tolerant; k++)
         if (tri->v[k] == tri->v[k + 1])
             return mw__fail_at(error, t, tri->v[k],
-                               "triangle %" PRIu32 ": vertex %" PRIu32 " stands in it twice", t,
+                               "triangle %" PRIu32 ": vertex %" PRIu32 " is in it twice", t,
                                tri->v[k]);
     return MW_OK;
 }

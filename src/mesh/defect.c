@@ -145,7 +145,7 @@ void mw_defect_describe(const mw_defect *d, char *text, size_t size)
         snprintf(text, size, "triangle %" PRIu32 ": vertex %" PRIu32 " is not finite", t, v);
         return;
     case MW_DEFECT_REPEATED_VERTEX:
-        snprintf(text, size, "triangle %" PRIu32 ": vertex %" PRIu32 " stands in it twice", t, v);
+        snprintf(text, size, "triangle %" PRIu32 ": vertex %" PRIu32 " is in it twice", t, v);
         return;
     case MW_DEFECT_NON_MANIFOLD_EDGE:
         snprintf(text, size,

@@ -99,7 +99,7 @@ mw_status mw_mesh_set_field(mw_mesh *mesh, const char *name, const double *value
                             mw_error *error)
 {
     if (!mesh || !name || (!values && mesh->point_count))
-        return mw__fail(error, MW_ERROR_ARGUMENT, "a field needs a mesh, a name and values");
+        return mw__fail(error, MW_ERROR_ARGUMENT, "the mesh, the name or the values are NULL");
     mw_field *field = mesh_find_field(mesh, name);
     if (!field) field = add_field(mesh, name);
     if (!field) return mw__fail_memory(error);

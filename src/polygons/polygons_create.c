@@ -260,9 +260,9 @@ static mw_status polygons_check(const mw_constraints *rings, const mw_polygons_o
 {
     if (!rings) return mw__fail(error, MW_ERROR_ARGUMENT, "rings are NULL");
     if (rings->segment_count && !rings->polygon)
-        return mw__fail(error, MW_ERROR_ARGUMENT, "no numbers of polygons were given");
+        return mw__fail(error, MW_ERROR_ARGUMENT, "the polygon of each segment is missing (NULL)");
     if (rings->hole_seed_count)
-        return mw__fail(error, MW_ERROR_ARGUMENT, "polygons have rings for holes, no seeds");
+        return mw__fail(error, MW_ERROR_ARGUMENT, "holes of polygons are rings, not seed points");
     return MW_RESERVED_CHECK(mw_polygons_options, options, error);
 }
 

@@ -369,7 +369,7 @@ mw_status mw_nearest_on_surface(const mw_prober *prober, const double point[3], 
         return mw__fail(error, MW_ERROR_ARGUMENT,
                         "the nearest point needs a prober with options.boxes");
     if (!(max_distance >= 0))
-        return mw__fail(error, MW_ERROR_ARGUMENT, "the distance is not a length");
+        return mw__fail(error, MW_ERROR_ARGUMENT, "the distance must be at least 0");
     if (!mw__is_finite3(point)) return MW_OK;
     nearest_search s = {.prober = prober,
                         .point = point,

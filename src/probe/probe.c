@@ -61,12 +61,13 @@ mw_status mw_probe_cursor_init(const mw_prober *prober, const mw_probe_options *
                                mw_probe_cursor *cursor, mw_error *error)
 {
     static const mw_probe_options defaults;
-    if (!cursor || !prober) return mw__fail(error, MW_ERROR_ARGUMENT, "a cursor needs a prober");
+    if (!cursor || !prober)
+        return mw__fail(error, MW_ERROR_ARGUMENT, "the cursor or the prober is NULL");
     if (!options) options = &defaults;
     if ((unsigned)options->start >= MW_PROBE_START_COUNT)
         return mw__fail(error, MW_ERROR_ARGUMENT, "unknown start");
     if (!(options->max_distance >= 0))
-        return mw__fail(error, MW_ERROR_ARGUMENT, "the distance is not a length");
+        return mw__fail(error, MW_ERROR_ARGUMENT, "the distance must be at least 0");
     if (options->certain && !prober->has_bvh)
         return mw__fail(error, MW_ERROR_ARGUMENT,
                         "certain probes need a prober with options.boxes");

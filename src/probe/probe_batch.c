@@ -75,7 +75,8 @@ mw_status mw_probe_batch(const mw_prober *prober, const double *queries, size_t 
     if (n && (!queries || !touches))
         return mw__fail(error, MW_ERROR_ARGUMENT, "queries or results are NULL");
     if (b.stride < 6)
-        return mw__fail(error, MW_ERROR_ARGUMENT, "a stride below 6 holds no point and motion");
+        return mw__fail(error, MW_ERROR_ARGUMENT,
+                        "the stride must be at least 6 (point and motion)");
     b.seed = b.cursor.options.seed;
     mw_job job = mw__job(b.cursor.options.threads, b.cursor.options.progress);
     mw_probe_counters sum = probe_batch_run(&b, &job);

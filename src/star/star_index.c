@@ -41,7 +41,7 @@ static bool star_index_build(mw_star_index *index, const mw_star *star,
 static mw_status star_index_check(const mw_star *star, mw_star_start_kind start,
                                   const mw_star_index_options *options, mw_error *error)
 {
-    if (!star) return mw__fail(error, MW_ERROR_ARGUMENT, "an index needs a star");
+    if (!star) return mw__fail(error, MW_ERROR_ARGUMENT, "the star is NULL");
     if (!mw_star_start_has_index(start))
         return mw__fail(error, MW_ERROR_ARGUMENT, "this start has no index");
     if (options->cells > MW_STAR_MAX_CELLS)

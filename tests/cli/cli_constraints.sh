@@ -57,7 +57,7 @@ run triangulate three.xyz --split -o m.off; refused 2 "are about --constraints"
 run triangulate --constraints s.poly --columns x,y -o m.off; refused 2 "are about POINTS"
 run triangulate --constraints s.poly --limit 7 -o m.off; refused 2 "--limit is about"
 run triangulate a b --constraints s.poly -o m.off; refused 2 "wants \[POINTS\]"
-run triangulate - --constraints - -o m.off; refused 2 "can be read once"
+run triangulate - --constraints - -o m.off; refused 2 "can be read only once"
 run triangulate --constraints absent.poly -o m.off; refused 3 "absent\.poly: No such file"
 run triangulate absent.xyz --constraints s.poly -o m.off; refused 3 "absent\.xyz: No such file"
 run triangulate --constraints . -o m.off; refused 3 ''
@@ -312,7 +312,7 @@ run triangulate field.xyz --boundary edge.json --keep hull -o no.off; refused 2 
 run triangulate field.xyz --boundary edge.json --kind greedy -o no.off
 refused 2 '--boundary are for --kind delaunay'
 run triangulate field.xyz --boundary absent.json -o no.off; refused 3 'absent\.json'
-run triangulate - --boundary - -o no.off; refused 2 'can be read once'
+run triangulate - --boundary - -o no.off; refused 2 'can be read only once'
 absent no.off
 
 # A polygon that leaves out most points is remarked on.

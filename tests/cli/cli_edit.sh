@@ -263,9 +263,9 @@ run edit m.off e.txt -o o.off --log o.off; refused 2 '--output and --log cannot 
 run edit m.off e.txt -o - --format off --log -
 refused 2 '--output and --log cannot both go to standard output'
 run edit m.off e.txt -o - --format off
-refused 2 'e\.txt:2: standard output is taken by --output: --answers FILE'
+refused 2 'e\.txt:2: --output already writes to standard output; use --answers FILE'
 run edit m.off e.txt -o o.off --changes -
-refused 2 'e\.txt:2: standard output is taken by --changes: '
+refused 2 'e\.txt:2: --changes already writes to standard output'
 run edit m.off e.txt -o o.off --log nowhere/l.txt; refused 4 'nowhere/l\.txt: '
 only_files m.off ring.off e.txt
 run edit m.off e.txt -o - --format off --answers a.csv; exits 0; prints_line '^OFF$'

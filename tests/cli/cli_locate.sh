@@ -140,7 +140,7 @@ run locate square.off .; refused 3 '\.: Is a directory'
 run_on $'0.2 0.2\n5 5\n' locate overlap.off -; refused 3 'overlap\.off'
 says "'meshwalk check overlap.off'.*--any"
 run_on $'0.2 0.2\n5 5\n' locate --any overlap.off -; exits 0
-says 'overlap\.off: warning: .*no embedding'
+says 'overlap\.off: warning: .*not an embedding'
 prints_line '^0.2,0.2,inside,[01],'
 prints_line '^5,5,(outside|hole),-1,,,$'
 run_on $'0.2 0.2\n' locate --any --quiet overlap.off -; exits 0; says_nothing

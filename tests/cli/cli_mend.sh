@@ -63,7 +63,7 @@ run triangulate --columns x,y,z t.csv -o t.stl; exits 0; says_nothing
 
 # What is left is named, in the mended mesh's numbers, and it is written.
 run check --fix weld bad.ply -o part.ply; exits 1
-prints_line '^vertex 5: welded'; prints_line '^part\.ply: triangle 4: vertex 1 stands in it twice'
+prints_line '^vertex 5: welded'; prints_line '^part\.ply: triangle 4: vertex 1 is in it twice'
 prints_line '^part\.ply: no embedding: [0-9]+ defects'; holds "it is written" test -s part.ply
 printf '%s\n' "$overlap" >overlap.off
 run check --fix all overlap.off -o o.off; exits 1; prints_line '^o\.off: triangle [01]: .*crosses'

@@ -96,7 +96,7 @@ prints 'x,y,status,feature,others
 says 'invalid.geojson: warning: the border of feature 0 crosses itself or runs along itself; inside is what it goes round an odd'
 says 'warning: the border of feature 1 crosses itself'
 says 'feature 4: ring 0 of polygon 0 has fewer than three different points: the polygon is skipped'
-says 'warning: 1 segments of lines are passed over'
+says 'warning: 1 segments of lines are skipped'
 holds "valid features are not named" test "$(grep -c 'crosses itself' "$logs/err")" -eq 2
 run_on $'1 1\n' locate -q --polygons invalid.geojson -; exits 0; says_nothing
 

@@ -51,7 +51,7 @@ run sample --strict --status square.off one.geojson; exits 1; prints_line ',,bad
 run locate --only-answers --where 'n = 3' square.off one.geojson; exits 0
 prints $'x,y,status,triangle,w0,w1,w2\n0.75,0.25,inside,0,0.25,0.5,0.25'
 run sample --where 'm = 3' square.off one.geojson
-refused 2 "'--where' is no condition on the layer: GDAL says: "
+refused 2 "'--where' is not a valid condition on the layer: GDAL says: "
 run sample --layer none square.off one.geojson; refused 3 "has no layer 'none', but: one"
 run sample --columns x,y square.off one.geojson; refused 2 "'--columns' is for tables"
 

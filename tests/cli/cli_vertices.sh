@@ -68,7 +68,7 @@ run triangulate multi.geojson -o out.off --columns X,y,h,N; exits 0; prints_line
 prints_line '^fields +n$'
 holds "numbers as texts" grep -qx '1 0 -1.5' out.off
 run triangulate multi.geojson -o out.off --columns 1,2,3; exits 0; prints_line '^heights +z$'
-run triangulate multi.geojson -o out.off --columns y,x; refused 3 "'y' stands where x or y belongs"
+run triangulate multi.geojson -o out.off --columns y,x; refused 3 "'y' is where x or y should be"
 run triangulate multi.geojson -o out.off --columns x,y,m; refused 3 "'m' is no column"
 run triangulate multi.geojson -o out.off --columns x,y,h,h; refused 3 "'h' is there twice"
 run triangulate multi.geojson -o out.off --columns x; refused 3 "'x' is only one column"
@@ -87,7 +87,8 @@ collection "$(feature '{}' "$(point 0,0)")" \
 run triangulate line.geojson -o out.ply
 refused 3 'line\.geojson: feature 1 is a LINESTRING, not a point'
 run triangulate none.geojson -o out.ply --layer a; refused 3 "has no layer 'a', but: none"
-run triangulate zero.geojson -o out.ply --where 'm = 3'; refused 2 "'--where' is no condition"
+run triangulate zero.geojson -o out.ply --where 'm = 3'
+refused 2 "'--where' is not a valid condition"
 cat >tracks.gpx <<'END'
 <?xml version="1.0"?>
 <gpx version="1.1" creator="t" xmlns="http://www.topografix.com/GPX/1/1">

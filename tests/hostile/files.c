@@ -127,7 +127,7 @@ static void expect_sound(const mw_mesh_file *file, const char *path)
 {
     for (size_t i = 0; i < 3 * file->triangle_count; i++)
         if (file->triangles[i] >= file->point_count)
-            hostile_failed("%s: corner %zu is no vertex", path, i);
+            hostile_failed("%s: corner %zu is not a vertex", path, i);
     mw_arrays view = mw_mesh_file_arrays(file);
     mw_check check;
     mw_error error;

@@ -276,10 +276,10 @@ static void test_geojson_refused(void **state)
     static const struct {
         const char *text, *says;
     } wrong[] = {
-        {"{}", "no GeoJSON: it has no type"},
-        {"{\"type\":7}", "no GeoJSON: it has no type"},
-        {"{\"type\":\"Topology\"}", "feature 0: 'Topology' is no type of geometry"},
-        {"{\"type\":\"a\\u0001b\"}", "feature 0: 'a?b' is no type"},
+        {"{}", "not GeoJSON: it has no type"},
+        {"{\"type\":7}", "not GeoJSON: it has no type"},
+        {"{\"type\":\"Topology\"}", "feature 0: 'Topology' is not a geometry type"},
+        {"{\"type\":\"a\\u0001b\"}", "feature 0: 'a?b' is not a geometry type"},
         {"{\"type\":\"FeatureCollection\"}", "no array of features"},
         {FEATURES("{}"), "feature 0: its type is not 'Feature'"},
         {FEATURES("7"), "feature 0: its type is not 'Feature'"},
@@ -290,12 +290,12 @@ static void test_geojson_refused(void **state)
         {SHAPE("Point", "[1]"), "a position is not two or three numbers"},
         {SHAPE("Point", "[1,\"2\"]"), "a coordinate is not a number"},
         {SHAPE("Point", "[1,2,null]"), "a coordinate is not a number"},
-        {SHAPE("MultiPoint", "[1,2]"), "a part of a MultiPoint is no array"},
+        {SHAPE("MultiPoint", "[1,2]"), "a part of a MultiPoint is not an array"},
         {SHAPE("LineString", "[[0,0]]"), "a line has fewer than two positions"},
         {SHAPE("MultiLineString", "[[[0,0],[1,1]],[]]"), "a line has fewer than two positions"},
         {SHAPE("LineString", "[[0,0],7]"), "a position is not"},
         {FEATURES(FEATURE("null") "," FEATURE(SHAPE("Polygon", "[[[0,0],[1,0],[0,1]],7]"))),
-         "feature 1: a ring is no array"},
+         "feature 1: a ring is not an array"},
         {SHAPE("Polygon", "[[],[[0,0],[0,\"1\"]]]"), "a coordinate is not a number"},
         {SHAPE("Polygon", "[[[0,0],[1,0],[0,\"1\"],[0,0]]]"), "a coordinate is not a number"},
     };

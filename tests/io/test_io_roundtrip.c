@@ -301,9 +301,10 @@ static void test_refused(void **state)
     double points[] = {0, 0, 0};
     uint32_t triangles[] = {0, 0, 1};
     mw_mesh_file file = {.points = points, .point_count = 1};
-    expect_refused("a.xyz", NULL, &file, MW_ERROR_ARGUMENT, "a.xyz: the name tells no format");
-    expect_refused("-", NULL, &file, MW_ERROR_ARGUMENT, "tells no format");
-    expect_refused("a.off", "dxf", &file, MW_ERROR_ARGUMENT, "no format 'dxf'");
+    expect_refused("a.xyz", NULL, &file, MW_ERROR_ARGUMENT,
+                   "a.xyz: no mesh format has this ending");
+    expect_refused("-", NULL, &file, MW_ERROR_ARGUMENT, "no mesh format");
+    expect_refused("a.off", "dxf", &file, MW_ERROR_ARGUMENT, "unknown mesh format 'dxf'");
     expect_refused("a.off.gz", NULL, &file, MW_ERROR_ARGUMENT, "gzip is read, but not written");
     expect_refused("-", "node", &file, MW_ERROR_ARGUMENT, "two files");
     expect_refused("nowhere/a.node", NULL, &file, MW_ERROR_SYSTEM, "nowhere/a.node: No such file");

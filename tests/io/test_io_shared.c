@@ -111,17 +111,17 @@ static const struct {
     {"bad/out_of_memory.off", "ends after 14 of 353535235358 vertices", 16},
     {"bad/box_longline.obj", "face 1 of 936 corners is not convex", 24},
     {"bad/wallhole.obj", "face 2 of 11 corners is not convex", 283},
-    {"bad/malformed.obj", "'0' is no number of a vertex", 28},
+    {"bad/malformed.obj", "'0' is not a vertex number", 28},
     {"bad/not_enough_indices.obj", "a face of 2 corners", 9},
     {"bad/crash.ply", "NUL byte", 7},
     {"bad/issue623.ply", "ends before its last value", 14},
     {"bad/payload.ply", "the format has to be", 2},
-    {"bad/not_a_mesh_file.2dm", "no mesh in a format known here", -1},
-    {"bad/mobius_strip.mesh", "no mesh in a format known here", -1},
+    {"bad/not_a_mesh_file.2dm", "not a mesh in a known format", -1},
+    {"bad/mobius_strip.mesh", "not a mesh in a known format", -1},
     {"tet/box.node", "elements of 4 corners", 1},
-    {"terrain/volcano.asc", "no mesh in a format known here", -1},
-    {"star/mpas_qu1920.nc.gz", "no mesh in a format known here", -1},
-    {"terrain/1.2-with-color.las", "no mesh in a format known here", -1},
+    {"terrain/volcano.asc", "not a mesh in a known format", -1},
+    {"star/mpas_qu1920.nc.gz", "not a mesh in a known format", -1},
+    {"terrain/1.2-with-color.las", "not a mesh in a known format", -1},
 };
 
 static void test_refused(void **state)

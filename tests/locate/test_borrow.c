@@ -260,7 +260,7 @@ static void wrong_neighbours_are_refused(void **state)
     tri[3 * 0 + 1] = -1;
     expect_refused(&f, 0, "names a vertex that does not exist");
     tri[3 * 0 + 1] = tri[3 * 0];
-    expect_refused(&f, 0, "stands in it twice");
+    expect_refused(&f, 0, "is in it twice");
     tri[3 * 0 + 1] = corner;
     double x = a.points[2 * tri[0]];
     a.points[2 * tri[0]] = NAN;

@@ -4,6 +4,7 @@
 #include <meshwalk/io.h>
 #include <meshwalk/operator.h>
 #include <meshwalk/polygons.h>
+#include <meshwalk/segment.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -467,6 +468,20 @@ static mw_status run_batch(const call_inputs *in, const call_setting *how, uint6
     return status;
 }
 
+/* From point to point. */
+static mw_status run_segments(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                              mw_error *error)
+{
+    mw_segment_pieces pieces;
+    mw_segment_options options = {.threads = how->threads, .progress = how->progress};
+    mw_status status =
+        mw_segment_batch(in->locator, in->points, in->point_count - 1, 2, &options, &pieces, error);
+    expect(!status == (pieces.offset != NULL), "there are pieces");
+    for (size_t i = 0; i < pieces.piece_count; i++) sum_add(sum, pieces.piece[i].triangle);
+    mw_segment_pieces_release(&pieces);
+    return status;
+}
+
 static mw_status run_table(const call_inputs *in, const call_setting *how, uint64_t *sum,
                            mw_error *error)
 {
@@ -878,6 +893,7 @@ const long_call long_calls[] = {
     {"mw_index_create, triangle buckets", run_index_triangle_buckets},
     {"mw_index_create, kd tree", run_index_kd_tree},
     {"mw_locate_batch", run_batch},
+    {"mw_segment_batch", run_segments},
     {"mw_interpolate_table", run_table},
     {"mw_operator_create", run_operator},
     {"mw_operator_create_from_entries", run_operator_entries},

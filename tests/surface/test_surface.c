@@ -475,10 +475,10 @@ static void test_arguments(void **state)
     a = good;
     a.point_stride = 1;
     error = refused(a, none, MW_ERROR_ARGUMENT);
-    assert_string_equal(error.message, "a point stride of 1 holds no y");
+    assert_string_equal(error.message, "a point stride of 1 leaves no room for y");
     a.point_stride = 2;
     error = refused(a, none, MW_ERROR_ARGUMENT);
-    assert_string_equal(error.message, "a point stride of 2 holds no z");
+    assert_string_equal(error.message, "a point stride of 2 leaves no room for z");
     a.point_stride = 4;
     refused(a, borrow, MW_ERROR_ARGUMENT);
     assert_int_equal(mw_surface_describe(NULL, NULL, &error), MW_ERROR_ARGUMENT);
@@ -497,12 +497,12 @@ static void test_defects_are_named(void **state)
     mw_error error;
     s.triangles[7] = 8;
     error = refused(solid_view(&s), (mw_surface_options){0}, MW_ERROR_INPUT);
-    assert_string_equal(error.message, "triangle 2: corner 1 is no vertex; there are 8");
+    assert_string_equal(error.message, "triangle 2: corner 1 is not a vertex; there are 8");
     assert_int_equal(error.triangle, 2);
     error = refused(solid_view(&s), (mw_surface_options){.tolerant = 1}, MW_ERROR_INPUT);
     s.triangles[7] = 4;
     error = refused(solid_view(&s), (mw_surface_options){0}, MW_ERROR_INPUT);
-    assert_string_equal(error.message, "triangle 2: vertex 4 stands in it twice");
+    assert_string_equal(error.message, "triangle 2: vertex 4 is in it twice");
     assert_true(error.triangle == 2 && error.vertex == 4);
     s.triangles[7] = 5;
     s.points[3 * 3 + 2] = INFINITY; /* z of vertex 3 */

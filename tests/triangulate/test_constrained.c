@@ -1016,7 +1016,7 @@ static void test_wrong_arguments(void **state)
                      MW_ERROR_ARGUMENT);
     expect(s, NULL, unknown, MW_ERROR_ARGUMENT, "unknown choice of what to keep");
     given.stride = 1;
-    expect(s, &given, none, MW_ERROR_ARGUMENT, "a stride of 1 holds no y");
+    expect(s, &given, none, MW_ERROR_ARGUMENT, "the stride must be at least 2 (x and y), not 1");
     given = view(s);
     given.segments = NULL;
     expect(s, &given, none, MW_ERROR_ARGUMENT, "arrays are missing");

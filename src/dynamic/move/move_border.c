@@ -291,7 +291,8 @@ static mw_status site_fill(border_mover *m, const vertex_site *s)
         if (!mw__journal_tile(dynamic, dynamic->pool[i])) return mover_fail_memory(m);
     if (!mw__tile_room_grow(dynamic, more, false))
         return dynamic->tiling->tri_count > MW_MAX_TRIANGLES - more
-                   ? mw__fail(m->error, MW_ERROR_LIMIT, "no more numbers for triangles")
+                   ? mw__fail(m->error, MW_ERROR_LIMIT,
+                              "no triangle number is left; compact the editor")
                    : mover_fail_memory(m);
     mw__add_ghosts(dynamic, m->ghost, (uint32_t)more, dynamic->pool + s->tiles);
     dynamic->tiling->point[m->v] = m->q;
@@ -460,7 +461,7 @@ static mw_status ghosts_adopt(border_mover *m)
     if (done) tiling->ghost_count = 0;
     if (done || n <= MW_USER_MASK - tiling->number_count)
         return done ? MW_OK : mover_fail_memory(m);
-    return mw__fail(m->error, MW_ERROR_LIMIT, "no more numbers for triangles");
+    return mw__fail(m->error, MW_ERROR_LIMIT, "no triangle number is left; compact the editor");
 }
 
 /* --- all of it -------------------------------------------------------------------------------- */

@@ -101,7 +101,7 @@ static mw_status ring_count_open(const geojson_reader *g, const json_t *ring, si
     double seen[2][3], p[3]; /* the first position, and one that differs from it */
     size_t size = json_array_size(ring), different = 0;
     *count = 0;
-    if (!json_is_array(ring)) return geojson_fail(g, "a ring is no array");
+    if (!json_is_array(ring)) return geojson_fail(g, "a ring is not an array");
     for (size_t i = 0; i < size; i++) {
         mw_status status = geojson_read_position(g, json_array_get(ring, i), p);
         if (status) return status;
@@ -173,7 +173,7 @@ static mw_status geojson_read_coordinates(geojson_reader *g, size_t shape,
         const json_t *part = json_array_get(coordinates, i);
         status = json_is_array(part)
                      ? shapes[shape].read(g, part)
-                     : geojson_fail(g, "a part of a %s is no array", shapes[shape].type);
+                     : geojson_fail(g, "a part of a %s is not an array", shapes[shape].type);
     }
     return status;
 }
@@ -187,7 +187,7 @@ static mw_status geojson_read_geometry(geojson_reader *g, const json_t *geometry
         if (strcmp(type, shapes[i].type) == 0)
             return geojson_read_coordinates(g, i, json_object_get(geometry, "coordinates"));
     if (strcmp(type, "GeometryCollection") != 0)
-        return geojson_fail(g, "'%.40s' is no type of geometry", type);
+        return geojson_fail(g, "'%.40s' is not a geometry type", type);
     const json_t *parts = json_object_get(geometry, "geometries");
     if (!json_is_array(parts))
         return geojson_fail(g, "a GeometryCollection has no array of geometries");
@@ -214,7 +214,7 @@ static mw_status geojson_read_root(geojson_reader *g, const json_t *root)
     const char *type = json_string_value(json_object_get(root, "type"));
     if (!type)
         return mw__fail(g->error, MW_ERROR_INPUT,
-                        "%.240s: this is JSON, but no GeoJSON: it has no type",
+                        "%.240s: this is JSON, but not GeoJSON: it has no type",
                         mw__source_name(g->builder->source));
     if (object_is_feature(root)) return geojson_read_feature(g, root);
     if (strcmp(type, "FeatureCollection") != 0) return geojson_read_geometry(g, root);

@@ -28,7 +28,8 @@ static mw_status poly_read_node_file(mw_source *source, mw_mesh_builder *builder
     mw_mesh_file *mesh = builder->file;
     if (strcmp(source->path, "-") == 0)
         return mw__source_fail(
-            source, error, "the vertices stand in a .node file, which standard input cannot name");
+            source, error,
+            "the vertices are in a .node file; standard input has no name to find it by");
     mw_mesh_file_release(mesh);
     mw__build_start(builder, mesh, source);
     char *stem = poly_stem(source->path);

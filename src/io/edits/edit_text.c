@@ -139,7 +139,7 @@ static mw_status edit_read_vertex(edit_scan *s, const char *what, uint32_t *vert
     mw_status status = edit_wanted_word(s, what, &word);
     if (status) return status;
     if (!word_is_whole_number(word, &number) || number < 0 || number > MW_MAX_VERTICES)
-        return edit_fail(s, "%s: '%s' is no number of a vertex", what,
+        return edit_fail(s, "%s: '%s' is not a vertex number", what,
                          mw__excerpt_of(word.text, word.length).text);
     *vertex = (uint32_t)number;
     return MW_OK;
@@ -176,7 +176,7 @@ static mw_status edit_read_field(edit_scan *s, uint32_t *field)
     if (!edit_next_word(s, &word) || word.length == 0) {
         *field = edit_usual_field(options);
         return *field != MW_NONE ? MW_OK
-                                 : edit_fail(s, "the mesh has no z; name a field behind the value");
+                                 : edit_fail(s, "the mesh has no z; name a field after the value");
     }
     int64_t number = -1;
     size_t count = options->fields ? options->field_count : MW_NONE;
@@ -225,7 +225,7 @@ static mw_status edit_expect_end(edit_scan *s)
     mw_text_cell word;
     while (edit_next_word(s, &word))
         if (word.length > 0)
-            return edit_fail(s, "'%s' is more than it takes",
+            return edit_fail(s, "'%s' is one word too many",
                              mw__excerpt_of(word.text, word.length).text);
     return MW_OK;
 }

@@ -24,7 +24,7 @@ static mw_status mesh_read_source(mw_source *source, mw_mesh_builder *builder, m
     if (format && format->read) return format->read(source, builder, error);
     char names[128];
     mw__mesh_format_list(false, names, sizeof names);
-    return mw__fail(error, MW_ERROR_INPUT, "%.240s: this is no mesh in a format known here (%s)",
+    return mw__fail(error, MW_ERROR_INPUT, "%.240s: this is not a mesh in a known format (%s)",
                     mw__source_name(source), names);
 }
 
@@ -106,10 +106,10 @@ static mw_status mesh_writer_find(const char *path, const char *name, const mw_m
     if (!format || !format->write) {
         mw__mesh_format_list(true, names, sizeof names);
         if (name)
-            return mw__fail(error, MW_ERROR_ARGUMENT, "no format '%.40s' for meshes (there are %s)",
+            return mw__fail(error, MW_ERROR_ARGUMENT, "unknown mesh format '%.40s' (known: %s)",
                             name, names);
         return mw__fail(error, MW_ERROR_ARGUMENT,
-                        "%.240s: the name tells no format for meshes (there are %s)", path, names);
+                        "%.240s: no mesh format has this ending (known: %s)", path, names);
     }
     if (length > 3 && strcasecmp(path + length - 3, ".gz") == 0)
         return mw__fail(error, MW_ERROR_ARGUMENT, "%.240s: gzip is read, but not written", path);

@@ -174,7 +174,7 @@ mw_status mw__build_vertex(mw_mesh_builder *builder, int64_t number, uint32_t *v
         builder->points_complete ? (int64_t)builder->file->point_count : (int64_t)MW_MAX_VERTICES;
     if (number < builder->first_number || number - builder->first_number >= limit) {
         if (builder->points_complete) return no_such_vertex(builder, position, number, error);
-        return mw__source_fail(builder->source, error, "%" PRId64 " is no number of a vertex",
+        return mw__source_fail(builder->source, error, "%" PRId64 " is not a vertex number",
                                number);
     }
     *vertex = (uint32_t)(number - builder->first_number);

@@ -81,7 +81,7 @@ static mw_status obj_read_face(mw_source *source, const char *p, mw_mesh_builder
         if (end && !mw__integer_fits(number)) return mw__source_fail_large(source, p, end, error);
         if (end) end = corner_skip_references(end);
         if (!end || number == 0)
-            return mw__source_fail(source, error, "'%s' is no number of a vertex",
+            return mw__source_fail(source, error, "'%s' is not a vertex number",
                                    mw__excerpt(p).text);
         if (number < 0) {
             int64_t back = number;

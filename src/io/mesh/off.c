@@ -52,7 +52,7 @@ static mw_status off_read_face(mw_source *source, const char *line, mw_mesh_buil
     int64_t corners, number;
     const char *p = mw__read_integer(line, &corners);
     if (!p || !mw__at_gap(p) || corners < 0)
-        return mw__source_fail(source, error, "'%s' is no number of corners",
+        return mw__source_fail(source, error, "'%s' is not a number of corners",
                                mw__excerpt(line).text);
     if (!mw__integer_fits(corners)) return mw__source_fail_large(source, line, p, error);
     mw__build_face(builder);
@@ -64,7 +64,7 @@ static mw_status off_read_face(mw_source *source, const char *line, mw_mesh_buil
                 return mw__source_fail(source, error,
                                        "a face of %" PRId64 " corners with %" PRId64 " of them",
                                        corners, k);
-            return mw__source_fail(source, error, "'%s' is no number of a vertex",
+            return mw__source_fail(source, error, "'%s' is not a vertex number",
                                    mw__excerpt(p).text);
         }
         if (!mw__integer_fits(number)) return mw__source_fail_large(source, p, end, error);

@@ -41,7 +41,7 @@ static mw_status ply_read_type(const mw_source *source, const char *word, mw_ply
             *number = types[i].number;
             return MW_OK;
         }
-    return mw__source_fail(source, error, "'%s' is no type of a property", mw__excerpt(word).text);
+    return mw__source_fail(source, error, "'%s' is not a property type", mw__excerpt(word).text);
 }
 
 static mw_status ply_read_format(const mw_source *source, char *rest, mw_ply_kind *kind,

@@ -47,7 +47,8 @@ static mw_status ply_read_integer(ply_reader *r, mw_ply_number number, int64_t *
         const char *end = mw__read_integer(r->p, value);
         if (!*r->p) return mw__source_fail(r->source, error, "the line ends before its last value");
         if (!end || !mw__at_gap(end))
-            return mw__source_fail(r->source, error, "'%s' is no integer", mw__excerpt(r->p).text);
+            return mw__source_fail(r->source, error, "'%s' is not an integer",
+                                   mw__excerpt(r->p).text);
         if (!mw__integer_fits(*value)) return mw__source_fail_large(r->source, r->p, end, error);
         r->p = end;
         return MW_OK;

@@ -158,7 +158,7 @@ static mw_status table_explain_row(mw_point_reader *reader, const char *row, mw_
             mw__excerpt_of(cell.text, cell.length).text,
             comma ? " (for decimal commas separate the columns by semicolons or tabs)" : "");
     }
-    return mw__source_fail(&reader->source, error, "this is no row of numbers");
+    return mw__source_fail(&reader->source, error, "this is not a row of numbers");
 }
 
 static MW_INLINE char *table_skip_gap(char *p, char separator)

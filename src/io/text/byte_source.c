@@ -335,8 +335,8 @@ static mw_status source_take_line(mw_source *source, char *stop, size_t stop_byt
     source->line_count = 1;
     source_advance(source, source->line_bytes);
     if (memchr(begin + checked, 0, source->line_length - checked))
-        return mw__source_fail(
-            source, error, "a NUL byte: this is no text file, or not the kind it was taken for");
+        return mw__source_fail(source, error,
+                               "a NUL byte: this is not a text file, or not of the expected kind");
     *line = begin;
     return MW_OK;
 }

@@ -160,7 +160,8 @@ mw_status mw_star_locate_batch(const mw_star *star, const double *points, size_t
     if (n && (!points || !locations))
         return mw__fail(error, MW_ERROR_ARGUMENT, "points or results are NULL");
     if (b.queries.stride < 3)
-        return mw__fail(error, MW_ERROR_ARGUMENT, "a stride of %zu holds no x, y, z", stride);
+        return mw__fail(error, MW_ERROR_ARGUMENT,
+                        "the stride must be at least 3 (x, y, z), not %zu", stride);
     if (b.cursor.start == MW_STAR_START_AUTO && n >= MW_SORT_WORTHWHILE)
         b.cursor.start = MW_STAR_START_SORTED;
     bool sorted = b.cursor.start == MW_STAR_START_SORTED;

@@ -17,7 +17,7 @@ mw_status mw_star_cursor_init(const mw_star *star, const mw_star_query_options *
         return mw__fail(error, MW_ERROR_ARGUMENT, "unknown start");
     if (options->finish && options->finish != MW_STAR_WALK_STOCHASTIC &&
         options->finish != MW_STAR_WALK_FORGETFUL)
-        return mw__fail(error, MW_ERROR_ARGUMENT, "a walk is finished by stochastic or forgetful");
+        return mw__fail(error, MW_ERROR_ARGUMENT, "finish must be stochastic or forgetful");
     if (options->walk == MW_STAR_WALK_ORTHOGONAL && !star->angle)
         return mw__fail(error, MW_ERROR_ARGUMENT, "the orthogonal walk needs a star with angles");
     if (start == MW_STAR_START_AUTO && options->index) start = mw__star_index_start(options->index);

@@ -38,7 +38,8 @@ static mw_status cdt_check_arguments(const mw_constraints *given, mw_keep keep, 
     if (!given) return mw__fail(error, MW_ERROR_ARGUMENT, "constraints are NULL");
     if ((unsigned)keep > MW_KEEP_INSIDE)
         return mw__fail(error, MW_ERROR_ARGUMENT, "unknown choice of what to keep");
-    if (given->stride == 1) return mw__fail(error, MW_ERROR_ARGUMENT, "a stride of 1 holds no y");
+    if (given->stride == 1)
+        return mw__fail(error, MW_ERROR_ARGUMENT, "the stride must be at least 2 (x and y), not 1");
     if ((given->point_count && !given->points) || (given->segment_count && !given->segments) ||
         (given->hole_seed_count && !given->hole_seeds))
         return mw__fail(error, MW_ERROR_ARGUMENT, "arrays are missing");

@@ -1,0 +1,83 @@
+/* segment.h - segments as users have them: their walks and pieces. Private. */
+#ifndef MW_SRC_SEGMENT_SEGMENT_H
+#define MW_SRC_SEGMENT_SEGMENT_H
+
+#include "segment/segment_walk.h"
+
+/* MW_ERROR_ARGUMENT if segments cannot be followed with this locator. */
+mw_status mw__segment_check_locator(const mw_locator *locator, mw_error *error);
+
+/* Begin a walk. Coordinates are finite; the cursor's last tile is near a. */
+void mw__segment_set(mw_segment *s, const mw_locator *locator, mw_cursor *cursor, const double a[2],
+                     const double b[2]);
+
+/* An edge, a vertex or neither of a tile, as the user numbers it. */
+static MW_INLINE uint8_t mw__segment_user_place(uint32_t user, uint8_t at)
+{
+    if (at >= MW_AT_INSIDE) return at;
+    return (uint8_t)(at < MW_AT_VERTEX
+                         ? mw__user_local_edge(user, at)
+                         : MW_AT_VERTEX + mw__user_local_vertex(user, at - MW_AT_VERTEX));
+}
+
+/* Follow a segment that enters tile after tile over edges, through at most `steps` tiles, and
+ * append its pieces, for which there is room. False where rounded areas are not sure, at vertices
+ * and at b: from there mw__segment_next_surely goes on. Triangles are not cut. The turn is no
+ * branch: a processor would guess half of them wrong. */
+static MW_INLINE bool mw__segment_run(mw_segment *s, size_t steps, mw_segment_piece *piece,
+                                      size_t *count)
+{
+    const mw_triangle *tri = s->locator->tiling.tri;
+    const mw_point *point = s->locator->tiling.point, a = mw__segment_a(s), b = mw__segment_b(s);
+    uint32_t t = s->tile, e = s->local;
+    double at = s->at;
+    uint8_t gap = s->gap;
+    size_t n = 0;
+    bool sure = true;
+    for (; steps > 0; steps--) {
+        const mw_triangle *tile = &tri[t];
+        uint32_t apex = mw__prev(e), user = tile->user;
+        double unsure, off_a, off_b,
+            side = mw__orient2d_rounded(a, b, point[tile->v[apex]], &unsure);
+        uint32_t out = side > 0 ? mw__next(e) : apex, link = tile->link[out];
+        mw_point p = point[tile->v[out]], q = point[tile->v[out + 1]];
+        double of_a = mw__orient2d_rounded(p, q, a, &off_a),
+               of_b = -mw__orient2d_rounded(p, q, b, &off_b), sum = of_a + of_b;
+        sure = (fabs(side) > unsure) & (MW_PARAMETER_ERROR * of_a > off_a) &
+               (MW_PARAMETER_ERROR * of_b > off_b) & (of_a > MW_AREA_LEAST) &
+               (of_b > MW_AREA_LEAST) & (sum < MW_AREA_MOST) & (link != MW_NONE);
+        if (MW_UNLIKELY(!sure)) break;
+        double to = of_a / sum;
+        to = to < at ? at : to;
+        piece[n] = (mw_segment_piece){at,
+                                      to,
+                                      user & MW_USER_MASK,
+                                      (uint8_t)mw__user_local_edge(user, e),
+                                      (uint8_t)mw__user_local_edge(user, out),
+                                      255,
+                                      gap};
+        gap = (user & MW_GHOST) != 0;
+        n += !gap;
+        at = to;
+        t = mw__link_triangle(link);
+        e = mw__link_edge(link);
+    }
+    s->tile = t;
+    s->local = (uint8_t)e;
+    s->at = at;
+    s->gap = gap;
+    *count += n;
+    return sure;
+}
+
+/* The next piece where mw__segment_run is not sure: parts in ghosts are left out. False at the
+ * end. */
+bool mw__segment_next_surely(mw_segment *s, mw_segment_piece *piece);
+
+/* Does mw__segment_run go on from here? */
+static MW_INLINE bool mw__segment_may_run(const mw_segment *s)
+{
+    return s->phase == MW_SEGMENT_ENTERS && !s->locator->tiling.cut;
+}
+
+#endif
