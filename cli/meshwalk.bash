@@ -13,6 +13,8 @@ _meshwalk_options() {
         triangulate) echo "--constraints --boundary --keep --split --strict --max-edge --kind --weight --hidden --limit --format --columns --class --layer --where --crs --points-crs --constraints-crs --json $common" ;;
         locate) echo "--details --polygons --attribute --polygon-layer $query $stream $common" ;;
         sample) echo "--field --outside --missing --nodata --status $query $stream $common" ;;
+        weights) echo "$query --strict --stats --json --layer --where $common" ;;
+        apply) echo "--field --missing --strict --stats --json $common" ;;
         edit)
             echo "--answers --heights --changes --numbers --log --constraints --undo --delaunay --skip --strict --walk"
             echo "--start --cells --layers --descent --format --stats --json $common"
@@ -72,7 +74,9 @@ _meshwalk_names() {
         --descent) echo 'auto nearest coordinate' ;;
         --sample) [[ $1 == star ]] || echo 'cube-root fourth-root' ;;
         --outside) echo 'empty nearest linear' ;;
-        --missing) echo 'empty nearest' ;;
+        --missing)
+            if [[ $1 == apply ]]; then echo 'empty leave-out'; else echo 'empty nearest'; fi
+            ;;
         --nodata) echo none ;;
         --points-crs) echo same ;;
         --kind) echo 'delaunay greedy min-weight min-max-angle regular' ;;
@@ -125,7 +129,7 @@ _meshwalk() {
         before=${COMP_WORDS[COMP_CWORD - 2]}
     fi
     if ((COMP_CWORD == 1)); then
-        names='info check triangulate locate sample edit star probe walk bench --help --version'
+        names='info check triangulate locate sample weights apply edit star probe walk bench --help --version'
         mapfile -t COMPREPLY < <(compgen -W "$names" -- "$word")
         return
     fi

@@ -128,7 +128,7 @@ const command apply_command = {
         "made, by meshwalk weights or by ESMF, and writes them to a netCDF file: all time steps "
         "and layers, a few at a time. A point without weights has no value.",
     .options = tables,
-    .essential = "field missing output",
+    .essential = "field missing strict stats output",
     .settings_size = sizeof(apply_settings),
     .run = apply_run,
 };

@@ -126,7 +126,7 @@ const command weights_command = {
         "meshwalk apply read, or, to a name that ends in .npz, as a sparse matrix of SciPy. A "
         "point in no triangle has no weights; its status is in the variable status_b.",
     .options = tables,
-    .essential = "columns output",
+    .essential = "columns points-crs tolerance stats output",
     .settings_size = sizeof(weights_settings),
     .run = weights_run,
 };
