@@ -15,9 +15,9 @@
 #include <unistd.h>
 
 static const command *const commands[] = {
-    &info_command,   &check_command,   &triangulate_command, &locate_command,
-    &sample_command, &weights_command, &apply_command,       &edit_command,
-    &star_command,   &probe_command,   &walk_command,        &bench_command,
+    &info_command,   &check_command,   &triangulate_command, &locate_command, &sample_command,
+    &raster_command, &weights_command, &apply_command,       &edit_command,   &star_command,
+    &probe_command,  &walk_command,    &bench_command,
 };
 #define COMMAND_COUNT (sizeof commands / sizeof *commands)
 
@@ -37,11 +37,13 @@ static int main_print_help(void)
             "command,\n"
             "                        'meshwalk COMMAND --help all' about all its options\n"
             "      --version         print the version, what is built in and what was found\n\n");
-    help_wrap(&t,
-              "Meshes: Triangle .node/.ele, OFF, OBJ, PLY, STL. Points: text with columns, LAS. "
-              "Constraints: GeoJSON, "
-              "Triangle .poly. Each also gzipped; '-' is standard input or output.",
-              0);
+    help_wrap(
+        &t,
+        "Meshes: Triangle .node/.ele, OFF, OBJ, PLY, STL, fort.14, .gr3, .2dm, Selafin, Gmsh .msh, "
+        "VTK, VTU, SU2, .npz. Points: text with columns, LAS. "
+        "Constraints: GeoJSON, "
+        "Triangle .poly. Each also gzipped; '-' is standard input or output.",
+        0);
     help_wrap(
         &t,
         "Exit codes: 0 done; 1 done, but points have no answer and --strict was given, or check "

@@ -251,6 +251,9 @@ int point_query_open(point_query *q, const point_query_settings *settings,
     end = mesh_crs_settle(path, settings->crs, file.crs, settings->stream.common.quiet, &q->crs);
     if (end == 0) end = point_query_make_mesh(q, path, &file, area);
     if (end == 0 && load) end = load(q->own, path, &file, self);
+    q->faces = file.faces;
+    q->first_number = file.first_number;
+    file.faces = NULL;
     mw_mesh_file_release(&file);
     if (end == 0) end = point_query_make_locator(q, path, border, area);
     return end ? end : point_query_make_index(q);
@@ -262,6 +265,7 @@ void point_query_release(point_query *q)
     mw_locator_destroy(q->locator);
     mw_mesh_destroy(q->own);
     free(q->crs);
+    free(q->faces);
 }
 
 /* What the callbacks of the query stream need. */
@@ -357,6 +361,8 @@ static void point_query_report_memory(report *r, const point_query *q)
     report_rounded(r, "start_seconds", index.seconds);
     report_count(r, "ghost_triangles", locator.ghost_triangles);
     report_count(r, "fill_bytes", locator.fill_bytes);
+    report_string(r, "guide", locator.guide ? mw_start_name(locator.guide) : "none");
+    report_count(r, "guide_bytes", locator.guide_bytes);
     report_count(r, "pieces", locator.components);
 }
 

@@ -50,11 +50,13 @@ typedef struct point_query {
     mw_mesh *own; /* the mesh, where it was read from a file */
     const mw_mesh *mesh;
     mw_locator *locator;
-    mw_index *index;                    /* NULL if the start has none */
-    const char *path;                   /* of the mesh */
-    char *crs;                          /* its coordinate system; NULL: not known */
-    extent_box extent;                  /* of its vertices */
-    double begin;                       /* monotonic_seconds when the command began */
+    mw_index *index;   /* NULL if the start has none */
+    const char *path;  /* of the mesh */
+    char *crs;         /* its coordinate system; NULL: not known */
+    uint32_t *faces;   /* of its file, per triangle; NULL: they are the triangles */
+    int first_number;  /* what its file counts from: 0 or 1 */
+    extent_box extent; /* of its vertices */
+    double begin;      /* monotonic_seconds when the command began */
     point_query_count_rows *count_rows; /* NULL: tell how many points got which mw_where */
     point_query_values *values;         /* NULL: no values are asked for */
 } point_query;

@@ -20,6 +20,12 @@
 extern "C" {
 #endif
 
+/** A side of a triangle that a file marks. */
+typedef struct mw_marked_edge {
+    uint32_t vertex[2];
+    uint32_t mark; /**< number of its name in mw_mesh_file.mark_names */
+} mw_marked_edge;
+
 /**
  * Tell the version of libnetcdf, which reads and writes netCDF files and is loaded when it is
  * needed.
@@ -43,7 +49,8 @@ MW_API size_t mw_netcdf_version(char *text, size_t size);
  * corners as a fan from its lowest-numbered vertex (corners on a straight line between their
  * neighbours may shift this, so that no triangle is flat). A face that is not convex is an error.
  * Faces are looked at in the plane x, y; a face that is not convex there, as that of a wall, in
- * the plane of two coordinates where its area is largest. */
+ * the plane of two coordinates where its area is largest. Only a quadrilateral in space, whose
+ * corners have different z, need not be convex: it is cut where it folds less. */
 typedef struct mw_mesh_file {
     double *points;      /**< 3 per vertex: x, y, z; z is 0 if the file has none */
     uint32_t *triangles; /**< 3 vertices per triangle */
@@ -61,6 +68,17 @@ typedef struct mw_mesh_file {
     uint32_t *faces;
     size_t face_count;
     int first_number; /**< what the file counts its vertices and faces from: 0 or 1 */
+    /** If not 0: the fields are values at the first of so many times that the file has. */
+    size_t step_count;
+    char **triangle_field_names; /**< values per triangle, that of its face: "physical" of Gmsh */
+    double **triangle_fields;    /**< triangle_field_count arrays of triangle_count values */
+    size_t triangle_field_count;
+    /** Edges that the file marks as parts of a boundary, in its order, and the names of the marks:
+     * "open 1", "land 1 type 20" in fort.14 and .gr3, names of markers and physical groups. */
+    mw_marked_edge *edges;
+    size_t edge_count;
+    char **mark_names;
+    size_t mark_count;
 } mw_mesh_file;
 
 /** Options of reading or writing a whole file. Zero-initialised options select the defaults. */
@@ -77,10 +95,25 @@ typedef struct mw_file_options {
  * - OFF: with normals, colours or texture coordinates, which are ignored
  * - OBJ: v and f; everything else is ignored
  * - PLY: text, little- and big-endian; other numbers of the vertices become fields; also triangle
- * strips - STL: text and binary; corners with equal coordinates become one vertex (-0.0 equals 0.0)
+ *   strips
+ * - STL: text and binary; corners with equal coordinates become one vertex (-0.0 equals 0.0)
  * - .node and .ele of Triangle: `path` names either, or both without ending; numbered from 0 or 1.
  *   Attributes become fields "attribute1", ..., unless a comment "# attributes: NAME, NAME" at the
  *   top names them; one named z is the height
+ * - fort.14 of ADCIRC (.14, .grd) and .gr3, .ll of SCHISM: the depth, positive downwards, becomes
+ *   the field "depth"; open and land boundaries mark edges; .ll is in longitudes and latitudes
+ * - 2DM of SMS: triangles and quadrilaterals, counted in the order of their numbers; the material
+ *   becomes the triangle field "material"
+ * - Selafin of TELEMAC (.slf): either byte order, single and double precision; the variables at the
+ *   first time become fields
+ * - MSH of Gmsh, 2.2, 4.0 and 4.1: text and binary; physical groups of faces become the triangle
+ *   field "physical", those of lines mark edges
+ * - VTK: legacy unstructured grids and polydata, text and binary; VTU: text, base64 and raw, with
+ *   zlib or without. Values of points become fields, those of cells triangle fields
+ * - SU2 in the plane; markers mark edges
+ * - NPZ of NumPy: arrays "points" and "triangles"; others of the length of one of these are values
+ *
+ * Volumes, lines and vertices among the cells are passed over; cells of higher order are refused.
  *
  * @param path     the file; "-": standard input
  * @param options  NULL selects the defaults

@@ -28,7 +28,8 @@ def read(path: str | os.PathLike[str], *, progress: Progress | None = None) -> M
     Parameters
     ----------
     path : str or path-like
-        OFF, OBJ, PLY, STL or Triangle's ``.node``/``.ele``: recognised by content, else by name.
+        OFF, OBJ, PLY, STL, Triangle's ``.node``/``.ele``, ``fort.14``, ``.gr3``, ``.2dm``,
+        Selafin, ``.msh``, VTK, VTU, SU2 or ``.npz``: recognised by content, else by name.
     progress : callable, optional
         As of `Locator`.
 

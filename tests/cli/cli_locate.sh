@@ -247,4 +247,26 @@ if (ulimit -v 250000; "$meshwalk" --version) >/dev/null 2>&1; then
         rm -f few.csv
     done
 fi
+# Faces of a file that are no triangles have a column, and numbers are the file's on request.
+printf 'quads\n2 6\n1 0 0 5\n2 1 0 5\n3 1 1 5\n4 0 1 5\n5 2 0 5\n6 2 1 5\n%s\n' \
+    '1 4 1 2 3 4
+2 4 2 5 6 3' >quads.gr3
+run_on $'0.75 0.25\n1.75 0.5\n9 9\n' locate quads.gr3 -; exits 0; says_nothing
+prints 'x,y,status,triangle,face,w0,w1,w2
+0.75,0.25,inside,0,0,0.25,0.5,0.25
+1.75,0.5,inside,2,1,0.25,0.25,0.5
+9,9,outside,-1,,,,'
+run_on $'0.75 0.25\n1.75 0.5\n9 9\n' locate --base file --details quads.gr3 -; exits 0
+prints 'x,y,status,triangle,face,w0,w1,w2,local,border_triangle,border_edge,distance,hole
+0.75,0.25,inside,1,1,0.25,0.5,0.25,,,,,
+1.75,0.5,inside,3,2,0.25,0.25,0.5,,,,,
+9,9,outside,-1,,,,,,3,1,10.63014581273465,'
+run_on $'0.75 0.25\n' locate --base 1 square.off -; exits 0
+prints 'x,y,status,triangle,w0,w1,w2
+0.75,0.25,inside,1,0.25,0.5,0.25'
+run_on $'0.75 0.25\n' locate --base file square.off -; exits 0
+prints 'x,y,status,triangle,w0,w1,w2
+0.75,0.25,inside,0,0.25,0.5,0.25'
+run_on $'0 0\n' locate --base 1 --polygons square.geojson -; exits 2
+says '--base is for MESH'
 finish

@@ -24,6 +24,21 @@ typedef struct bad_mesh {
     "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float " \
     "z\n"
 #define PLYF PLY3 "element face 1\nproperty list uchar int vertex_indices\nend_header\n" OFF3
+#define VTK_HEAD "# vtk DataFile Version 3.0\ntitle\nASCII\n"
+#define VTK_GRID "DATASET UNSTRUCTURED_GRID\n"
+#define VTK_3 VTK_HEAD VTK_GRID "POINTS 3 double\n0 0 0 1 0 0 0 1 0\n"
+#define FORT14 "title\n1 3\n1 0 0 1\n2 1 0 1\n3 0 1 1\n"
+#define SMS3 "MESH2D\nND 1 0 0 0\nND 2 1 0 0\nND 3 0 1 0\n"
+#define MSH "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n"
+#define MSH3 MSH "$Nodes\n3\n1 0 0 0\n2 1 0 0\n3 0 1 0\n$EndNodes\n"
+#define VTU(parts)                                                                                 \
+    "<VTKFile type='UnstructuredGrid'><UnstructuredGrid><Piece NumberOfPoints='3' "                \
+    "NumberOfCells='1'>" parts "</Piece></UnstructuredGrid></VTKFile>"
+#define VTU_3(corners, ends, types)                                                                \
+    VTU("<Points><DataArray type='Float64'>0 0 0 1 0 0 0 1 0</DataArray></Points><Cells>"          \
+        "<DataArray type='Int64' Name='connectivity'>" corners "</DataArray>"                      \
+        "<DataArray type='Int64' Name='offsets'>" ends "</DataArray>"                              \
+        "<DataArray type='UInt8' Name='types'>" types "</DataArray></Cells>")
 static const bad_mesh bads[] = {
     {"e.off", "", 1, "begins with OFF"},
     {"e.off", "  \n\n", 2, "begins with OFF"},
@@ -154,7 +169,103 @@ static const bad_mesh bads[] = {
     {"e.txt", "", -1, "this is not a mesh in a known format"},
     {"e.xyz", "0 0\n1 0\n0 1\n", -1, "this is not a mesh in a known format"},
     {"e.csv", "x,y\n0,0\n", -1, "this is not a mesh in a known format"},
-    {"e.vtk", "# vtk DataFile Version 3.0\n", -1, "this is not a mesh in a known format"},
+
+    {"e.vtk", "# vtk DataFile Version 3.0\n", 1, "expected ASCII or BINARY"},
+    {"e.vtk", VTK_HEAD "DATASET STRUCTURED_GRID\n", 4, "a dataset 'STRUCTURED_GRID'"},
+    {"e.vtk", VTK_HEAD VTK_GRID "POINTS 3 double\n0 0 0 1 0\n", 6, "ends before the coordinate"},
+    {"e.vtk", VTK_HEAD VTK_GRID "POINTS 99999999999 double\n0 0 0\n", 6, "ends before the"},
+    {"e.vtk", VTK_HEAD VTK_GRID "POINTS 3 string\n0 0 0\n", 5, "values of type 'string'"},
+    {"e.vtk", VTK_3 "CELLS 1 4\n4 0 1 2\nCELL_TYPES 1\n5\n", 9, "CELL_TYPES"},
+    {"e.vtk", VTK_3 "CELLS 1 4\n7 0 1 2\nCELL_TYPES 1\n5\n", 8, "7 corners where 4"},
+    {"e.vtk", VTK_3 "CELLS 1 4\n3 0 1 3\nCELL_TYPES 1\n5\n", 10, "vertex 3 does not exist"},
+    {"e.vtk", VTK_3 "CELLS 1 4\n3 0 1 2\nCELL_TYPES 1\n9\n", 10, "type 9 has 3 corners"},
+    {"e.vtk", VTK_3 "CELLS 1 4\n3 0 1 2\nCELL_TYPES 1\n22\n", 10, "type 22 are not read"},
+    {"e.vtk", VTK_3 "CELLS 1 4\n3 0 1 2\n", 8, "1 cells, but the types of 0"},
+    {"e.vtk", VTK_3 "CELLS 1 5\n4 0 1 2 0\nCELL_TYPES 1\n10\n", 10,
+     "but volumes, cells of type 10"},
+    {"e.vtk", VTK_3 "POINT_DATA 4\n", 7, "4 values for 3 points"},
+    {"e.vtk", VTK_3 "NONSENSE 4\n", 7, "'NONSENSE' was not expected"},
+    {"e.vtk", VTK_3 "POINT_DATA 3\nSCALARS q float\nLOOKUP_TABLE default\n1 2 x\n", 10,
+     "'x' is not a number"},
+
+    {"fort.14", "", 1, "no line with the numbers"},
+    {"fort.14", "title\n", 1, "no line with the numbers"},
+    {"fort.14", "title\n1 x\n", 2, "expected the number of vertices, found 'x'"},
+    {"fort.14", "title\n-1 3\n", 2, "a negative count"},
+    {"fort.14", "title\n1 3\n1 0 0 1\n3 0 0 1\n", 4, "number of the vertex is 3, not 2"},
+    {"fort.14", "title\n1 3\n1 0 0\n", 3, "the line ends before the depth"},
+    {"fort.14", "title\n1 3000000000\n1 0 0 1\n", 3, "ends after 1 of 3000000000 vertices"},
+    {"fort.14", FORT14 "1 3 1 2\n", 6, "the line ends before the corner"},
+    {"fort.14", FORT14 "1 5 1 2 3 1 2\n", 6, "an element of 5 corners"},
+    {"fort.14", FORT14 "1 3 0 1 2\n", 6, "vertex 0 does not exist: there are 3, numbered from 1"},
+    {"fort.14", FORT14, 5, "ends after 0 of 1 elements"},
+    {"fort.14", FORT14 "1 3 1 2 3\n1\n2\n2\n1\n", 10, "ends after 1 of 2 vertices of a boundary"},
+    {"fort.14", FORT14 "1 3 1 2 3\n1\n2\n2\n1\n9\n", 11, "vertex 9 does not exist"},
+    {"fort.14", FORT14 "1 3 1 2 3\n-1\n", 7, "the number of boundaries is -1"},
+    {"e.gr3", FORT14 "1 3 1 2 3\n2\n0\n", 8, "ends after 0 of 2 boundaries"},
+
+    {"e.2dm", "this is no mesh\n", 1, "begins with MESH2D"},
+    {"e.2dm", "MESH2D\nE3T 1 1 2 3 1\n", 2, "vertex 1 does not exist"},
+    {"e.2dm", "MESH2D\n", 1, "no vertex ('ND')"},
+    {"e.2dm", "MESH2D\nND 1 0 0\n", 2, "the line ends before the z"},
+    {"e.2dm", "MESH2D\nND 1 0 0 0\nND 1 1 0 0\n", 3, "this vertex has the number of another"},
+    {"e.2dm", SMS3 "E3T 1 1 2 3\nE3T 1 1 2 3\n", 6, "this element has the number of another"},
+    {"e.2dm", SMS3 "E3T 1 1 2 4\nE3T 2 1 2 3\n", 5, "vertex 4 does not exist"},
+    {"e.2dm", SMS3 "E3T 1 1 2 -3\n", 5, "-3 is no number of a vertex"},
+    {"e.2dm", SMS3 "E6T 1 1 2 3 4 5 6 1\n", 5, "E6T: elements with vertices on their sides"},
+    {"e.2dm", "MESH2D\nE4Q 1 1 2 3 4\nND 1 0 0 0\nND 2 4 0 0\nND 3 1 1 0\nND 4 0 4 0\n", 2,
+     "face 1 of 4 corners is not convex"},
+
+    {"e.su2", "NDIME= 3\n", 1, "the mesh is not in the plane"},
+    {"e.su2", "NDIME= 2\n", 1, "no vertices ('NPOIN=')"},
+    {"e.su2", "NZONE= 2\n", 1, "several zones"},
+    {"e.su2", "NDIME= 2\nNPOIN= -1\n", 2, "the vertices is -1"},
+    {"e.su2", "NDIME= 2\nNPOIN= 9000000000\n0 0 0\n", 3, "ends after 1 of 9000000000 vertices"},
+    {"e.su2", "NDIME= 2\nNELEM= 1\n12 0 1 2 3 4 5 6 7\n", 3, "an element of type 12"},
+    {"e.su2", "NDIME= 2\nNELEM= 1\n5 0 1 3\nNPOIN= 3\n0 0\n1 0\n0 1\n", 3,
+     "vertex 3 does not exist: there are 3, numbered from 0"},
+    {"e.su2", "NDIME= 2\nNPOIN= 1\n0 0\nNPOIN= 1\n0 0\n", 4, "the vertices come a second time"},
+    {"e.su2", "NDIME= 2\nNPOIN= 1\n0 0\nMARKER_ELEMS= 1\n3 0 0\n", 4, "without MARKER_TAG"},
+
+    {"e.msh", "$Nodes\n1\n", 1, "no $MeshFormat before this"},
+    {"e.msh", "$MeshFormat\n3 0 8\n$EndMeshFormat\n", 2, "version 3 of MSH is not read"},
+    {"e.msh", "$MeshFormat\n2.2 0 4\n", 2, "numbers of 4 bytes"},
+    {"e.msh", MSH "$Comments\n1\n", 5, "the file ends before $EndComments"},
+    {"e.msh", MSH, 3, "no vertices ($Nodes)"},
+    {"e.msh", MSH "nonsense\n", 4, "expected a section ('$...'), found 'nonsense'"},
+    {"e.msh", MSH "$Elements\n1\n", 4, "elements before the vertices"},
+    {"e.msh", MSH "$Nodes\n3\n1 0 0 0\n", 6, "the file ends before the number of a vertex"},
+    {"e.msh", MSH "$Nodes\n2\n1 0 0 0\n1 1 0 0\n$EndNodes\n$Elements\n", 9,
+     "vertex 2 of the file has the number of another one"},
+    {"e.msh", MSH3 "$Elements\n1\n1 2 0 1 2 4\n", 12, "vertex 4 does not exist"},
+    {"e.msh", MSH3 "$Elements\n1\n1 9 0 1 2 3 1 2 3\n", 12, "type 9 have vertices on their sides"},
+    {"e.msh", MSH3 "$Elements\n1\n1 99 0 1 2 3\n", 12, "elements of type 99 are not read"},
+    {"e.msh", MSH3 "$Elements\n1\n1 4 0 1 2 3 1\n$EndElements\n", 13,
+     "no triangles nor quadrilaterals, but elements of type 4"},
+    {"e.msh", MSH3 "$Elements\n1\n1 2 0 1 2 3\n$EndNodes\n", 13, "expected $EndElements"},
+
+    {"e.vtu", "<?xml version='1.0'?>\n<VTKFile type='PolyData'>\n", -1,
+     "a file of type 'PolyData'"},
+    {"e.vtu", "<VTKFile type='UnstructuredGrid'>\n</VTKFile>", -1, "no <Piece>"},
+    {"e.vtu", VTU("<Points></Points>"), -1, "no <Points>"},
+    {"e.vtu", VTU("<Points><DataArray type='Float64'>0 0 0 1 0 x</DataArray></Points>"), -1,
+     "'x' is not a number"},
+    {"e.vtu", VTU("<Points><DataArray type='Float64'>0 0 0</DataArray></Points>"), -1,
+     "an array of 3 numbers, not 9"},
+    {"e.vtu", VTU("<Points><DataArray type='Float9'>0 0 0</DataArray></Points>"), -1,
+     "an array of type 'Float9'"},
+    {"e.vtu", VTU("<Points><DataArray type='Float64' format='appended' offset='0'/></Points>"), -1,
+     "appended, but there is nothing"},
+    {"e.vtu",
+     VTU("<Points><DataArray type='Float64' format='binary'>/////w==</DataArray></Points>"), -1,
+     "the data of the array end early"},
+    {"e.vtu", VTU_3("0 1 3", "3", "5"), -1, "vertex 3 does not exist"},
+    {"e.vtu", VTU_3("0 1 2", "9", "5"), -1, "cell 0 has no corners"},
+    {"e.vtu", VTU_3("0 1 2", "3", "-5"), -1, "types that are no counts"},
+    {"e.vtu", VTU_3("0 1 2", "3", "23"), -1, "cells of type 23 are not read"},
+
+    {"e.npz", "PK\3\4", -1, "this is no zip file"},
+    {"e.npz", "", -1, "this is no zip file"},
 };
 
 static void test_malformed(void **state)

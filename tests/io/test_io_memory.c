@@ -11,6 +11,7 @@
 #include <string.h>
 
 /* wrap: malloc calloc realloc strdup strndup free */
+#include "support/grid_bytes.h"
 #include "support/write_mesh_file.h"
 
 static long countdown = -1; /* allocations until one fails; negative: none does */
@@ -185,6 +186,7 @@ static void test_read_meshes(void **state)
     files_write_text("a.prj", "EPSG:2056");
     static const char *const paths[] = {"a.off", "a.obj", "a.stl", "b.stl", "a.ply", "a.node", "a"};
     for (size_t i = 0; i < sizeof paths / sizeof *paths; i++) fail_each(read_mesh, paths[i]);
+    files_clear();
     /* enough vertices that the table of the welding grows */
     FILE *out = fopen("large.stl", "w");
     assert_non_null(out);
@@ -194,6 +196,36 @@ static void test_read_meshes(void **state)
     fprintf(out, "endsolid\n");
     fclose(out);
     fail_each(read_mesh, "large.stl");
+    files_clear();
+}
+
+static void fail_grid(const char *name, grid_bytes g)
+{
+    files_write(name, (bytes){g.bytes, g.size});
+    grid_release(&g);
+    fail_each(read_mesh, name);
+}
+
+static void test_read_grids(void **state)
+{
+    (void)state;
+    const grid_form packed = {.packed = true};
+    files_write_text("a.gr3", "\n2 4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n1 4 1 2 3 4\n"
+                              "2 3 1 2 3\n1\n2\n2\n1\n2\n1\n2\n2 20\n2\n3\n");
+    files_write_text("hgrid.ll", "\n1 3\n1 0 0 0\n2 1 0 0\n3 1 1 0\n1 3 1 2 3\n");
+    files_write_text("a.2dm", "MESH2D\nE4Q 2 1 2 3 4 5\nE3T 1 1 2 3 5\nND 4 0 1 0\nND 3 1 1 0\n"
+                              "ND 2 1 0 0\nND 1 0 0 0\n");
+    files_write_text("a.su2", "NDIME= 2\nNELEM= 1\n9 0 1 2 3\nNPOIN= 4\n0 0\n1 0\n1 1\n0 1\n"
+                              "MARKER_TAG= a\nMARKER_ELEMS= 1\n3 0 1\n");
+    static const char *const paths[] = {"a.gr3", "hgrid.ll", "a.2dm", "a.su2"};
+    for (size_t i = 0; i < sizeof paths / sizeof *paths; i++) fail_each(read_mesh, paths[i]);
+    fail_grid("a.msh", grid_msh(22, false));
+    fail_grid("a.msh", grid_msh(41, false));
+    fail_grid("a.slf", grid_selafin(packed));
+    fail_grid("a.vtk", grid_vtk(false));
+    fail_grid("a.vtu", grid_vtu(packed, false));
+    fail_grid("a.vtu", grid_vtu(packed, true));
+    fail_grid("a.npz", grid_npz(packed, false));
     files_clear();
 }
 
@@ -242,7 +274,8 @@ static void test_write(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_read_meshes), cmocka_unit_test(test_read_points),
-        cmocka_unit_test(test_read_edits), cmocka_unit_test(test_write)};
+        cmocka_unit_test(test_read_meshes), cmocka_unit_test(test_read_grids),
+        cmocka_unit_test(test_read_points), cmocka_unit_test(test_read_edits),
+        cmocka_unit_test(test_write)};
     return cmocka_run_group_tests(tests, files_enter, files_leave);
 }

@@ -22,7 +22,7 @@ static mw_status mesh_read_source(mw_source *source, mw_mesh_builder *builder, m
     const mw_mesh_format *format = mw__mesh_format_by_content(head, size);
     if (!format) format = mw__mesh_format_by_path(source->path);
     if (format && format->read) return format->read(source, builder, error);
-    char names[128];
+    char names[256];
     mw__mesh_format_list(false, names, sizeof names);
     return mw__fail(error, MW_ERROR_INPUT, "%.240s: this is not a mesh in a known format (%s)",
                     mw__source_name(source), names);
@@ -78,6 +78,11 @@ void mw_mesh_file_release(mw_mesh_file *file)
 {
     if (!file) return;
     mw__fields_release(file->field_names, file->fields, file->field_count);
+    mw__fields_release(file->triangle_field_names, file->triangle_fields,
+                       file->triangle_field_count);
+    for (size_t m = 0; m < file->mark_count; m++) free(file->mark_names[m]);
+    free(file->mark_names);
+    free(file->edges);
     free(file->points);
     free(file->triangles);
     free(file->faces);
@@ -102,7 +107,7 @@ static mw_status mesh_writer_find(const char *path, const char *name, const mw_m
         name ? mw__mesh_format_by_name(name) : mw__mesh_format_by_path(path);
     *found = format;
     size_t length = strlen(path);
-    char names[128];
+    char names[256];
     if (!format || !format->write) {
         mw__mesh_format_list(true, names, sizeof names);
         if (name)

@@ -1,5 +1,6 @@
 #include "io/formats/mesh_formats.h"
 
+#include "io/grid/grid_readers.h"
 #include "io/mesh/mesh_readers.h"
 #include "io/mesh/mesh_writers.h"
 #include "io/text/file_head.h"
@@ -38,6 +39,51 @@ static bool is_obj(const char *word)
     return false;
 }
 
+static bool is_msh(const char *word)
+{
+    return strcmp(word, "$MeshFormat") == 0;
+}
+
+static bool is_2dm(const char *word)
+{
+    return strcmp(word, "MESH2D") == 0;
+}
+
+static bool is_su2(const char *word)
+{
+    return strncmp(word, "NDIME=", 6) == 0;
+}
+
+static bool begins_vtk(const char *head, size_t size)
+{
+    static const char mark[] = "# vtk DataFile";
+    return size >= sizeof mark - 1 && memcmp(head, mark, sizeof mark - 1) == 0;
+}
+
+static bool begins_vtu(const char *head, size_t size)
+{
+    static const char mark[] = "<VTKFile";
+    if (size < 8 || (memcmp(head, "<?xml", 5) != 0 && memcmp(head, mark, 8) != 0)) return false;
+    for (size_t i = 0; i + 8 <= size; i++)
+        if (memcmp(head + i, mark, 8) == 0) return true;
+    return false;
+}
+
+/* A record of 80 bytes that ends with its length, in either byte order. */
+static bool begins_selafin(const char *head, size_t size)
+{
+    return size >= 88 && memcmp(head, head + 84, 4) == 0 &&
+           (memcmp(head, "\0\0\0P", 4) == 0 || memcmp(head, "P\0\0\0", 4) == 0);
+}
+
+/* A zip file whose first entry is an array. */
+static bool begins_npz(const char *head, size_t size)
+{
+    if (size < 40 || memcmp(head, "PK\3\4", 4) != 0) return false;
+    size_t length = (unsigned char)head[26] + 256 * (size_t)(unsigned char)head[27];
+    return length > 4 && length <= size - 30 && memcmp(head + 30 + length - 4, ".npy", 4) == 0;
+}
+
 static const mw_mesh_format formats[] = {
     {.name = "off",
      .endings = ".off\0.coff\0.noff\0",
@@ -66,7 +112,23 @@ static const mw_mesh_format formats[] = {
      .read = mw__read_stl,
      .write = mw__write_stl},
     {.name = "csv", .endings = ".csv\0", .write = mw__write_csv},
-    {.name = "vtk", .endings = ".vtk\0", .write = mw__write_vtk},
+    {.name = "vtk",
+     .endings = ".vtk\0",
+     .first_bytes = begins_vtk,
+     .read = mw__read_vtk,
+     .write = mw__write_vtk},
+    {.name = "vtu", .endings = ".vtu\0", .first_bytes = begins_vtu, .read = mw__read_vtu},
+    {.name = "fort.14", .endings = ".14\0.grd\0", .read = mw__read_fort14},
+    {.name = "gr3", .endings = ".gr3\0", .read = mw__read_fort14},
+    {.name = "ll", .endings = ".ll\0", .read = mw__read_hgrid_ll},
+    {.name = "2dm", .endings = ".2dm\0", .first_word = is_2dm, .read = mw__read_2dm},
+    {.name = "msh", .endings = ".msh\0", .first_word = is_msh, .read = mw__read_msh},
+    {.name = "selafin",
+     .endings = ".slf\0.selafin\0.ser\0",
+     .first_bytes = begins_selafin,
+     .read = mw__read_selafin},
+    {.name = "su2", .endings = ".su2\0", .first_word = is_su2, .read = mw__read_su2},
+    {.name = "npz", .endings = ".npz\0", .first_bytes = begins_npz, .read = mw__read_npz},
 };
 enum { FORMAT_COUNT = sizeof formats / sizeof *formats };
 
@@ -106,6 +168,8 @@ static void head_first_word(const char *p, const char *end, char *word, size_t r
 const mw_mesh_format *mw__mesh_format_by_content(const char *head, size_t size)
 {
     char word[16];
+    for (size_t i = 0; i < FORMAT_COUNT; i++)
+        if (formats[i].first_bytes && formats[i].first_bytes(head, size)) return &formats[i];
     head_first_word(head, head + size, word, sizeof word);
     for (size_t i = 0; i < FORMAT_COUNT; i++)
         if (formats[i].first_word && formats[i].first_word(word)) return &formats[i];

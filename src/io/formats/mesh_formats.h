@@ -16,6 +16,8 @@ typedef struct mw_mesh_format {
     const char *endings; /* of file names, each ended by NUL, without ".gz": ".off\0" */
     /* Does the first word of a text name the format? NULL: nothing does. */
     bool (*first_word)(const char *word);
+    /* The same of the first bytes of any file, whose name does not matter then. */
+    bool (*first_bytes)(const char *head, size_t size);
     bool common_words; /* a table of points may begin so, too; then the name of the file decides */
     mw_status (*read)(mw_source *source, mw_mesh_builder *builder, mw_error *error);
     /* Instead of `read`, for formats of two files. */

@@ -140,14 +140,50 @@ static double cut_area(const cut_view *f, unsigned x, unsigned y)
     return fabs(area);
 }
 
+static bool cut_is_warped(const cut_view *f)
+{
+    for (size_t i = 1; i < f->count; i++)
+        if (f->points[3 * (size_t)f->corners[i] + 2] != f->points[3 * (size_t)f->corners[0] + 2])
+            return true;
+    return false;
+}
+
+/* How far the two triangles of a quadrilateral cut at corner i lie in one plane: the product of
+ * their normals. */
+static double cut_fold(const cut_view *f, size_t i)
+{
+    double normal[2][3];
+    const double *p[4];
+    for (size_t k = 0; k < 4; k++) p[k] = f->points + 3 * (size_t)f->corners[(i + k) % 4];
+    for (size_t n = 0; n < 2; n++)
+        for (size_t x = 0, y = 1, z = 2; x < 3; x++, y = (y + 1) % 3, z = (z + 1) % 3)
+            normal[n][x] = (p[n + 1][y] - p[0][y]) * (p[n + 2][z] - p[0][z]) -
+                           (p[n + 1][z] - p[0][z]) * (p[n + 2][y] - p[0][y]);
+    return normal[0][0] * normal[1][0] + normal[0][1] * normal[1][1] + normal[0][2] * normal[1][2];
+}
+
+/* A quadrilateral in space that is warped so much that it is convex from no side is cut along the
+ * diagonal at which it folds less, by less than a right angle. */
+static bool cut_warped(const cut_view *f, uint32_t *triangles)
+{
+    if (f->count != 4 || !cut_is_warped(f)) return false;
+    double folds[2] = {cut_fold(f, 0), cut_fold(f, 1)};
+    size_t apex = folds[0] >= folds[1] ? 0 : 1;
+    if (!(folds[apex] > 0)) return false;
+    cut_fan(f, cut_lower(f, apex, apex + 2), triangles);
+    return true;
+}
+
 bool mw__face_cut(const double *points, const uint32_t *corners, size_t count, uint32_t *triangles)
 {
     cut_view f = {.points = points, .corners = corners, .count = count, .x = 0, .y = 1};
-    cut_shape flat = cut_in_view(&f, triangles);
-    if (flat == CUT_CONVEX) return true;
+    cut_shape shape = cut_in_view(&f, triangles);
+    if (shape == CUT_CONVEX) return true;
     double xy = cut_area(&f, 0, 1), yz = cut_area(&f, 1, 2), zx = cut_area(&f, 2, 0);
-    if (!(yz > xy) && !(zx > xy)) return flat != CUT_CONCAVE;
-    f.x = yz >= zx ? 1 : 2;
-    f.y = yz >= zx ? 2 : 0;
-    return cut_in_view(&f, triangles) != CUT_CONCAVE;
+    if (yz > xy || zx > xy) {
+        f.x = yz >= zx ? 1 : 2;
+        f.y = yz >= zx ? 2 : 0;
+        shape = cut_in_view(&f, triangles);
+    }
+    return shape != CUT_CONCAVE || cut_warped(&f, triangles);
 }

@@ -8,7 +8,8 @@
  * So the triangles depend on the vertices and their numbers only, not on the corner that a file
  * names first, nor on the format of the file. A face is looked at in the plane x, y if it has an
  * area there and is convex, else in that one of the planes of two coordinates where its area is
- * largest. Turns are decided exactly. */
+ * largest. A quadrilateral in space, with corners at different z, need not be convex there: it is
+ * cut along the diagonal at which it folds less. Turns are decided exactly. */
 #ifndef MW_SRC_IO_MESH_FACE_CUT_H
 #define MW_SRC_IO_MESH_FACE_CUT_H
 
@@ -16,8 +17,9 @@
 
 /* Cut a face of at least three corners; `triangles` receives three vertices for each of
  * count - 2 triangles, which turn as the face does. `points` holds x, y, z of every vertex.
- * Returns false if the face is not convex. A face without area, or with coordinates that are
- * not finite, is cut as a fan: what is wrong with it is seen in its triangles. */
+ * Returns false if the face cannot be cut so, as it is not convex. A face without area, or with
+ * coordinates that are not finite, is cut as a fan: what is wrong with it is seen in its
+ * triangles. */
 bool mw__face_cut(const double *points, const uint32_t *corners, size_t count, uint32_t *triangles);
 
 #endif

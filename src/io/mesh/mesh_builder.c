@@ -3,6 +3,7 @@
 #include "io/text/number_text.h"
 
 #include <inttypes.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -12,24 +13,32 @@ void mw__build_start(mw_mesh_builder *builder, mw_mesh_file *file, mw_source *so
     *builder = (mw_mesh_builder){.file = file, .source = source, .highest = -1};
 }
 
+/* One more name with room for values. */
+static mw_status names_add(char ***all, double ***values, size_t *count, const char *name,
+                           mw_error *error)
+{
+    char **names = mw__realloc(*all, *count + 1, sizeof *names);
+    if (!names) return mw__fail_memory(error);
+    *all = names;
+    if (values) {
+        double **fields = mw__realloc(*values, *count + 1, sizeof *fields);
+        if (!fields) return mw__fail_memory(error);
+        *values = fields;
+        fields[*count] = NULL;
+    }
+    names[*count] = strdup(name);
+    if (!names[*count]) return mw__fail_memory(error);
+    ++*count;
+    return MW_OK;
+}
+
 mw_status mw__build_field(mw_mesh_builder *builder, const char *name, mw_error *error)
 {
     mw_mesh_file *file = builder->file;
     if (file->field_count == MW_COLUMN_LIMIT)
         return mw__source_fail(builder->source, error, "more than %d values per vertex",
                                MW_COLUMN_LIMIT);
-    size_t count = file->field_count + 1;
-    char **names = mw__realloc(file->field_names, count, sizeof *names);
-    if (!names) return mw__fail_memory(error);
-    file->field_names = names;
-    double **fields = mw__realloc(file->fields, count, sizeof *fields);
-    if (!fields) return mw__fail_memory(error);
-    file->fields = fields;
-    fields[count - 1] = NULL;
-    names[count - 1] = strdup(name);
-    if (!names[count - 1]) return mw__fail_memory(error);
-    file->field_count = count;
-    return MW_OK;
+    return names_add(&file->field_names, &file->fields, &file->field_count, name, error);
 }
 
 /* Half as much again, at least 16. */
@@ -288,6 +297,61 @@ static mw_status polygon_finish(mw_mesh_builder *builder, const build_polygon *p
          t < file->triangle_count && file->faces[t] == file->faces[polygon->triangle]; t++)
         builder->corners[builder->corner_count++] = file->triangles[3 * t + 2];
     return polygon_cut(builder, polygon, error);
+}
+
+mw_status mw__build_late_field(mw_mesh_builder *builder, const char *name, double **values,
+                               mw_error *error)
+{
+    mw_mesh_file *file = builder->file;
+    size_t room = builder->point_room;
+    mw_status status = mw__build_field(builder, name, error);
+    if (status) return status;
+    *values = file->fields[file->field_count - 1] = mw__alloc(room, sizeof **values);
+    if (!*values) return mw__fail_memory(error);
+    for (size_t v = 0; v < file->point_count; v++) (*values)[v] = NAN;
+    return MW_OK;
+}
+
+mw_status mw__build_face_field(mw_mesh_builder *builder, const char *name, const double *values,
+                               mw_error *error)
+{
+    mw_mesh_file *file = builder->file;
+    if (file->triangle_field_count == MW_COLUMN_LIMIT)
+        return mw__source_fail(builder->source, error, "more than %d values per face",
+                               MW_COLUMN_LIMIT);
+    mw_status status = names_add(&file->triangle_field_names, &file->triangle_fields,
+                                 &file->triangle_field_count, name, error);
+    if (status) return status;
+    double *field = mw__alloc(file->triangle_count, sizeof *field);
+    if (!field) return mw__fail_memory(error);
+    file->triangle_fields[file->triangle_field_count - 1] = field;
+    for (size_t t = 0; t < file->triangle_count; t++)
+        field[t] = values[file->faces ? file->faces[t] : t];
+    return MW_OK;
+}
+
+mw_status mw__build_mark(mw_mesh_builder *builder, const char *name, mw_error *error)
+{
+    mw_mesh_file *file = builder->file;
+    return names_add(&file->mark_names, NULL, &file->mark_count, name, error);
+}
+
+mw_status mw__build_edge(mw_mesh_builder *builder, int64_t a, int64_t b, mw_error *error)
+{
+    mw_mesh_file *file = builder->file;
+    mw_marked_edge edge = {.mark = (uint32_t)file->mark_count - 1};
+    mw_status status = mw__build_vertex(builder, a, &edge.vertex[0], error);
+    if (!status) status = mw__build_vertex(builder, b, &edge.vertex[1], error);
+    if (status) return status;
+    if (file->edge_count == builder->edge_room) {
+        size_t room = room_after(file->edge_count);
+        mw_marked_edge *edges = mw__realloc(file->edges, room, sizeof *edges);
+        if (!edges) return mw__fail_memory(error);
+        file->edges = edges;
+        builder->edge_room = room;
+    }
+    file->edges[file->edge_count++] = edge;
+    return MW_OK;
 }
 
 mw_status mw__build_finish(mw_mesh_builder *builder, mw_error *error)

@@ -23,8 +23,9 @@ typedef struct mw_mesh_builder {
     uint64_t highest_position;
     uint32_t *corners; /* of the present face, each that differs from the one before */
     size_t corner_count, corner_room;
-    size_t named;                   /* how many corners of it the file names */
-    uint32_t start[3];              /* the first three of these */
+    size_t named;      /* how many corners of it the file names */
+    uint32_t start[3]; /* the first three of these */
+    size_t edge_room;
     struct build_polygon *polygons; /* faces that wait for their points */
     size_t polygon_count, polygon_room;
 } mw_mesh_builder;
@@ -55,6 +56,17 @@ mw_status mw__build_vertex(mw_mesh_builder *builder, int64_t number, uint32_t *v
 /* One face that is a triangle of vertices counted from 0 that exist. */
 mw_status mw__build_triangle(mw_mesh_builder *builder, uint32_t a, uint32_t b, uint32_t c,
                              mw_error *error);
+
+/* After the last point: a field with a value for each vertex, to be filled in; they are NaN. */
+mw_status mw__build_late_field(mw_mesh_builder *builder, const char *name, double **values,
+                               mw_error *error);
+/* After the last face: a value for each of face_count faces, which its triangles get. */
+mw_status mw__build_face_field(mw_mesh_builder *builder, const char *name, const double *values,
+                               mw_error *error);
+
+/* A mark for the edges that follow, and an edge of vertices as the file numbers them. */
+mw_status mw__build_mark(mw_mesh_builder *builder, const char *name, mw_error *error);
+mw_status mw__build_edge(mw_mesh_builder *builder, int64_t a, int64_t b, mw_error *error);
 
 /* Release the fields of a file, names and values. */
 void mw__fields_release(char **names, double **fields, size_t count);

@@ -1,0 +1,10 @@
+/* Any bytes as 2DM. */
+#include "reader.h"
+
+#include "io/grid/grid_readers.h"
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    fuzz_mesh_reader(mw__read_2dm, "input.2dm", data, size);
+    return 0;
+}
