@@ -17,22 +17,23 @@ typedef struct apply_settings {
     bool strict, stats, json;
 } apply_settings;
 
-static const char *missing_name(int i)
+static const char *apply_missing_name(int i)
 {
     return (const char *[]){"empty", "leave-out", NULL}[i];
 }
-static const char *missing_help(int i)
+static const char *apply_missing_help(int i)
 {
     return (const char *[]){"no value", "the mean of the other corners, by their weights"}[i];
 }
-static const choices missing_choices = {"way of --missing", missing_name, missing_help};
+static const choices apply_missing_choices = {"way of --missing", apply_missing_name,
+                                              apply_missing_help};
 
 static const option apply_options[] = {
     {"field", 0, OPTION_TEXT, offsetof(apply_settings, field), "LIST",
      "names of the fields, separated by commas (default: all with a value for each vertex)", NULL},
     {"missing", 0, OPTION_CHOICE, offsetof(apply_settings, missing), "NAME",
      "what a point gets where a vertex that it needs has no value (default: empty):",
-     &missing_choices},
+     &apply_missing_choices},
     {"strict", 0, OPTION_FLAG, offsetof(apply_settings, strict), NULL,
      "exit with 1 if a point has no weights", NULL},
     {"stats", 0, OPTION_FLAG, offsetof(apply_settings, stats), NULL,

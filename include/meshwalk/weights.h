@@ -93,12 +93,12 @@ typedef struct mw_apply_weights_info {
  * Interpolate the fields of a netCDF file by a file of weights, and write them to another.
  *
  * A field is a variable of numbers whose last dimension has the length n_a of the weights; of
- * several such dimensions the one is meant that most variables have last. Its other dimensions,
- * such as time and layers, stay; the last becomes `point`. Variables of these dimensions alone,
- * such as time, are copied, and so are units, names and calendars. Missing values (_FillValue,
- * missing_value, NaN) count as missing, packed values (scale_factor, add_offset) are unpacked. Where
- * the weights tell the places of the points, these become x and y, or lon and lat. A few rows are in
- * memory at a time, never a whole field.
+ * several such dimensions the one is meant that the first named field has last, or most variables.
+ * Its other dimensions, such as time and layers, stay; the last becomes `point`. Variables of these
+ * dimensions alone, such as time, are copied, and so are units, names and calendars. Missing values
+ * (_FillValue, missing_value, NaN) count as missing, packed values (scale_factor, add_offset) are
+ * unpacked. Where the weights tell the places of the points, these become point_x and point_y. A
+ * few rows are in memory at a time, never a whole field.
  *
  * @param weights  a file of weights in ESMF's layout
  * @param fields   a netCDF file with the fields

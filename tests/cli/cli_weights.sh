@@ -36,7 +36,6 @@ says '^fields +2$'; says '^rows +2$'; says '^without weights +2$'
 run apply w.nc w.nc --field xc_a -o o.nc -q; exits 0; says_nothing
 run apply w.nc w.nc --field xc_a -o o.nc --strict; exits 1
 run apply w.nc w.nc --field nope -o o2.nc; refused 3 "w.nc: there is no variable 'nope'"
-run apply w.nc w.nc --field S -o o2.nc; refused 3 'w.nc: variable S: has no last dimension'
 run apply o.nc w.nc -o o2.nc; refused 3 'o.nc: has no dimension n_a'
 run apply w.nc none.nc -o o2.nc; refused 3 'none.nc: '
 run apply w.nc w.nc -o none/o2.nc; refused 4 'none/o2.nc: '

@@ -52,8 +52,8 @@ static void expect_example(const mw_operator *weights)
 static void write_example(const char *path, bool degrees)
 {
     static const double vertices[] = {0, 0, 1, 0, 1, 1, 0, 1}, points[] = {0, 10, 1, 11, 2, 12};
-    static const mw_location at[] = {{.where = MW_INSIDE}, {.where = MW_ON_VERTEX},
-                                     {.where = MW_OUTSIDE}};
+    static const mw_location at[] = {
+        {.where = MW_INSIDE}, {.where = MW_ON_VERTEX}, {.where = MW_OUTSIDE}};
     const mw_weight_places places = {
         .columns = vertices, .rows = points, .located = at, .degrees = degrees};
     mw_operator *weights = example();
@@ -107,13 +107,13 @@ static void test_npz(void **state)
     (void)state;
     size_t size;
     write_example("w.npz", false);
-    char *bytes = files_read("w.npz", &size);
-    assert_memory_equal(bytes, "PK\3\4", 4);
-    assert_memory_equal(bytes + size - 22, "PK\5\6\0\0\0\0\6\0\6\0", 12);
-    assert_memory_equal(bytes + 30, "indices.npy", 11);
-    assert_memory_equal(bytes + 41, "\x93NUMPY\1\0\x76\0{'descr': '<i4', ", 27);
-    assert_memory_equal(bytes + 41 + 128, "\0\0\0\0\1\0\0\0\3\0\0\0\2\0\0\0PK", 18);
-    free(bytes);
+    char *text = files_read("w.npz", &size);
+    assert_memory_equal(text, "PK\3\4", 4);
+    assert_memory_equal(text + size - 22, "PK\5\6\0\0\0\0\6\0\6\0", 12);
+    assert_memory_equal(text + 30, "indices.npy", 11);
+    assert_memory_equal(text + 41, "\x93NUMPY\1\0\x76\0{'descr': '<i4', ", 27);
+    assert_memory_equal(text + 41 + 128, "\0\0\0\0\1\0\0\0\3\0\0\0\2\0\0\0PK", 18);
+    free(text);
     files_clear();
 }
 
@@ -129,8 +129,8 @@ static void write_fields(const char *path)
               layer = mw__netcdf_output_dimension(out, "layer", 2),
               node = mw__netcdf_output_dimension(out, "node", 4),
               hours = mw__netcdf_output_variable(out, "time", MW_NETCDF_DOUBLE, 1, &time),
-              zeta = mw__netcdf_output_variable(out, "zeta", MW_NETCDF_FLOAT, 2,
-                                                (int[]){time, node}),
+              zeta =
+                  mw__netcdf_output_variable(out, "zeta", MW_NETCDF_FLOAT, 2, (int[]){time, node}),
               temp = mw__netcdf_output_variable(out, "temp", MW_NETCDF_SHORT, 3,
                                                 (int[]){time, layer, node}),
               h = mw__netcdf_output_variable(out, "h", MW_NETCDF_DOUBLE, 1, &node);
@@ -158,8 +158,8 @@ static void fields_expect(const char *path, bool left_out)
     assert_int_equal(mw__netcdf_open(path, &file, NULL), MW_OK);
     const mw_netcdf_variable *z = mw__netcdf_find(file, "zeta"), *p = mw__netcdf_find(file, "temp");
     assert_int_equal(z->type, MW_NETCDF_FLOAT);
-    assert_int_equal(
-        mw__netcdf_doubles(file, z, (size_t[]){0, 0}, (size_t[]){10, 3}, zeta, NULL), MW_OK);
+    assert_int_equal(mw__netcdf_doubles(file, z, (size_t[]){0, 0}, (size_t[]){10, 3}, zeta, NULL),
+                     MW_OK);
     assert_int_equal(
         mw__netcdf_doubles(file, p, (size_t[]){0, 0, 0}, (size_t[]){10, 2, 3}, temp, NULL), MW_OK);
     mw__netcdf_close(file);
@@ -190,7 +190,8 @@ static void test_apply(void **state)
     mw_apply_weights_info info;
     write_example("w.nc", true);
     write_fields("f.nc");
-    if (mw_apply_weights("w.nc", "f.nc", "o.nc", NULL, &info, &error)) fail_msg("%s", error.message);
+    if (mw_apply_weights("w.nc", "f.nc", "o.nc", NULL, &info, &error))
+        fail_msg("%s", error.message);
     assert_int_equal(info.fields, 3);
     assert_int_equal(info.slabs, 31);
     assert_int_equal(info.points, 3);
@@ -307,8 +308,8 @@ static void test_wrong_fields(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_esmf),          cmocka_unit_test(test_npz),
-        cmocka_unit_test(test_apply),         cmocka_unit_test(test_wrong_weights),
+        cmocka_unit_test(test_esmf),         cmocka_unit_test(test_npz),
+        cmocka_unit_test(test_apply),        cmocka_unit_test(test_wrong_weights),
         cmocka_unit_test(test_wrong_fields),
     };
     return cmocka_run_group_tests(tests, files_enter, files_leave);

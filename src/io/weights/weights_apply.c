@@ -58,9 +58,12 @@ static bool name_is_among(const char *name, const char *const *names, size_t cou
     return false;
 }
 
-/* The dimension of the right length that most variables have last. */
-static int applied_source(const applied_file *f)
+/* The dimension of the right length that the first named field has last, or most variables. */
+static int applied_source(const applied_file *f, const mw_apply_weights_options *options)
 {
+    const mw_netcdf_variable *named =
+        options->field_count ? mw__netcdf_find(f->in, options->fields[0]) : NULL;
+    if (named && variable_fits(f, named)) return named->dimensions[named->rank - 1];
     int best = -1;
     size_t most = 0;
     for (size_t i = 0; i < mw__netcdf_variable_count(f->in); i++) {
@@ -118,7 +121,7 @@ static mw_status applied_choose(applied_file *f, const mw_apply_weights_options 
     const size_t count = mw__netcdf_variable_count(f->in);
     f->variable = mw__calloc(count, sizeof *f->variable);
     if (!f->variable) return mw__fail_memory(error);
-    f->source = applied_source(f);
+    f->source = applied_source(f, options);
     mw_status status = applied_check_names(f, options, error);
     for (size_t i = 0; i < count && !status; i++) {
         const mw_netcdf_variable *v = mw__netcdf_variable_at(f->in, i);
