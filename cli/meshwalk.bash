@@ -6,7 +6,7 @@ _meshwalk_options() {
     query="$query --columns --crs --points-crs"
     query="$query --any"
     local stream='--strict --stats --json --layer --where --only-answers'
-    local common='-o --output --threads --seed -q --quiet -h --help'
+    local common='-o --output --threads --seed --layout -q --quiet -h --help'
     case $1 in
         info) echo "--layer --as --centre --lonlat --weld --json $common" ;;
         check) echo "--fix --tolerance --numbers --format --as --centre --lonlat --weld --json $common" ;;
@@ -15,6 +15,7 @@ _meshwalk_options() {
         sample) echo "--field --outside --missing --nodata --status $query $stream $common" ;;
         weights) echo "$query --strict --stats --json --layer --where $common" ;;
         apply) echo "--field --missing --strict --stats --json $common" ;;
+        profile) echo "--field --nodata --attribute --layer --columns --crs --lines-crs --strict $common" ;;
         raster)
             echo "--resolution --like --extent --field --derive --nodata --outside --max-edge --vertex-nodata --type"
             echo "--driver --creation --crs --json $common"
@@ -42,6 +43,7 @@ _meshwalk_names() {
                 echo 'auto off ply ply-ascii node obj stl csv vtk'
             fi
             ;;
+        --layout) echo 'ugrid schism fvcom adcirc anuga fesom icon mpas tuflowfv' ;;
         --enclose) echo 'auto yes no' ;;
         --tasks) echo 'random sorted coherent half-outside total dense delaunay connectivity' ;;
         --engines)
@@ -135,7 +137,7 @@ _meshwalk() {
         before=${COMP_WORDS[COMP_CWORD - 2]}
     fi
     if ((COMP_CWORD == 1)); then
-        names='info check triangulate locate sample weights apply raster edit star probe walk bench --help --version'
+        names='info check triangulate locate sample weights apply profile raster edit star probe walk bench --help --version'
         mapfile -t COMPREPLY < <(compgen -W "$names" -- "$word")
         return
     fi
@@ -158,7 +160,7 @@ _meshwalk() {
         --threads | --seed | --steps | --sample | --cells | --layers | --levels | --tolerance | \
             --columns | --resolution | --extent | --nodata | --vertex-nodata | --driver | \
             --creation | \
-            --crs | --constraints-crs | --where) return ;;
+            --crs | --lines-crs | --constraints-crs | --where) return ;;
         --from | --to | --centre | --max-distance | --samples | --iterations | --race | \
             --max-edge | --queries | --sizes | --limit | --rounds | --seeds | --undo) return ;;
     esac
