@@ -18,10 +18,7 @@
 #include <meshwalk/star.h>
 #include <meshwalk/probe.h>
 #include <meshwalk/io.h>
-<<<<<<< HEAD
 #include <meshwalk/weights.h>
-=======
 #include <meshwalk/series.h>
->>>>>>> 754cf686f054785e8f26ec67c8040a5923bc2086
 
 #endif
