@@ -12,7 +12,7 @@ _meshwalk_options() {
         check) echo "--fix --tolerance --numbers --format --as --centre --lonlat --weld --json $common" ;;
         triangulate) echo "--constraints --boundary --keep --split --strict --max-edge --kind --weight --hidden --limit --format --columns --class --layer --where --crs --points-crs --constraints-crs --json $common" ;;
         locate) echo "--details --base --polygons --attribute --polygon-layer $query $stream $common" ;;
-        sample) echo "--field --outside --missing --nodata --status $query $stream $common" ;;
+        sample) echo "--field --outside --missing --nodata --status --time --values --time-column --wide --recover $query $stream $common" ;;
         weights) echo "$query --strict --stats --json --layer --where $common" ;;
         apply) echo "--field --missing --strict --stats --json $common" ;;
         contours) echo "--interval --levels --base --field --nodata --crs $common" ;;
@@ -41,7 +41,7 @@ _meshwalk_names() {
             if [[ $1 == bench ]]; then
                 echo 'table tsv json'
             else
-                echo 'auto off ply ply-ascii node obj stl csv vtk'
+                echo 'auto off ply ply-ascii node obj stl netcdf csv vtk'
             fi
             ;;
         --layout) echo 'ugrid schism fvcom adcirc anuga fesom icon mpas tuflowfv' ;;
