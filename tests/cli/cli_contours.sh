@@ -40,7 +40,8 @@ run contours -q gap.off --levels 10; exits 0; prints 'line,elevation,closed,x,y'
 
 # A flat roof at the level: the line runs along it, on the lower side. A peak at the level: no line.
 printf '%s\n' OFF '9 8 0' '0 0 0' '2 0 0' '4 0 0' '0 2 0' '2 2 3' '4 2 3' '0 4 0' '2 4 0' \
-    '4 4 0' '3 0 1 4' '3 0 4 3' '3 1 2 5' '3 1 5 4' '3 3 4 7' '3 3 7 6' '3 4 5 8' '3 4 8 7' >roof.off
+    '4 4 0' '3 0 1 4' '3 0 4 3' '3 1 2 5' '3 1 5 4' '3 3 4 7' '3 3 7 6' '3 4 5 8' '3 4 8 7' \
+    >roof.off
 run contours roof.off --levels 3; exits 0
 prints 'line,elevation,closed,x,y
 0,3,0,4,2
@@ -81,7 +82,8 @@ crossings() { # the edges of grid.off that the levels 0.5, 1.5, ... cross
     awk 'NR == 2 { n = $1; m = $2 } NR > 2 && NR <= n + 2 { z[NR - 3] = $3 }
         NR > n + 2 { for (k = 2; k <= 4; k++) { a = $k; b = $(k == 4 ? 2 : k + 1)
             if (a > b) { c = a; a = b; b = c }
-            if (!((a, b) in seen)) { seen[a, b]; sum += z[a] > z[b] ? z[a] - z[b] : z[b] - z[a] } } }
+            if ((a, b) in seen) continue
+            seen[a, b]; sum += z[a] > z[b] ? z[a] - z[b] : z[b] - z[a] } }
         END { print sum }' grid.off
 }
 for seed in 1 2 3 4 5; do
@@ -105,8 +107,8 @@ for seed in 1 2 3 4 5; do
             print (x + $4) / 2 - dy / 1000 "," (y + $5) / 2 + dx / 1000 }
             line = $1; x = $4; y = $5 }' OFMT=%.15g CONVFMT=%.15g "$logs/out" >left.csv
         run_on "$(echo x,y; cat left.csv)"$'\n' sample grid.off -; exits 0
-        holds 'higher ground lies to the left' test -z "$(awk -F, 'NR > 1 && $3 != "" && $3 <= 0.5' \
-            "$logs/out" | head -n 1)"
+        holds 'higher ground lies to the left' test -z \
+            "$(awk -F, 'NR > 1 && $3 != "" && $3 <= 0.5' "$logs/out" | head -n 1)"
         grid 14 $values $seed 0.05 >grid.off
         run contours grid.off --interval 1; exits 0
         holds 'lines beside missing values are sound' test -z "$(sound 14 1)"
