@@ -83,7 +83,7 @@ static incircle_pair pair_of_products(double a, double b, double c, double d)
                                    cd = mw__two_product(c, d, &cd_tail);
     incircle_pair r;
     double sum = mw__two_sum(ab, cd, &tail);
-    r.high = mw__fast_two_sum(sum, (ab_tail + cd_tail) + tail, &r.low);
+    r.high = mw__two_sum(sum, (ab_tail + cd_tail) + tail, &r.low);
     return r;
 }
 
@@ -91,7 +91,7 @@ static incircle_pair pair_multiply(incircle_pair a, incircle_pair b)
 {
     incircle_pair r;
     double tail, product = mw__two_product(a.high, b.high, &tail);
-    r.high = mw__fast_two_sum(product, (a.high * b.low + a.low * b.high) + tail, &r.low);
+    r.high = mw__two_sum(product, (a.high * b.low + a.low * b.high) + tail, &r.low);
     return r;
 }
 
@@ -99,7 +99,7 @@ static incircle_pair pair_add(incircle_pair a, incircle_pair b)
 {
     incircle_pair r;
     double tail, sum = mw__two_sum(a.high, b.high, &tail);
-    r.high = mw__fast_two_sum(sum, (a.low + b.low) + tail, &r.low);
+    r.high = mw__two_sum(sum, (a.low + b.low) + tail, &r.low);
     return r;
 }
 
