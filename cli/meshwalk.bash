@@ -6,13 +6,17 @@ _meshwalk_options() {
     query="$query --columns --crs --points-crs"
     query="$query --any"
     local stream='--strict --stats --json --layer --where --only-answers'
-    local common='-o --output --threads --seed -q --quiet -h --help'
+    local common='-o --output --threads --seed --layout -q --quiet -h --help'
     case $1 in
         info) echo "--layer --as --centre --lonlat --weld --json $common" ;;
         check) echo "--fix --tolerance --numbers --format --as --centre --lonlat --weld --json $common" ;;
         triangulate) echo "--constraints --boundary --keep --split --strict --max-edge --kind --weight --hidden --limit --format --columns --class --layer --where --crs --points-crs --constraints-crs --json $common" ;;
         locate) echo "--details --base --polygons --attribute --polygon-layer $query $stream $common" ;;
         sample) echo "--field --outside --missing --nodata --status $query $stream $common" ;;
+        raster)
+            echo "--resolution --like --extent --field --derive --nodata --outside --max-edge --vertex-nodata --type"
+            echo "--driver --creation --crs --json $common"
+            ;;
         edit)
             echo "--answers --heights --changes --numbers --log --constraints --undo --delaunay --skip --strict --walk"
             echo "--start --cells --layers --descent --format --stats --json $common"
@@ -22,6 +26,7 @@ _meshwalk_options() {
             echo "--max-distance --certain --start --samples --iterations --race --weld --any --columns $stream $common"
             ;;
         walk) echo "--from --to --walk --animate --max-distance --samples --iterations --as --centre --lonlat --weld $common" ;;
+        convert) echo "--format --crs $common" ;;
         bench) echo "--queries --sizes --enclose --data --engines --tasks --rounds --walk --seeds --no-times --format --plot $common" ;;
     esac
 }
@@ -33,9 +38,10 @@ _meshwalk_names() {
             if [[ $1 == bench ]]; then
                 echo 'table tsv json'
             else
-                echo 'auto off ply ply-ascii node obj stl csv vtk'
+                echo 'auto off ply ply-ascii node obj stl csv vtk vtu fort.14 gr3 2dm msh'
             fi
             ;;
+        --layout) echo 'ugrid schism fvcom adcirc anuga fesom icon mpas tuflowfv' ;;
         --enclose) echo 'auto yes no' ;;
         --tasks) echo 'random sorted coherent half-outside total dense delaunay connectivity' ;;
         --engines)
@@ -60,7 +66,7 @@ _meshwalk_names() {
             case $1 in
                 star) echo 'auto random sample front last sorted grid nonuniform-grid octahedron' ;;
                 probe) echo 'auto last sample random' ;;
-                *) echo 'auto random sample centre last sorted grid buckets triangle-buckets two-level-grid layers kd-tree curve' ;;
+                *) echo 'auto random sample centre last sorted grid buckets triangle-buckets two-level-grid layers kd-tree curve chains' ;;
             esac
             ;;
         --arithmetic) echo 'exact double' ;;
@@ -71,7 +77,9 @@ _meshwalk_names() {
         --fill) echo 'auto yes no' ;;
         --descent) echo 'auto nearest coordinate' ;;
         --sample) [[ $1 == star ]] || echo 'cube-root fourth-root' ;;
-        --outside) echo 'empty nearest linear' ;;
+        --outside) [[ $1 == raster ]] && echo 'empty nearest' || echo 'empty nearest linear' ;;
+        --type) echo 'auto float32 float64' ;;
+        --derive) echo 'slope aspect hillshade triangle' ;;
         --missing) echo 'empty nearest' ;;
         --nodata) echo none ;;
         --points-crs) echo same ;;
@@ -125,7 +133,7 @@ _meshwalk() {
         before=${COMP_WORDS[COMP_CWORD - 2]}
     fi
     if ((COMP_CWORD == 1)); then
-        names='info check triangulate locate sample edit star probe walk bench --help --version'
+        names='info check triangulate locate sample raster edit star probe walk convert bench --help --version'
         mapfile -t COMPREPLY < <(compgen -W "$names" -- "$word")
         return
     fi
@@ -146,7 +154,9 @@ _meshwalk() {
             return
             ;;
         --threads | --seed | --steps | --sample | --cells | --layers | --levels | --tolerance | \
-            --columns | --crs | --constraints-crs | --where) return ;;
+            --columns | --resolution | --extent | --nodata | --vertex-nodata | --driver | \
+            --creation | \
+            --crs | --constraints-crs | --where) return ;;
         --from | --to | --centre | --max-distance | --samples | --iterations | --race | \
             --max-edge | --queries | --sizes | --limit | --rounds | --seeds | --undo) return ;;
     esac

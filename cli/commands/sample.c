@@ -1,7 +1,7 @@
 /* sample - the value the mesh has at each point. */
 #include "cli/commands/commands.h"
 #include "cli/frame/message.h"
-#include "cli/input/nodata.h"
+#include "cli/input/mesh_field.h"
 #include "cli/output/csv_row.h"
 #include "cli/stream/point_query.h"
 
@@ -141,61 +141,6 @@ static bool sample_row(const point_query *q, const void *self, const double poin
     return !isnan(value);
 }
 
-static int sample_fail_field(const char *path, const mw_mesh_file *file, const char *field)
-{
-    text names = {0};
-    if (file->has_z) text_string(&names, " z");
-    for (size_t i = 0; i < file->field_count; i++) text_printf(&names, " %s", file->field_names[i]);
-    int end = END_INPUT;
-    if (names.failed)
-        end = fail_memory();
-    else if (names.size == 0)
-        complain("%s: has neither heights nor fields: there is nothing to sample", path);
-    else
-        complain("%s: has no field '%s'; --field may be one of:%.*s", path, field, (int)names.size,
-                 names.bytes);
-    text_release(&names);
-    return end;
-}
-
-/* The field to sample. */
-typedef struct sample_choice {
-    const char *field;
-    nodata_rule nodata;
-    bool quiet;
-} sample_choice;
-
-static int sample_set_field(mw_mesh *mesh, const char *path, const sample_choice *choice,
-                            const double *values, size_t stride)
-{
-    mw_error error;
-    size_t count = mw_mesh_vertex_count(mesh);
-    double *copy =
-        nodata_copy(values, stride, count, &choice->nodata, path, choice->field, choice->quiet);
-    if (!copy) return fail_memory();
-    mw_status status = mw_mesh_set_field(mesh, choice->field, copy, 1, &error);
-    free(copy);
-    return status == MW_OK ? 0 : fail_mesh(path, &error);
-}
-
-/* Copy the field to sample from the file to the mesh. */
-static int sample_load_field(mw_mesh *mesh, const char *path, const mw_mesh_file *file,
-                             const void *self)
-{
-    const sample_choice *choice = self;
-    const char *field = choice->field;
-    const double *values = NULL;
-    size_t stride = 1;
-    for (size_t i = 0; i < file->field_count && !values; i++)
-        if (strcmp(file->field_names[i], field) == 0) values = file->fields[i];
-    if (!values && file->has_z && strcmp(field, "z") == 0) {
-        values = file->points + 2;
-        stride = 3;
-    }
-    if (!values) return sample_fail_field(path, file, field);
-    return sample_set_field(mesh, path, choice, values, stride);
-}
-
 static int sample_run(const void *settings, const char *const *operands)
 {
     const sample_settings *s = settings;
@@ -203,10 +148,10 @@ static int sample_run(const void *settings, const char *const *operands)
     point_query q;
     const char *const answers[] = {field, s->status ? "status" : NULL, NULL};
     sampled_field rows = {.outside = s->outside, .missing = s->missing, .status = s->status};
-    sample_choice choice = {.field = field, .quiet = s->query.stream.common.quiet};
-    int end = nodata_parse(s->nodata, &choice.nodata);
+    mesh_field_choice choice = {.field = field, .quiet = s->query.stream.common.quiet};
+    int end = nodata_parse("nodata", s->nodata, &choice.nodata);
     if (end) return end;
-    end = point_query_open(&q, &s->query, operands, s->outside != OUTSIDE_EMPTY, sample_load_field,
+    end = point_query_open(&q, &s->query, operands, s->outside != OUTSIDE_EMPTY, mesh_field_load,
                            &choice);
     if (end == 0) {
         rows.values = mw_mesh_field(q.mesh, field);

@@ -128,7 +128,7 @@ bool crs_is_lonlat(const char *crs)
     return lonlat;
 }
 
-static char *crs_export(const gdal_functions *gdal, OGRSpatialReferenceH system)
+char *crs_export(const gdal_functions *gdal, OGRSpatialReferenceH system)
 {
     char *wkt = NULL, *copy = NULL;
     if (gdal->OSRExportToWkt(system, &wkt) == OGRERR_NONE && wkt) copy = strdup(wkt);

@@ -38,6 +38,9 @@ char *crs_wkt(const char *crs);
  * OSRRelease. */
 OGRSpatialReferenceH crs_parse(const gdal_functions *gdal, const char *crs, bool heights);
 
+/* A system as WKT, which the caller frees; NULL: not possible. */
+char *crs_export(const gdal_functions *gdal, OGRSpatialReferenceH system);
+
 /* The system of a layer as WKT, which the caller frees; NULL: not known. */
 char *crs_of_layer(GDALDatasetH set, OGRLayerH layer);
 

@@ -29,6 +29,20 @@ bool gdal_library_built(void);
     F(GDALOpenEx)                                                                                  \
     F(GDALGetDriverByName)                                                                         \
     F(GDALCreate)                                                                                  \
+    F(GDALCreateCopy)                                                                              \
+    F(GDALGetMetadataItem)                                                                         \
+    F(GDALSetGeoTransform)                                                                         \
+    F(GDALGetGeoTransform)                                                                         \
+    F(GDALSetSpatialRef)                                                                           \
+    F(GDALGetSpatialRef)                                                                           \
+    F(GDALGetRasterBand)                                                                           \
+    F(GDALGetRasterCount)                                                                          \
+    F(GDALGetRasterXSize)                                                                          \
+    F(GDALGetRasterYSize)                                                                          \
+    F(GDALSetRasterNoDataValue)                                                                    \
+    F(GDALGetRasterNoDataValue)                                                                    \
+    F(GDALRasterIO)                                                                                \
+    F(GDALSetDescription)                                                                          \
     F(GDALDatasetCreateLayer)                                                                      \
     F(GDALDatasetStartTransaction)                                                                 \
     F(GDALDatasetCommitTransaction)                                                                \

@@ -1,11 +1,9 @@
 #include "cli/gdal/gdal_rows.h"
 #include "cli/frame/files.h"
 #include "cli/frame/message.h"
-#include "cli/frame/signals.h"
 #include "cli/gdal/gdal_crs.h"
+#include "cli/gdal/gdal_directory.h"
 
-#include <dirent.h>
-#include <errno.h>
 #include <inttypes.h>
 #include <math.h>
 #include <meshwalk/meshwalk.h>
@@ -63,7 +61,7 @@ typedef struct row_cell {
 
 struct gdal_rows {
     const gdal_functions *gdal;
-    char *path, *directory, *temporary; /* the file, and where it is written until it is complete */
+    gdal_directory place; /* where it is written until it is complete */
     gdal_rows_form form;
     row_column *columns;
     row_cell *cells;
@@ -182,7 +180,7 @@ int gdal_rows_learn(gdal_rows *r, const char *bytes, size_t size)
 static int rows_fail(const gdal_rows *r, const char *what)
 {
     const char *message = r->gdal->CPLGetLastErrorMsg();
-    complain("%s: GDAL says: %.1000s", r->path, *message ? message : what);
+    complain("%s: GDAL says: %.1000s", r->place.path, *message ? message : what);
     return END_RESOURCE;
 }
 
@@ -222,38 +220,14 @@ static int rows_read_header(gdal_rows *r)
     return 0;
 }
 
-/* GDAL writes into a directory beside the file, so that a file of that name stays until the new
- * one is complete: some formats have several files. */
-static int rows_make_directory(gdal_rows *r)
-{
-    const char *slash = strrchr(r->path, '/');
-    const char *name = slash ? slash + 1 : r->path;
-    int length = (int)(name - r->path);
-    size_t size = strlen(r->path) + 64;
-    r->directory = malloc(size);
-    r->temporary = malloc(2 * size);
-    if (!r->directory || !r->temporary) return fail_memory();
-    snprintf(r->directory, size, "%.*s.meshwalk-XXXXXX", length, r->path);
-    if (!mkdtemp(r->directory)) {
-        complain("%s: %s", r->path, strerror(errno));
-        *r->directory = 0;
-        return END_RESOURCE;
-    }
-    signals_set_temporary(r->directory);
-    snprintf(r->temporary, 2 * size, "%s/%s", r->directory, name);
-    return 0;
-}
-
 int gdal_rows_open(gdal_rows **rows, const char *path, const gdal_rows_form *form)
 {
-    mw_error error;
     gdal_rows *r = *rows = calloc(1, sizeof *r);
     if (!r) return fail_memory();
     r->gdal = gdal_library_load();
     r->form = *form;
-    if (mw_output_resolve(path, &r->path, &error) != MW_OK) return fail_writing(&error);
-    int end = rows_read_header(r);
-    return end ? end : rows_make_directory(r);
+    int end = gdal_directory_open(&r->place, path);
+    return end ? end : rows_read_header(r);
 }
 
 static bool rows_have_column(const gdal_rows *r, const char *name)
@@ -271,7 +245,7 @@ static int rows_create_field(gdal_rows *r, row_column *column)
                                          [KIND_TEXT] = OFTString};
     const gdal_functions *gdal = r->gdal;
     OGRFieldDefnH definition = gdal->OGR_Fld_Create(column->name, types[column->kind]);
-    if (strcmp(format_by_path(r->path)->driver, "ESRI Shapefile") == 0 &&
+    if (strcmp(format_by_path(r->place.path)->driver, "ESRI Shapefile") == 0 &&
         types[column->kind] == OFTString)
         gdal->OGR_Fld_SetWidth(definition, 254);
     gdal->CPLErrorReset();
@@ -282,7 +256,7 @@ static int rows_create_field(gdal_rows *r, row_column *column)
     column->field = gdal->OGR_FD_GetFieldCount(layer) - 1;
     const char *name = gdal->OGR_Fld_GetNameRef(gdal->OGR_FD_GetFieldDefn(layer, column->field));
     if (strcmp(name, column->name) != 0 && !r->form.quiet)
-        complain("%s: remark: the column '%.60s' is called '%s' in this format", r->path,
+        complain("%s: remark: the column '%.60s' is called '%s' in this format", r->place.path,
                  column->name, name);
     return 0;
 }
@@ -290,9 +264,9 @@ static int rows_create_field(gdal_rows *r, row_column *column)
 static int rows_create_layer(gdal_rows *r)
 {
     const gdal_functions *gdal = r->gdal;
-    const char *driver = format_by_path(r->path)->driver;
+    const char *driver = format_by_path(r->place.path)->driver;
     char name[256];
-    const char *base = strrchr(r->temporary, '/') + 1;
+    const char *base = strrchr(r->place.temporary, '/') + 1;
     snprintf(name, sizeof name, "%.*s", (int)(strrchr(base, '.') - base), base);
     char *fid[] = {"FID=mw_fid", NULL}, *digits[] = {"SIGNIFICANT_FIGURES=17", NULL};
     char *ordered[] = {"SPATIAL_INDEX=NO", NULL}; /* an index sorts the rows */
@@ -304,8 +278,8 @@ static int rows_create_layer(gdal_rows *r)
     gdal->CPLSetConfigOption("OGR_SQLITE_SYNCHRONOUS", "OFF"); /* it has no name yet */
     OGRSpatialReferenceH crs = r->form.crs ? crs_parse(gdal, r->form.crs, true) : NULL;
     gdal->CPLErrorReset();
-    r->set = gdal->GDALCreate(gdal->GDALGetDriverByName(driver), r->temporary, 0, 0, 0, GDT_Unknown,
-                              NULL);
+    r->set = gdal->GDALCreate(gdal->GDALGetDriverByName(driver), r->place.temporary, 0, 0, 0,
+                              GDT_Unknown, NULL);
     if (r->set)
         r->layer = gdal->GDALDatasetCreateLayer(
             r->set, name, crs, r->form.dimensions == 3 ? wkbPoint25D : wkbPoint, options);
@@ -328,7 +302,7 @@ static int rows_fail_cell(gdal_rows *r, const row_column *column, const row_cell
         "%s: row %" PRIu64
         ": the column '%.60s' had numbers only, but here '%.60s': a field of a vector file has "
         "one kind of value; a table (CSV) can hold it",
-        r->path, r->written + 1, column->name, value ? value : "");
+        r->place.path, r->written + 1, column->name, value ? value : "");
     return END_INPUT;
 }
 
@@ -362,9 +336,9 @@ static void rows_warn_of_lonlat(gdal_rows *r, const double *p)
 {
     if (r->form.crs || r->warned || r->form.quiet || (fabs(p[0]) <= 360 && fabs(p[1]) <= 90))
         return;
-    if (strncmp(format_by_path(r->path)->driver, "GeoJSON", 7) != 0) return;
+    if (strncmp(format_by_path(r->place.path)->driver, "GeoJSON", 7) != 0) return;
     complain("%s: warning: GeoJSON means longitudes and latitudes, and row %" PRIu64 " has others",
-             r->path, r->written + 1);
+             r->place.path, r->written + 1);
     r->warned = true;
 }
 
@@ -376,7 +350,7 @@ static int feature_set_point(gdal_rows *r, OGRFeatureH feature, const double *p)
     for (size_t k = 0; k < r->form.dimensions; k++) finite = finite && isfinite(p[k]);
     if (!finite && r->points_needed) {
         complain("%s: row %" PRIu64 " has no point, which FlatGeobuf cannot hold; .gpkg can",
-                 r->path, r->written + 1);
+                 r->place.path, r->written + 1);
         return END_INPUT;
     }
     if (!finite) return 0;
@@ -405,7 +379,7 @@ static int rows_write_feature(gdal_rows *r, const double *point)
             end = rows_fail(r, "a row cannot be written");
     }
     if (end == 0 && !r->warned && !r->form.quiet && gdal->CPLGetLastErrorType() >= CE_Warning) {
-        complain("%s: warning: row %" PRIu64 ": GDAL says: %.1000s", r->path, r->written + 1,
+        complain("%s: warning: row %" PRIu64 ": GDAL says: %.1000s", r->place.path, r->written + 1,
                  gdal->CPLGetLastErrorMsg());
         r->warned = true;
     }
@@ -441,33 +415,14 @@ int gdal_rows_write(gdal_rows *r, const char *bytes, size_t size, const double *
 static void rows_remove_sidecars(const gdal_rows *r)
 {
     static const char *const endings[] = {"prj", "cpg", "qix", "sbn", "sbx"};
-    if (strcmp(format_by_path(r->path)->driver, "ESRI Shapefile") != 0) return;
+    if (strcmp(format_by_path(r->place.path)->driver, "ESRI Shapefile") != 0) return;
     for (size_t i = 0; i < sizeof endings / sizeof *endings; i++) {
         char name[4096];
-        int stem = (int)strlen(r->path) - 3;
-        if (snprintf(name, sizeof name, "%.*s%s", stem, r->path, endings[i]) < (int)sizeof name)
+        int stem = (int)strlen(r->place.path) - 3;
+        if (snprintf(name, sizeof name, "%.*s%s", stem, r->place.path, endings[i]) <
+            (int)sizeof name)
             unlink(name);
     }
-}
-
-/* Give the files their names. */
-static int rows_commit(const gdal_rows *r)
-{
-    DIR *directory = opendir(r->directory);
-    int end = directory ? 0 : END_RESOURCE;
-    int stem = (int)(strlen(r->path) - strlen(strrchr(r->temporary, '/') + 1));
-    if (end == 0) rows_remove_sidecars(r);
-    for (struct dirent *entry; end == 0 && (entry = readdir(directory));) {
-        char from[4096], to[4096];
-        if (entry->d_name[0] == '.') continue;
-        bool fits =
-            snprintf(from, sizeof from, "%s/%s", r->directory, entry->d_name) < (int)sizeof from &&
-            snprintf(to, sizeof to, "%.*s%s", stem, r->path, entry->d_name) < (int)sizeof to;
-        if (!fits || rename(from, to) != 0) end = END_RESOURCE;
-    }
-    if (end) complain("%s: %s", r->path, strerror(errno));
-    if (directory) closedir(directory);
-    return end;
 }
 
 int gdal_rows_close(gdal_rows *r, bool commit)
@@ -482,15 +437,13 @@ int gdal_rows_close(gdal_rows *r, bool commit)
         if (commit && end == 0 && r->gdal->CPLGetLastErrorType() >= CE_Failure)
             end = rows_fail(r, "it is incomplete");
     }
-    if (commit && end == 0) end = rows_commit(r);
-    if (r->directory && *r->directory) signals_remove_temporaries();
+    if (commit && end == 0) rows_remove_sidecars(r);
+    int closed = gdal_directory_close(&r->place, commit && end == 0);
+    if (end == 0) end = closed;
     for (size_t i = 0; r->columns && i < r->count; i++) free(r->columns[i].name);
     free(r->columns);
     free(r->cells);
     free(r->buffer);
-    free(r->temporary);
-    free(r->directory);
-    free(r->path);
     free(r);
     return end;
 }

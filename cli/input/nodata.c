@@ -13,16 +13,16 @@
  * fills with. */
 static const double suspects[] = {-9999, -32768, -3.4028234663852886e38, 9.969209968386869e36};
 
-int nodata_parse(const char *argument, nodata_rule *rule)
+int nodata_parse(const char *option, const char *argument, nodata_rule *rule)
 {
     char *end;
-    *rule = (nodata_rule){.value = ADCIRC_NODATA, .given = argument != NULL};
+    *rule = (nodata_rule){.option = option, .value = ADCIRC_NODATA, .given = argument != NULL};
     if (!argument) return 0;
     rule->none = strcmp(argument, "none") == 0;
     if (rule->none) return 0;
     rule->value = strtod(argument, &end);
     if (end != argument && *end == 0) return 0;
-    complain("option '--nodata' wants a number or none, not '%s'", argument);
+    complain("option '--%s' wants a number or none, not '%s'", option, argument);
     return END_USAGE;
 }
 
@@ -39,24 +39,24 @@ static size_t values_count(const double *values, size_t count, double number)
     return found;
 }
 
-static void nodata_remark(const char *path, const char *field, size_t found, double number,
-                          const char *what)
+static void nodata_remark(const char *path, const char *field, const nodata_rule *rule,
+                          size_t found, double number, const char *what)
 {
     char digits[32];
     mw_format_double(number, digits);
-    complain("%s: remark: %s is %s at %zu %s; --nodata %s", path, field, digits, found,
-             found == 1 ? "vertex" : "vertices", what);
+    complain("%s: remark: %s is %s at %zu %s; --%s %s", path, field, digits, found,
+             found == 1 ? "vertex" : "vertices", rule->option, what);
 }
 
-static void nodata_remark_suspects(const double *values, size_t count, const char *path,
-                                   const char *field)
+static void nodata_remark_suspects(const double *values, size_t count, const nodata_rule *rule,
+                                   const char *path, const char *field)
 {
     for (size_t i = 0; i < sizeof suspects / sizeof *suspects; i++) {
         size_t found = values_count(values, count, suspects[i]);
         char digits[32], what[96];
         mw_format_double(suspects[i], digits);
         snprintf(what, sizeof what, "%s would take it for missing", digits);
-        if (found > 0) nodata_remark(path, field, found, suspects[i], what);
+        if (found > 0) nodata_remark(path, field, rule, found, suspects[i], what);
     }
 }
 
@@ -71,8 +71,8 @@ double *nodata_copy(const double *values, size_t stride, size_t count, const nod
         if (value_is(copy[i], rule->value)) copy[i] = NAN;
     if (quiet || rule->given) return copy;
     if (found > 0)
-        nodata_remark(path, field, found, rule->value,
+        nodata_remark(path, field, rule, found, rule->value,
                       "none would take it for a value, not for a missing one");
-    nodata_remark_suspects(copy, count, path, field);
+    nodata_remark_suspects(copy, count, rule, path, field);
     return copy;
 }

@@ -353,6 +353,8 @@ static void point_query_report_memory(report *r, const point_query *q)
     report_rounded(r, "start_seconds", index.seconds);
     report_count(r, "ghost_triangles", locator.ghost_triangles);
     report_count(r, "fill_bytes", locator.fill_bytes);
+    report_string(r, "guide", locator.guide ? mw_start_name(locator.guide) : "none");
+    report_count(r, "guide_bytes", locator.guide_bytes);
     report_count(r, "pieces", locator.components);
 }
 

@@ -85,6 +85,9 @@ typedef struct mw_mesh_file {
 typedef struct mw_file_options {
     /** Progress and cancelling, see base.h; NULL: none. The fraction of a pipe is a guess. */
     const mw_progress *progress;
+    /** Reading netCDF: the layout that the file has, such as "fvcom", with ":0" or ":1" behind it
+     * for the number of the first vertex; NULL: recognised. */
+    const char *layout;
     uint32_t reserved[6]; /**< must be zero */
 } mw_file_options;
 
@@ -97,6 +100,11 @@ typedef struct mw_file_options {
  * - PLY: text, little- and big-endian; other numbers of the vertices become fields; also triangle
  *   strips
  * - STL: text and binary; corners with equal coordinates become one vertex (-0.0 equals 0.0)
+ * - netCDF, classic and netCDF-4, by libnetcdf (mw_netcdf_version()): UGRID 1.0; FVCOM, SCHISM,
+ *   ADCIRC, ANUGA, FESOM2, TUFLOW-FV; ICON: the cells; MPAS: the triangles between the centres of
+ *   the cells, so that values of cells are those of vertices. Variables of numbers over the
+ *   vertices become fields: unpacked, NaN where missing. Longitudes and latitudes are degrees. The
+ *   coordinate system is that of the CF grid mapping, or EPSG:4326 of longitudes and latitudes
  * - .node and .ele of Triangle: `path` names either, or both without ending; numbered from 0 or 1.
  *   Attributes become fields "attribute1", ..., unless a comment "# attributes: NAME, NAME" at the
  *   top names them; one named z is the height
@@ -248,6 +256,10 @@ MW_API const char *mw_mesh_format_name(size_t i);
  * @param path  name of the file, which need not exist
  * @return name of the format, a constant; NULL if the ending tells none. Thread-safe. */
 MW_API const char *mw_mesh_format_of_path(const char *path);
+
+/** The names of the layouts that meshes in netCDF files can have, from 0; NULL after the last.
+ * Thread-safe. */
+MW_API const char *mw_layout_name(size_t i);
 
 /** Options of a point reader. Zero-initialised options read everything. */
 typedef struct mw_point_reader_options {

@@ -151,6 +151,11 @@ typedef struct mw_locator_info {
     uint32_t components; /**< if unfilled: connected components, equal coordinates joined; else 1 */
     /** Of the bytes, for ghosts and their copy of the mesh; 0 without ghosts. */
     size_t fill_bytes;
+    /** What leads queries to their first triangle where nothing is said: MW_START_GRID,
+     * MW_START_CURVE, MW_START_TWO_LEVEL_GRID, or MW_START_CHAINS where walks from these would be
+     * long; MW_START_AUTO: nothing is built. */
+    mw_start_kind guide;
+    size_t guide_bytes; /**< of the bytes, for that */
 } mw_locator_info;
 
 /** Fill `info` with the sizes of a locator. O(1). */

@@ -208,12 +208,13 @@ static PyObject *locator_describe(PyObject *self, PyObject *unused)
     (void)unused;
     mw_locator_describe(locator, &info);
     return Py_BuildValue(
-        "{s:n,s:n,s:n,s:n,s:I,s:I,s:I,s:N,s:N,s:N,s:z}", "bytes", (Py_ssize_t)info.bytes,
+        "{s:n,s:n,s:n,s:n,s:n,s:z,s:I,s:I,s:I,s:N,s:N,s:N,s:z}", "bytes", (Py_ssize_t)info.bytes,
         "border_bytes", (Py_ssize_t)info.border_bytes, "area_bytes", (Py_ssize_t)info.area_bytes,
-        "fill_bytes", (Py_ssize_t)info.fill_bytes, "ghost_triangles", info.ghost_triangles, "holes",
-        info.holes, "components", info.components, "copied", PyBool_FromLong(info.copied),
-        "embedding", PyBool_FromLong(info.embedding), "unfilled", PyBool_FromLong(info.unfilled),
-        "void_promise", mw_locator_void_promise(locator));
+        "fill_bytes", (Py_ssize_t)info.fill_bytes, "guide_bytes", (Py_ssize_t)info.guide_bytes,
+        "guide", info.guide == MW_START_AUTO ? NULL : mw_start_name(info.guide), "ghost_triangles",
+        info.ghost_triangles, "holes", info.holes, "components", info.components, "copied",
+        PyBool_FromLong(info.copied), "embedding", PyBool_FromLong(info.embedding), "unfilled",
+        PyBool_FromLong(info.unfilled), "void_promise", mw_locator_void_promise(locator));
 }
 
 static PyObject *locator_mesh(PyObject *self, void *unused)

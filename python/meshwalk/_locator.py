@@ -47,6 +47,11 @@ class LocatorInfo(NamedTuple):
     """Of it, stored areas."""
     fill_bytes: int
     """Of it, the triangles that fill pockets and holes, and the copy that they are in."""
+    guide_bytes: int
+    """Of it, the guide."""
+    guide: str | None
+    """The start that leads queries to their first triangle where nothing is said; ``"chains"``
+    where walks from the others would be long; None if nothing is built."""
     ghost_triangles: int
     """Triangles that fill pockets and holes."""
     holes: int

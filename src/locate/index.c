@@ -50,6 +50,7 @@ mw_status mw__index_build(mw_index *index, const mw_tiling *tiling, const double
         done = mw__triangle_buckets_create(&index->triangle_buckets, tiling, low, high, cells, job);
         break;
     case MW_START_KD_TREE: done = mw__kd_tree_create(&index->kd_tree, tiling, job); break;
+    case MW_START_CHAINS: done = mw__chains_create(&index->chains, tiling, job); break;
     case MW_START_LAYERS: return index_build_layers(&index->layers, tiling, options, job, error);
     case WITHOUT_INDEX: break;
     }
@@ -65,6 +66,7 @@ void mw__index_release(mw_index *index)
     case MW_START_BUCKETS: mw__vertex_buckets_release(&index->vertex_buckets); break;
     case MW_START_TRIANGLE_BUCKETS: mw__triangle_buckets_release(&index->triangle_buckets); break;
     case MW_START_KD_TREE: mw__kd_tree_release(&index->kd_tree); break;
+    case MW_START_CHAINS: mw__chains_release(&index->chains); break;
     case MW_START_LAYERS: mw__layers_release(&index->layers); break;
     case WITHOUT_INDEX: break;
     }
@@ -86,6 +88,7 @@ size_t mw__index_bytes(const mw_index *index)
     case MW_START_BUCKETS: return mw__vertex_buckets_bytes(&index->vertex_buckets);
     case MW_START_TRIANGLE_BUCKETS: return mw__triangle_buckets_bytes(&index->triangle_buckets);
     case MW_START_KD_TREE: return mw__kd_tree_bytes(&index->kd_tree);
+    case MW_START_CHAINS: return mw__chains_bytes(&index->chains);
     case MW_START_LAYERS: return mw__layers_bytes(&index->layers);
     case WITHOUT_INDEX: break;
     }
@@ -111,6 +114,7 @@ void mw_index_describe(const mw_index *index, mw_index_info *info)
         info->cells = mw__lattice_cells(&index->triangle_buckets.lattice);
         break;
     case MW_START_KD_TREE: info->vertices[0] = index->kd_tree.count; break;
+    case MW_START_CHAINS: info->vertices[0] = index->chains.points; break;
     case MW_START_LAYERS:
         info->layers = index->layers.count;
         mw__layers_describe(&index->layers, info->vertices);
@@ -126,12 +130,13 @@ static MW_INLINE uint32_t tile_within(const mw_tiling *tiling, uint32_t t)
     return MW_LIKELY(t < tiling->tri_count) ? t : t % tiling->tri_count;
 }
 
-/* Of the starts that are there to compare with. A function of its own, so that the others do not
- * carry it along. */
-static __attribute__((noinline)) uint32_t index_first_compared(const mw_index *index, mw_point q)
+/* Of chains, and of the starts that are there to compare with. A function of its own, so that the
+ * others do not carry it along. */
+static __attribute__((noinline)) uint32_t index_first_rare(const mw_index *index, mw_point q)
 {
     if (index->start == MW_START_BUCKETS)
         return mw__vertex_buckets_first(&index->vertex_buckets, q);
+    if (index->start == MW_START_CHAINS) return mw__chains_first(&index->chains, q);
     return index->start == MW_START_KD_TREE ? mw__kd_tree_first(&index->kd_tree, q) : 0;
 }
 
@@ -142,7 +147,7 @@ static MW_INLINE uint32_t index_first_name(const mw_index *index, mw_point q)
     switch (index->start) {
     case MW_START_TWO_LEVEL_GRID: return mw__two_level_grid_first(&index->two_level_grid, q);
     case MW_START_CURVE: return mw__curve_first(&index->curve, q);
-    default: return index_first_compared(index, q);
+    default: return index_first_rare(index, q);
     }
 }
 
@@ -210,6 +215,8 @@ static void curve_first_many(const mw_curve *curve, const mw_point *q, uint32_t 
     for (uint32_t i = 0; i < count; i++) t[left[i]] = mw__curve_at(curve, key[i]);
 }
 
+_Static_assert(MW_INDEX_MANY <= MW_CHAINS_MANY, "as many searches as points");
+
 /* From names to tiles. */
 static void names_resolve_many(const mw_tiling *tiling, uint32_t n, uint32_t *t)
 {
@@ -225,6 +232,7 @@ void mw__index_first_many(const mw_tiling *tiling, const mw_index *index, const 
     case MW_START_GRID: grid_first_many(&index->grid, q, n, t); break;
     case MW_START_TWO_LEVEL_GRID: two_level_grid_first_many(&index->two_level_grid, q, n, t); break;
     case MW_START_CURVE: curve_first_many(&index->curve, q, n, t); break;
+    case MW_START_CHAINS: mw__chains_first_many(&index->chains, q, n, t); break;
     case MW_START_BUCKETS:
     case MW_START_TRIANGLE_BUCKETS:
     case MW_START_KD_TREE:

@@ -2,6 +2,7 @@
 #ifndef MW_SRC_LOCATE_INDEX_H
 #define MW_SRC_LOCATE_INDEX_H
 
+#include "start/chains.h"
 #include "start/curve.h"
 #include "start/grid.h"
 #include "start/kd_tree.h"
@@ -24,6 +25,7 @@ struct mw_index {
         mw_vertex_buckets vertex_buckets;
         mw_triangle_buckets triangle_buckets;
         mw_kd_tree kd_tree;
+        mw_chains chains;
     };
 };
 

@@ -97,7 +97,8 @@ static bool chunk_is_dense(const locate_batch *b, uint32_t first, uint32_t count
 {
     enum { FEW = 2 * MW_GROUP_LANES };
     const mw_batch *queries = &b->queries;
-    if (!b->guided || queries->hints || count < FEW) return false;
+    if (!b->guided || b->cursor.start == MW_START_CHAINS || queries->hints || count < FEW)
+        return false;
     return mw__queries_are_dense(
         b->locator,
         &(mw_queries){queries->points + first * queries->stride, count, queries->stride});

@@ -114,7 +114,7 @@ static uint32_t guide_cells(const mw_tiling *tiling)
            1;
 }
 
-bool mw__locator_guide(const mw_locator *locator, mw_job *job, mw_index *guide)
+static bool locator_lay_guide(const mw_locator *locator, mw_job *job, mw_index *guide)
 {
     /* Most cells are empty where those that have tiles have more than UNEVEN of them on the
      * average. In a mesh that is edited a cell is made four where not one in SPARSE has tiles: an
@@ -134,6 +134,45 @@ bool mw__locator_guide(const mw_locator *locator, mw_job *job, mw_index *guide)
     if (tiling->tile_of && plan.taken < mw__lattice_cells(&guide->grid.lattice) / SPARSE)
         mw__grid_refine(&guide->grid, tiling, STRIDE, job); /* or it stays as it is */
     return !mw__job_stopped(job);
+}
+
+/* How many tiles walks from the guide visit, on the average: to the middles of a few tiles all over
+ * the mesh. One that is long counts for MOST. */
+static double guide_walk_length(const mw_locator *locator, const mw_index *guide)
+{
+    enum { TILES_PER_WALK = 256, WALKS = 256, MOST = 1024 };
+    const mw_tiling *tiling = &locator->tiling;
+    const mw_kernels *kernels = mw__walk_kernels(locator->auto_walk, tiling);
+    uint32_t n = tiling->tri_count, walks = n / TILES_PER_WALK < WALKS ? n / TILES_PER_WALK : WALKS;
+    uint64_t visited = 0;
+    for (uint32_t i = 0; i < walks; i++) {
+        mw_point q = mw__tile_middle(tiling, (uint32_t)((uint64_t)n * i / walks));
+        mw_walk walk = mw__walk_begin(tiling, q, mw__index_tile(tiling, guide, q), MOST, i, NULL);
+        kernels->run[true][false](&walk);
+        visited += MOST - walk.fuel;
+    }
+    return walks ? (double)visited / walks : 0;
+}
+
+/* Where the guide leads badly, chains take its place: a query by them takes as long as a walk over
+ * FEW tiles, and 68 to 88 bytes a tile. Tiles that are edited would leave them behind. */
+bool mw__locator_guide(const mw_locator *locator, mw_job *job, mw_index *guide)
+{
+    static const double FEW = 24;
+    mw_job_span outer = mw__job_part(job, 0.6);
+    bool done = locator_lay_guide(locator, job, guide);
+    mw__job_part_end(job, outer);
+    if (!done) return false;
+    if (guide->start == MW_START_AUTO || locator->tiling.tile_of ||
+        !(guide_walk_length(locator, guide) > FEW))
+        return true;
+    mw_index chains = {.start = MW_START_CHAINS};
+    outer = mw__job_part(job, 0.4);
+    done = mw__chains_create(&chains.chains, &locator->tiling, job);
+    mw__job_part_end(job, outer);
+    mw__index_release(done ? guide : &chains);
+    if (done) *guide = chains;
+    return done;
 }
 
 static bool are_slots_numbers(const mw_tiling *tiling)
@@ -272,6 +311,8 @@ void mw_locator_describe(const mw_locator *locator, mw_locator_info *info)
         .copied = !tiling->borrowed,
         .embedding = tiling->embedding,
         .unfilled = tiling->border_loops != NULL,
+        .guide = locator->guide.start,
+        .guide_bytes = mw__index_bytes(&locator->guide),
     };
 }
 

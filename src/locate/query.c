@@ -148,6 +148,35 @@ static mw_verdict walk_hand_over(const mw_tiling *tiling, mw_walk *walk, mw_verd
     return verdict;
 }
 
+/* The chains that are the locator's guide, if the start was left to choose; else NULL. */
+static const mw_index *query_chains(const mw_locator *locator, const mw_cursor *cursor)
+{
+    const mw_index *guide = &locator->guide;
+    bool chosen = cursor->index ? cursor->index == guide : cursor->start == MW_START_AUTO;
+    return chosen && guide->start == MW_START_CHAINS ? guide : NULL;
+}
+
+/* End a walk that got long from the tile that chains name. Outside of the hull that tile has an
+ * edge that q lies beyond. */
+static mw_verdict query_end_by_chains(const mw_locator *locator, const mw_cursor *cursor,
+                                      const mw_index *chains, mw_walk *walk)
+{
+    const mw_tiling *tiling = &locator->tiling;
+    mw_walk_kind kind = (mw_walk_kind)cursor->walk;
+    uint32_t t = mw__index_tile(tiling, chains, walk->q);
+    if (cursor->count) mw__chains_count(&chains->chains, walk->q, walk->work);
+    *walk = mw__walk_begin(tiling, walk->q, t,
+                           mw__walk_fuel(kind, (mw_arithmetic)cursor->arithmetic, tiling),
+                           walk->random, cursor->count ? walk->work : NULL);
+    if (walk_has_left(tiling, walk)) return MW_VERDICT_LEFT;
+    mw_verdict verdict =
+        mw__walk_kernels(kind, tiling)->run[cursor->arithmetic == MW_EXACT][cursor->count](walk);
+    return verdict != MW_VERDICT_UNSURE
+               ? verdict
+               : mw__walk_finish(walk, (mw_walk_kind)cursor->finish, walk->fuel, tiling,
+                                 cursor->arithmetic == MW_EXACT, cursor->count);
+}
+
 mw_location mw__query_conclude(const mw_locator *locator, const mw_cursor *cursor, mw_walk *walk,
                                mw_verdict verdict, mw_counters *counters)
 {
@@ -156,6 +185,11 @@ mw_location mw__query_conclude(const mw_locator *locator, const mw_cursor *curso
     if (verdict == MW_VERDICT_UNSURE)
         verdict = mw__walk_finish(walk, (mw_walk_kind)cursor->finish, cursor->fuel, tiling, exact,
                                   cursor->count);
+    const mw_index *chains =
+        MW_UNLIKELY(verdict == MW_VERDICT_OUT_OF_FUEL) ? query_chains(locator, cursor) : NULL;
+    /* a way that is written down goes from triangle to triangle */
+    if (MW_UNLIKELY(chains) && !(cursor->count && walk->work->trace))
+        verdict = query_end_by_chains(locator, cursor, chains, walk);
     bool dry = verdict == MW_VERDICT_OUT_OF_FUEL;
     bool sure = exact || (verdict == MW_VERDICT_LEFT && walk_has_left(tiling, walk));
     if (MW_UNLIKELY(dry || !sure))
@@ -202,6 +236,7 @@ static uint32_t start_tile(const mw_locator *locator, const mw_cursor *cursor, u
     case MW_START_BUCKETS:
     case MW_START_TRIANGLE_BUCKETS:
     case MW_START_KD_TREE:
+    case MW_START_CHAINS:
     case MW_START_LAST:
     case MW_START_SORTED:
     case MW_START_COUNT: break;
@@ -258,6 +293,11 @@ mw_walk mw__query_begin(const mw_locator *locator, const mw_cursor *cursor, uint
 {
     if (cursor->count) *work = (mw_work){0};
     uint32_t t = mw__query_first_tile(locator, cursor, last, q, random, work);
+    if (MW_UNLIKELY(cursor->count) && t != last) {
+        /* chains do not count while they search, so they search once more */
+        const mw_index *index = cursor->index ? cursor->index : query_chains(locator, cursor);
+        if (index && index->start == MW_START_CHAINS) mw__chains_count(&index->chains, q, work);
+    }
     return query_begin_at(locator, cursor, t, q, random, work);
 }
 
@@ -344,6 +384,8 @@ mw_status mw_cursor_init(const mw_locator *locator, const mw_query_options *opti
         .last_name = locator->centre,
         .epoch = locator->epoch,
     };
+    enum { SHORT = 64 }; /* steps, where chains can end a walk */
+    if (query_chains(locator, cursor) && cursor->fuel > SHORT) cursor->fuel = SHORT;
     return MW_OK;
 }
 

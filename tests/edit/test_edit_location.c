@@ -566,7 +566,7 @@ static void expect_near(mw_editor *editor, const mw_index *const *index, double 
                anew[start]);
         if (start == MW_START_CURVE || start == MW_START_SAMPLE) continue;
         if (start == MW_START_BUCKETS || start == MW_START_TRIANGLE_BUCKETS ||
-            start == MW_START_KD_TREE)
+            start == MW_START_KD_TREE || start == MW_START_CHAINS)
             continue;
         if (kept[start] > (start == MW_START_AUTO ? guide : 1.25) * anew[start] + 1)
             fail_msg("%s leads too far", mw_start_name((mw_start_kind)start));

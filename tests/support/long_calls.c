@@ -455,6 +455,12 @@ static mw_status run_index_kd_tree(const call_inputs *in, const call_setting *ho
     return index_run(in, MW_START_KD_TREE, how, sum, error);
 }
 
+static mw_status run_index_chains(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                                  mw_error *error)
+{
+    return index_run(in, MW_START_CHAINS, how, sum, error);
+}
+
 static mw_status run_batch(const call_inputs *in, const call_setting *how, uint64_t *sum,
                            mw_error *error)
 {
@@ -892,6 +898,7 @@ const long_call long_calls[] = {
     {"mw_index_create, buckets", run_index_buckets},
     {"mw_index_create, triangle buckets", run_index_triangle_buckets},
     {"mw_index_create, kd tree", run_index_kd_tree},
+    {"mw_index_create, chains", run_index_chains},
     {"mw_locate_batch", run_batch},
     {"mw_segment_batch", run_segments},
     {"mw_interpolate_table", run_table},

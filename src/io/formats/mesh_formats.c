@@ -2,6 +2,7 @@
 
 #include "io/grid/grid_readers.h"
 #include "io/grid/grid_writers.h"
+#include "io/layouts/netcdf_mesh.h"
 #include "io/mesh/mesh_readers.h"
 #include "io/mesh/mesh_writers.h"
 #include "io/text/file_head.h"
@@ -112,6 +113,10 @@ static const mw_mesh_format formats[] = {
      .first_word = is_solid,
      .read = mw__read_stl,
      .write = mw__write_stl},
+    {.name = "netcdf",
+     .endings = ".nc\0.nc4\0.cdf\0.sww\0",
+     .first_bytes = mw__netcdf_begins,
+     .read = mw__read_netcdf},
     {.name = "csv", .endings = ".csv\0", .write = mw__write_csv},
     {.name = "vtk",
      .endings = ".vtk\0",

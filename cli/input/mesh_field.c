@@ -1,0 +1,52 @@
+#include "cli/input/mesh_field.h"
+#include "cli/frame/message.h"
+#include "cli/frame/text.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static int mesh_field_fail(const char *path, const mw_mesh_file *file, const char *field)
+{
+    text names = {0};
+    if (file->has_z) text_string(&names, " z");
+    for (size_t i = 0; i < file->field_count; i++) text_printf(&names, " %s", file->field_names[i]);
+    int end = END_INPUT;
+    if (names.failed)
+        end = fail_memory();
+    else if (names.size == 0)
+        complain("%s: has neither heights nor fields: there is nothing to sample", path);
+    else
+        complain("%s: has no field '%s'; --field may be one of:%.*s", path, field, (int)names.size,
+                 names.bytes);
+    text_release(&names);
+    return end;
+}
+
+static int mesh_field_set(mw_mesh *mesh, const char *path, const mesh_field_choice *choice,
+                          const double *values, size_t stride)
+{
+    mw_error error;
+    size_t count = mw_mesh_vertex_count(mesh);
+    double *copy =
+        nodata_copy(values, stride, count, &choice->nodata, path, choice->field, choice->quiet);
+    if (!copy) return fail_memory();
+    mw_status status = mw_mesh_set_field(mesh, choice->field, copy, 1, &error);
+    free(copy);
+    return status == MW_OK ? 0 : fail_mesh(path, &error);
+}
+
+int mesh_field_load(mw_mesh *mesh, const char *path, const mw_mesh_file *file, const void *self)
+{
+    const mesh_field_choice *choice = self;
+    const char *field = choice->field;
+    const double *values = NULL;
+    size_t stride = 1;
+    for (size_t i = 0; i < file->field_count && !values; i++)
+        if (strcmp(file->field_names[i], field) == 0) values = file->fields[i];
+    if (!values && file->has_z && strcmp(field, "z") == 0) {
+        values = file->points + 2;
+        stride = 3;
+    }
+    if (!values) return mesh_field_fail(path, file, field);
+    return mesh_field_set(mesh, path, choice, values, stride);
+}

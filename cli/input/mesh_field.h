@@ -1,0 +1,20 @@
+/* mesh_field.h - the values that a mesh's file has at the vertices: heights, or a field. */
+#ifndef MW_CLI_INPUT_MESH_FIELD_H
+#define MW_CLI_INPUT_MESH_FIELD_H
+
+#include "cli/input/nodata.h"
+
+#include <meshwalk/meshwalk.h>
+
+/* Which values are meant. */
+typedef struct mesh_field_choice {
+    const char *field; /* "z", or the name of a field */
+    nodata_rule nodata;
+    bool quiet;
+} mesh_field_choice;
+
+/* Copy the field from the file of a mesh to the mesh, NaN for values that are missing. `self` is a
+ * mesh_field_choice. Returns 0, or an exit code after a complaint. */
+int mesh_field_load(mw_mesh *mesh, const char *path, const mw_mesh_file *file, const void *self);
+
+#endif

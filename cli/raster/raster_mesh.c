@@ -1,0 +1,129 @@
+#include "cli/raster/raster_mesh.h"
+#include "cli/frame/files.h"
+#include "cli/frame/message.h"
+#include "cli/frame/progress.h"
+#include "cli/gdal/mesh_crs.h"
+#include "cli/output/border_peel.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+void raster_mesh_release(raster_mesh *m)
+{
+    mw_locator_destroy(m->locator);
+    mw_mesh_destroy(m->mesh);
+    free(m->values);
+    free(m->numbers);
+    free(m->crs);
+    *m = (raster_mesh){0};
+}
+
+static int raster_mesh_create(raster_mesh *m, const char *path, const mw_mesh_file *file,
+                              const raster_mesh_settings *s)
+{
+    mw_error error;
+    mw_arrays arrays = mw_mesh_file_arrays(file);
+    mw_mesh_options options = {.threads = s->common->threads, .progress = progress_of_call()};
+    mw_mesh_destroy(m->mesh);
+    m->mesh = NULL;
+    return mw_mesh_create(&arrays, &options, &m->mesh, &error) == MW_OK ? 0
+                                                                        : fail_mesh(path, &error);
+}
+
+/* The triangles that are left in the file are a part of those that it had, in their order. */
+static int raster_mesh_number(raster_mesh *m, const mw_mesh_file *file, const uint32_t *before)
+{
+    m->numbers = malloc((file->triangle_count + 1) * sizeof *m->numbers);
+    if (!m->numbers) return fail_memory();
+    uint32_t n = 0;
+    for (size_t t = 0; t < file->triangle_count; t++, n++) {
+        while (memcmp(before + 3 * (size_t)n, file->triangles + 3 * t, 3 * sizeof *before) != 0)
+            n++;
+        m->numbers[t] = n;
+    }
+    return 0;
+}
+
+static int raster_mesh_peel(raster_mesh *m, const char *path, mw_mesh_file *file,
+                            const raster_mesh_settings *s)
+{
+    const mw_constrained_edges none = {0};
+    border_peel peel;
+    size_t bytes = 3 * file->triangle_count * sizeof(uint32_t);
+    uint32_t *before = malloc(bytes + 1);
+    if (!before) return fail_memory();
+    if (bytes > 0) memcpy(before, file->triangles, bytes);
+    int end = border_peel_off(m->mesh, s->max_edge, &none, file, &peel);
+    m->peeled = end ? 0 : peel.triangles;
+    if (m->peeled > 0) end = raster_mesh_number(m, file, before);
+    free(before);
+    if (end || m->peeled == 0) return end;
+    if (file->triangle_count > 0) return raster_mesh_create(m, path, file, s);
+    complain("%s: no triangle is left: all have longer edges than --max-edge", path);
+    return END_INPUT;
+}
+
+static int raster_mesh_locate(raster_mesh *m, const char *path, const raster_mesh_settings *s)
+{
+    mw_error error;
+    mw_locator_options options = {
+        .border = s->border, .threads = s->common->threads, .progress = progress_of_call()};
+    if (mw_locator_create(m->mesh, &options, &m->locator, &error) == MW_OK) return 0;
+    int end = fail_mesh(path, &error);
+    if (end == END_INPUT) complain("'meshwalk check %s' lists every defect", path);
+    return end;
+}
+
+/* The extent and the area of the triangles. */
+static int raster_mesh_measure(raster_mesh *m)
+{
+    uint32_t v[3];
+    double p[3][2];
+    uint8_t *used = calloc((size_t)mw_mesh_vertex_count(m->mesh) + 1, 1);
+    if (!used) return fail_memory();
+    for (int k = 0; k < 4; k++) m->extent[k] = k < 2 ? (double)INFINITY : -(double)INFINITY;
+    for (uint32_t t = 0; t < mw_mesh_triangle_count(m->mesh); t++) {
+        mw_mesh_triangle(m->mesh, t, v);
+        for (int k = 0; k < 3; k++) {
+            mw_mesh_vertex(m->mesh, v[k], p[k]);
+            m->extent[0] = fmin(m->extent[0], p[k][0]);
+            m->extent[1] = fmin(m->extent[1], p[k][1]);
+            m->extent[2] = fmax(m->extent[2], p[k][0]);
+            m->extent[3] = fmax(m->extent[3], p[k][1]);
+            if (!used[v[k]]) m->vertices++;
+            used[v[k]] = 1;
+        }
+        m->area += fabs(mw_orient2d(p[0], p[1], p[2])) / 2;
+    }
+    free(used);
+    return 0;
+}
+
+static int raster_mesh_take_values(raster_mesh *m, const char *path, const mw_mesh_file *file,
+                                   const raster_mesh_settings *s)
+{
+    int end = mesh_field_load(m->mesh, path, file, &s->field);
+    if (end) return end;
+    size_t size = (size_t)mw_mesh_vertex_count(m->mesh) * sizeof *m->values;
+    m->values = malloc(size + 1);
+    if (!m->values) return fail_memory();
+    memcpy(m->values, mw_mesh_field(m->mesh, s->field.field), size);
+    return 0;
+}
+
+int raster_mesh_read(raster_mesh *m, const char *path, const raster_mesh_settings *s)
+{
+    mw_mesh_file file;
+    *m = (raster_mesh){0};
+    int end = files_read_mesh(path, &file);
+    if (end) return end;
+    end = mesh_crs_settle(path, s->crs, file.crs, s->common->quiet, &m->crs);
+    progress_phase("preparing", path);
+    if (end == 0) end = raster_mesh_create(m, path, &file, s);
+    if (end == 0) end = raster_mesh_take_values(m, path, &file, s);
+    if (end == 0 && s->max_edge > 0) end = raster_mesh_peel(m, path, &file, s);
+    mw_mesh_file_release(&file);
+    if (end == 0) end = raster_mesh_locate(m, path, s);
+    return end ? end : raster_mesh_measure(m);
+}

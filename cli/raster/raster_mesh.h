@@ -1,0 +1,32 @@
+/* raster_mesh.h - the mesh that a raster is made of. */
+#ifndef MW_CLI_RASTER_RASTER_MESH_H
+#define MW_CLI_RASTER_RASTER_MESH_H
+
+#include "cli/frame/options.h"
+#include "cli/input/mesh_field.h"
+
+typedef struct raster_mesh_settings {
+    const common_settings *common;
+    mesh_field_choice field;
+    const char *crs; /* of the mesh; NULL: not given */
+    double max_edge; /* 0: not given */
+    bool border;     /* the nearest point of the border will be asked for */
+} raster_mesh_settings;
+
+typedef struct raster_mesh {
+    mw_mesh *mesh;
+    mw_locator *locator;
+    double *values;    /* one for each vertex, NaN where it is missing */
+    uint32_t *numbers; /* in the file, of the triangles that --max-edge has left; NULL: the same */
+    size_t peeled;     /* triangles that --max-edge took away */
+    double extent[4];  /* xmin, ymin, xmax, ymax of the vertices that triangles have */
+    double area;       /* of the triangles */
+    uint64_t vertices; /* that triangles have */
+    char *crs;         /* NULL: not known */
+} raster_mesh;
+
+/* Returns 0, or an exit code after a complaint; release it in both cases. */
+int raster_mesh_read(raster_mesh *m, const char *path, const raster_mesh_settings *settings);
+void raster_mesh_release(raster_mesh *m);
+
+#endif

@@ -1,0 +1,37 @@
+/* raster_scan.h - triangles and values at the centres of pixels, row by row.
+ *
+ *      . . . . . . .     The triangles are scan-converted: in each row of pixels, a triangle has
+ *      . . ./\ . . .     those from one side to another. Which pixel is the first is computed in
+ *      . . / .\. . .     doubles, with a bound for the error, and decided exactly where that does
+ *      . ./. . \ . .     not tell. A pixel on an edge or a vertex, or too near to tell, is asked
+ *      . /_._._.\. .     of the locator. So all pixels have the answers of mw_locate and
+ *      . . . . . . .     mw_interpolate at their centres, to the last bit, whatever the order. */
+#ifndef MW_CLI_RASTER_RASTER_SCAN_H
+#define MW_CLI_RASTER_RASTER_SCAN_H
+
+#include "cli/raster/raster_grid.h"
+
+#include <meshwalk/meshwalk.h>
+
+typedef struct raster_scan raster_scan;
+
+/* Prepare a mesh with a locator of its own, which outlive the scan. Memory: 4 bytes for each
+ * triangle and strip that it reaches into, up to five times as many as triangles. Returns 0, or an
+ * exit code after a complaint; release it in both cases. */
+int raster_scan_create(raster_scan **scan, const mw_locator *locator, const mw_mesh *mesh,
+                       const raster_grid *grid);
+void raster_scan_release(raster_scan *s); /* NULL is allowed */
+
+/* How many strips of how many rows the raster has; the last may have fewer. */
+uint32_t raster_scan_strips(const raster_scan *s);
+uint32_t raster_scan_height(const raster_scan *s);
+
+/* Rows of a strip, which one thread works on at a time: grid.columns pixels for each row.
+ *   values     one for each vertex; NULL: none are wanted
+ *   result     receives the value of each pixel, NaN where there is none; NULL if `values` is
+ *   triangles  receives the triangle of each pixel, MW_NONE where there is none; NULL: not wanted
+ * Several threads may scan at a time, each with a cursor of its own of the locator. */
+void raster_scan_strip(const raster_scan *s, uint32_t strip, mw_cursor *cursor,
+                       const double *values, double *result, uint32_t *triangles);
+
+#endif

@@ -1,0 +1,171 @@
+#!/usr/bin/env bash
+# Rasters of meshes, by GDAL: every pixel as locate and sample answer at its centre, grids, bands,
+# formats, what is refused.
+# shellcheck source=driver.sh disable=SC2154
+. "$(dirname "$0")/driver.sh"
+# LeakSanitizer stops all threads when the program ends, and sometimes crashes over those of GDAL,
+# which end at that time.
+export ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0"
+printf '%s\n' "$square" >square.off # on the plane z = x + y
+printf '%s\n' "$ring" >ring.off
+
+run raster square.off -o out.tif --resolution 0.25
+if grep -Eq 'built with GDAL|cannot be loaded' "$logs/err"; then
+    refused 2 'out\.tif: '
+    finish
+fi
+exits 0
+says_nothing
+prints_line '^columns +4$'
+prints_line '^extent +0 0 1 1$'
+prints_line '^with value +16$'
+only_files square.off ring.off out.tif
+
+# centres WEST NORTH SIZE COLUMNS ROWS: the centres of pixels, as the program computes them.
+centres() {
+    perl -e 'my ($w, $n, $s, $c, $r) = @ARGV; print "x,y\n";
+        for my $j (0 .. $r - 1) { for my $i (0 .. $c - 1) {
+            printf "%.17g,%.17g\n", $w + ($i + 0.5) * $s, $n - ($j + 0.5) * $s } }' -- "$@"
+}
+# raw TYPE FILE: the pixels of a raw raster, one a line; "empty" for NaN and -1.
+raw() {
+    perl -e 'my ($t, $f) = @ARGV; local $/; open my $h, "<:raw", $f or die; for (unpack "$t*", <$h>) {
+        print $_ != $_ || ($t eq "l" && $_ == -1) ? "empty" : sprintf("%.17g", $_), "\n" }' "$@"
+}
+# as_asked MESH WEST NORTH SIZE COLUMNS ROWS: heights and triangles are those that sample and locate
+# find at the centres.
+as_asked() {
+    local mesh=$1 west=$2 north=$3 size=$4 columns=$5 rows=$6 box
+    box=$(perl -e 'my ($w, $n, $s, $c, $r) = @ARGV; printf "%.17g,%.17g,%.17g,%.17g", $w, $n - $r * $s, $w + $c * $s, $n' -- "${@:2}")
+    centres "$west" "$north" "$size" "$columns" "$rows" >points.csv
+    "$meshwalk" sample -q --only-answers "$mesh" points.csv | perl -F, -ane 'next if $. == 1; chomp $F[2]; print $F[2] eq "" ? "empty" : sprintf("%.17g", $F[2]), "\n"' >asked.txt
+    "$meshwalk" locate -q --only-answers "$mesh" points.csv | perl -F, -ane 'next if $. == 1; print $F[3] < 0 ? "empty" : $F[3], "\n"' >asked-triangles.txt
+    run raster -q "$mesh" -o pixels.img --driver ENVI --type float64 \
+        --resolution "$size" --extent "$box"
+    exits 0
+    holds "the heights of $mesh at $size" same_text <(raw d pixels.img) asked.txt
+    run raster -q "$mesh" -o pixels.img --driver ENVI --derive triangle \
+        --resolution "$size" --extent "$box"
+    exits 0
+    holds "the triangles of $mesh at $size" same_text <(raw l pixels.img) asked-triangles.txt
+}
+perl -e 'srand 7; print "x,y,z\n"; printf "%.9f,%.9f,%.6f\n", rand 100, rand 100, rand 50 for 1 .. 500' >random.csv
+perl -e 'print "x,y,z\n"; for my $x (0 .. 20) { print "$x,$_,", ($x * 7 + $_ * $_) % 11, "\n" for 0 .. 20 }' >grid.csv
+perl -e 'srand 8; print "x,y,z\n0,1,0\n1000,1,5\n"; printf "%.9f,%.9f,%.6f\n", rand 1000, rand 0.001, rand 50 for 1 .. 60' >thin.csv
+perl -e 'srand 9; print "x,y,z\n"; printf "%.3f,%.3f,%.2f\n", 500000 + rand 1000, 4200000 + rand 1000, rand 50 for 1 .. 300' >utm.csv
+perl -e 'srand 9; print "x,y,z\n"; printf "%g,%g,%.2f\n", 1e200 * rand, -1e200 * rand, rand 50 for 1 .. 30' >large.csv
+for name in random grid thin utm large; do
+    run triangulate -q $name.csv -o $name.ply; exits 0
+done
+as_asked random.ply -2 102 0.9 120 117
+as_asked random.ply 40 60 0.013 100 40
+as_asked grid.ply -0.5 20.5 1 21 21 # every centre is a vertex
+as_asked grid.ply -0.25 20.25 0.5 41 41
+as_asked thin.ply -1 1.001 0.02 90 60
+as_asked utm.ply 500000.3 4200990 7.1 140 140
+as_asked large.ply 0 0 5e198 20 20
+as_asked ring.off -0.25 3.25 0.125 28 28
+printf '%s\n' OFF '4 2 0' '0 0 0' '4 0 1' '4 4 7' '0 4 2' '3 0 2 1' '3 0 2 3' >clockwise.off
+as_asked clockwise.off -0.5 4.5 0.25 20 20
+
+# Nothing depends on the number of threads, nor on how wide the rows are.
+run raster -q random.ply -o one.img --driver ENVI --resolution 0.05 --threads 1; exits 0
+run raster -q random.ply -o many.img --driver ENVI --resolution 0.05 --threads 7; exits 0
+holds "one thread or seven" cmp -s one.img many.img
+
+# The grid.
+run raster random.ply -o out.tif
+exits 0
+prints_line '^resolution +2$'
+prints_line '^extent +0 0 100 100$'
+run raster square.off -o out.tif --json; exits 0; holds "the report is JSON" is_json "$logs/out"
+run raster square.off -o out.tif --extent 0,0,1 ; refused 2 "'--extent' wants XMIN,YMIN,XMAX,YMAX"
+run raster square.off -o out.tif --extent 0,0,0,1; refused 2 "'--extent' wants"
+run raster square.off -o out.tif --resolution 1e-12
+refused 4 'a raster with pixels of 1e-12 has too many'
+run raster utm.ply -o out.tif --resolution 1e-11 \
+    --extent 500000,4200000,500000.00000001,4200000.00000001
+refused 4 'too small for its coordinates'
+run raster random.ply -o like.tif --resolution 3.7 --extent 10,20,55,71 --nodata -9999; exits 0
+run raster square.off -o out.tif --like like.tif
+exits 0
+prints_line '^columns +13$'
+prints_line '^extent +10 19.199999999999996 58.1 71$'
+prints_line '^nodata +-9999$'; says 'out\.tif: warning: no pixel has a value'
+run raster square.off -o out.tif --like like.tif --resolution 1; refused 2 '--like tells the pixels'
+run raster square.off -o like.tif --like like.tif; refused 2 'like\.tif'
+run raster square.off -o out.tif --like square.off; refused 3 'square\.off: GDAL says: '
+run raster square.off -o a.tif --resolution 0.25 --crs EPSG:2056; exits 0
+run raster square.off -o b.tif --like a.tif --crs EPSG:21781
+refused 3 'square\.off is in EPSG:21781 .*, a\.tif in EPSG:2056 .*: bring one to the other first'
+run raster square.off -o b.tif --like a.tif
+exits 0
+says 'square\.off: warning: its coordinate system is not known, and a\.tif is in EPSG:2056'
+run raster square.off -o b.tif --like a.tif --crs EPSG:2056; exits 0; says_nothing
+
+# Bands.
+run raster -q square.off -o out.img --driver ENVI --resolution 0.5 \
+    --derive slope,aspect,hillshade,triangle
+exits 0
+holds "slope, aspect, hillshade, triangle" test "$(raw d out.img | cut -c 1-9 | uniq | xargs)" == "54.735610 225 104.69506 1 0"
+run raster -q square.off -o out.img --driver ENVI --resolution 0.5 --derive hillshade; exits 0
+holds "hillshade as bytes" test "$(raw C out.img | xargs)" == "105 105 105 105"
+run raster square.off -o out.tif --derive slope,slope
+refused 2 "'--derive' wants some of slope,aspect,hillshade,triangle"
+run raster square.off -o out.tif --derive heights; refused 2 "'--derive' wants some of"
+run raster square.off -o out.tif --derive slope --crs EPSG:4326 --resolution 0.25
+exits 0
+says 'warning: it is in longitudes and latitudes, so its slopes are heights over degrees'
+run raster square.off -o out.tif --field depth
+refused 3 "square\.off: has no field 'depth'; --field may be one of: z"
+
+# Values that are missing, outside, or mistakable.
+run_on $'x,y,z\n0,0,1\n1,0,-99999\n1,1,3\n0,1,4\n' triangulate -q - -o missing.ply; exits 0
+run raster missing.ply -o out.tif --resolution 0.25
+exits 0
+prints_line '^empty +6$'
+says '--vertex-nodata none would take it for a value'
+run raster -q missing.ply -o out.tif --resolution 0.25 --vertex-nodata none; prints ''; exits 0
+run raster square.off -o out.tif --resolution 0.5 --nodata 1
+exits 0
+says 'warning: 2 of its pixels have a value that is that of --nodata'
+run raster square.off -o out.tif --nodata x
+refused 2 "'--nodata' wants a number that a pixel can have"
+run raster square.off -o out.tif --nodata -1 --derive hillshade
+refused 2 "'--nodata' wants a number that a pixel can have"
+run raster -q square.off -o out.img --driver ENVI --type float64 \
+    --extent -1,-1,2,2 --resolution 1 --outside nearest
+exits 0
+holds "nearest points of the border" test "$(raw d out.img | xargs)" == "1 1.5 2 0.5 1 1.5 0 0.5 1"
+run_on $'x,y,z\n0,0,1\n1,0,1\n0,1,1\n1,1,1\n50,0.5,1\n' triangulate -q - -o far.ply; exits 0
+run raster far.ply -o out.tif --resolution 0.5 --max-edge 5
+exits 0
+prints_line '^peeled +1$'
+prints_line '^extent +0 0 1 1$'
+run raster -q far.ply -o out.img --driver ENVI --resolution 0.5 --max-edge 5 --derive triangle
+exits 0
+run locate -q --only-answers far.ply <(centres 0 1 0.5 2 2); exits 0
+holds "triangles keep their numbers" \
+    test "$(raw l out.img | xargs)" == "$(cut -d, -f4 "$logs/out" | tail -n +2 | xargs)"
+run raster far.ply -o out.tif --max-edge 0.1; refused 3 'no triangle is left'
+
+# Formats, and what cannot be written.
+for output in out.asc out.png out.bil; do
+    run raster square.off -o $output --resolution 0.25 --derive hillshade; exits 0; says_nothing
+done
+holds "text" grep -q '^ncols *4' out.asc
+run raster square.off -o out.tif --creation COMPRESS=DEFLATE,TILED=YES; exits 0
+run raster square.off -o bad.tif --creation COMPRESS=NO_SUCH; refused 4 'bad\.tif: GDAL says: '
+absent bad.tif
+run raster absent.off -o out.xyzzy; refused 2 'out\.xyzzy: no format of rasters has this ending'
+run raster absent.off -o out.tif --driver Nothing
+refused 2 "this GDAL does not write rasters as 'Nothing'"
+run raster absent.off -o absent/out.tif; refused 4 'absent/out\.tif: No such file'
+run raster absent.off; refused 2 'a raster is written to a file: -o DEM\.tif'
+run raster absent.off -o out.tif --crs nowhere; refused 2 "'--crs' wants a coordinate system"
+run raster square.off -o square.off --driver GTiff; refused 2 'square\.off'
+printf '%s\n' "$overlap" >overlap.off
+run raster overlap.off -o bad.tif; refused 3 "'meshwalk check overlap\.off' lists every defect"
+absent bad.tif
+holds "no temporary directory is left" test -z "$(find . -name '.meshwalk*')"
+finish
