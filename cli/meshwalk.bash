@@ -13,6 +13,7 @@ _meshwalk_options() {
         triangulate) echo "--constraints --boundary --keep --split --strict --max-edge --kind --weight --hidden --limit --format --columns --class --layer --where --crs --points-crs --constraints-crs --json $common" ;;
         locate) echo "--details --base --polygons --attribute --polygon-layer $query $stream $common" ;;
         sample) echo "--field --outside --missing --nodata --status $query $stream $common" ;;
+        profile) echo "--field --nodata --attribute --layer --columns --crs --lines-crs --strict $common" ;;
         raster)
             echo "--resolution --like --extent --field --derive --nodata --outside --max-edge --vertex-nodata --type"
             echo "--driver --creation --crs --json $common"
@@ -133,7 +134,7 @@ _meshwalk() {
         before=${COMP_WORDS[COMP_CWORD - 2]}
     fi
     if ((COMP_CWORD == 1)); then
-        names='info check triangulate locate sample raster edit star probe walk convert bench --help --version'
+        names='info check triangulate locate sample profile raster edit star probe walk convert bench --help --version'
         mapfile -t COMPREPLY < <(compgen -W "$names" -- "$word")
         return
     fi
@@ -156,7 +157,7 @@ _meshwalk() {
         --threads | --seed | --steps | --sample | --cells | --layers | --levels | --tolerance | \
             --columns | --resolution | --extent | --nodata | --vertex-nodata | --driver | \
             --creation | \
-            --crs | --constraints-crs | --where) return ;;
+            --crs | --lines-crs | --constraints-crs | --where) return ;;
         --from | --to | --centre | --max-distance | --samples | --iterations | --race | \
             --max-edge | --queries | --sizes | --limit | --rounds | --seeds | --undo) return ;;
     esac

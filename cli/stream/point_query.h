@@ -17,6 +17,7 @@ typedef struct point_query_settings {
     int finish, fill;            /* numbers of the names of --finish and --fill */
     int descent;                 /* mw_descent */
     bool areas, any;
+    bool lines; /* of a command about lines, which has no --any */
 } point_query_settings;
 
 extern const option point_query_options[];

@@ -18,5 +18,6 @@
 #include <meshwalk/star.h>
 #include <meshwalk/probe.h>
 #include <meshwalk/io.h>
+#include <meshwalk/series.h>
 
 #endif

@@ -1,6 +1,7 @@
 /* files.c - meshes in files, read and written; constraints, read. */
 #include "core.h"
 
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -36,7 +37,14 @@ static PyObject *file_take_columns(core_state *state, file_columns columns)
     return fields;
 }
 
-/* (points, triangles, has_z, fields, welded) */
+/* The coordinate system, as str; None: not known. */
+static PyObject *file_get_crs(const char *crs)
+{
+    if (!crs) Py_RETURN_NONE;
+    return PyUnicode_DecodeUTF8(crs, (Py_ssize_t)strlen(crs), "replace");
+}
+
+/* (points, triangles, has_z, fields, welded, crs) */
 static PyObject *file_take_all(core_state *state, mw_mesh_file *file)
 {
     PyObject *fields =
@@ -46,10 +54,12 @@ static PyObject *file_take_all(core_state *state, mw_mesh_file *file)
         file_take(state, (void **)&file->points, 3 * file->point_count * sizeof(double));
     PyObject *triangles =
         file_take(state, (void **)&file->triangles, 3 * file->triangle_count * sizeof(uint32_t));
-    PyObject *result = fields && points && triangles
-                           ? Py_BuildValue("OOiOn", points, triangles, file->has_z, fields,
-                                           (Py_ssize_t)file->welded)
+    PyObject *crs = file_get_crs(file->crs);
+    PyObject *result = fields && points && triangles && crs
+                           ? Py_BuildValue("OOiOnO", points, triangles, file->has_z, fields,
+                                           (Py_ssize_t)file->welded, crs)
                            : NULL;
+    Py_XDECREF(crs);
     Py_XDECREF(fields);
     Py_XDECREF(points);
     Py_XDECREF(triangles);
@@ -163,7 +173,7 @@ static int file_get_fields(PyObject *list, size_t point_count, file_fields *fiel
     return 0;
 }
 
-static mw_status file_write(const char *path, const buffer_mesh *mesh, int has_z,
+static mw_status file_write(const char *path, const buffer_mesh *mesh, int has_z, const char *crs,
                             const file_fields *fields, const char *format,
                             const mw_progress *progress, mw_error *error)
 {
@@ -177,15 +187,16 @@ static mw_status file_write(const char *path, const buffer_mesh *mesh, int has_z
         .field_names = fields->names,
         .fields = fields->values,
         .field_count = fields->count,
+        .crs = (char *)(uintptr_t)crs,
     };
     return mw_write_mesh(path, &file, format, &options, error);
 }
 
-/* write_mesh(path, format or None, points, has_z, triangles, [(name, values)], progress): three
- * doubles a vertex, without gaps */
+/* write_mesh(path, format or None, points, has_z, triangles, [(name, values)], crs or None,
+ * progress): three doubles a vertex, without gaps */
 static PyObject *file_write_mesh(PyObject *module, PyObject *args)
 {
-    const char *path, *format;
+    const char *path, *format, *crs;
     int has_z;
     PyObject *points, *triangles, *list, *function;
     mw_progress progress;
@@ -194,8 +205,8 @@ static PyObject *file_write_mesh(PyObject *module, PyObject *args)
     mw_error error;
     mw_status status = MW_OK;
     int failed;
-    if (!PyArg_ParseTuple(args, "yzOpOO!O", &path, &format, &points, &has_z, &triangles,
-                          &PyList_Type, &list, &function) ||
+    if (!PyArg_ParseTuple(args, "yzOpOO!zO", &path, &format, &points, &has_z, &triangles,
+                          &PyList_Type, &list, &crs, &function) ||
         buffer_get_mesh(points, triangles, 3, &mesh))
         return NULL;
     failed = file_get_fields(list, mesh.points.count, &fields);
@@ -207,7 +218,7 @@ static PyObject *file_write_mesh(PyObject *module, PyObject *args)
         const mw_progress *watching =
             progress_begin(PyModule_GetState(module), function, &progress);
         Py_BEGIN_ALLOW_THREADS
-        status = file_write(path, &mesh, has_z, &fields, format, watching, &error);
+        status = file_write(path, &mesh, has_z, crs, &fields, format, watching, &error);
         Py_END_ALLOW_THREADS
     }
     file_release_fields(&fields);

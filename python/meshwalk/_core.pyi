@@ -306,7 +306,7 @@ def constrained_delaunay(
 ) -> tuple[_Mesh, int, memoryview, memoryview]: ...
 def read_mesh(
     path: bytes, progress: Progress | None, /
-) -> tuple[memoryview, memoryview, int, dict[str, memoryview], int]: ...
+) -> tuple[memoryview, memoryview, int, dict[str, memoryview], int, str | None]: ...
 def read_constraints(
     path: bytes, progress: Progress | None, /
 ) -> tuple[
@@ -330,6 +330,7 @@ def write_mesh(
     has_z: bool,
     triangles: Buffer,
     fields: list[tuple[bytes, Buffer]],
+    crs: str | None,
     progress: Progress | None,
     /,
 ) -> None: ...

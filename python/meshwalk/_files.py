@@ -37,7 +37,8 @@ def read(path: str | os.PathLike[str], *, progress: Progress | None = None) -> M
     -------
     Mesh
         With the file's numbering. z, and further values at the vertices, are its fields. Faces of
-        more than three corners are cut into triangles.
+        more than three corners are cut into triangles. `Mesh.crs` is the coordinate system that
+        the file tells, or a ``.prj`` file beside it.
 
     Raises
     ------
@@ -58,17 +59,26 @@ def read(path: str | os.PathLike[str], *, progress: Progress | None = None) -> M
     >>> meshwalk.read(name).fields["z"]
     array([7., 8., 9.])
     """
-    xyz, triangles, has_z, fields = read_arrays(path, progress)
-    return Mesh(xyz if has_z else xyz[:, :2], triangles, fields)
+    xyz, triangles, has_z, fields, crs = _read_all(path, progress)
+    return Mesh(xyz if has_z else xyz[:, :2], triangles, fields, crs=crs)
 
 
 def read_arrays(
     path: str | os.PathLike[str], progress: Progress | None = None
 ) -> tuple[NDArray[np.float64], NDArray[np.uint32], bool, dict[str, NDArray[np.float64]]]:
     """x, y, z; triangles; whether the file has z; further values at the vertices by name."""
+    return _read_all(path, progress)[:4]
+
+
+def _read_all(
+    path: str | os.PathLike[str], progress: Progress | None
+) -> tuple[
+    NDArray[np.float64], NDArray[np.uint32], bool, dict[str, NDArray[np.float64]], str | None
+]:
+    """As `read_arrays`, and the coordinate system."""
     name = _arrays.path(path)
     try:
-        points, triangles, has_z, fields, _ = _core.read_mesh(name, progress)
+        points, triangles, has_z, fields, _, crs = _core.read_mesh(name, progress)
     except OSError as error:
         raise _found(error, name) from None
     return (
@@ -76,6 +86,7 @@ def read_arrays(
         np.frombuffer(triangles, np.uint32).reshape(-1, 3),
         bool(has_z),
         _columns(fields),
+        crs,
     )
 
 
@@ -283,7 +294,8 @@ def write(
         The file.
     mesh : Mesh
         The mesh; its field ``"z"`` is the third coordinate, others are written where the format has
-        values at the vertices (PLY, ``.node``, VTK, CSV).
+        values at the vertices (PLY, ``.node``, VTK, CSV). PLY keeps its coordinate system; beside
+        files of other formats it goes to a ``.prj`` file.
     format : str, optional
         One of `mesh_formats`; by default the ending of the path says it.
     progress : callable, optional
@@ -292,9 +304,15 @@ def write(
     Raises
     ------
     OSError
-        The file cannot be written.
+        The file cannot be written; ``FileExistsError`` where a ``.prj`` file of another file stands
+        beside it, with another coordinate system.
     ValueError
         The format is not known.
+
+    Warns
+    -----
+    UserWarning
+        A ``.prj`` file stands beside it, and the mesh's coordinate system is not known.
 
     See Also
     --------
@@ -315,4 +333,59 @@ def write(
     named = [(_arrays.field_name(name), values) for name, values in fields.items()]
     triangles = mesh.triangles.astype(np.uint32, copy=False)
     name, has_z = _arrays.path(path), heights is not None
-    _core.write_mesh(name, format, points, has_z, triangles, named, progress)
+    crs = None if mesh.crs is None else mesh.crs.encode()
+    prj = None if _keeps_crs(name, format) else _prj_to_write(name, crs)
+    _core.write_mesh(name, format, points, has_z, triangles, named, mesh.crs, progress)
+    if prj is not None and crs is not None:
+        _write_prj(prj, crs)
+
+
+def _keeps_crs(name: bytes, format: str | None) -> bool:
+    return format in ("ply", "ply-ascii") if format else name.lower().endswith(b".ply")
+
+
+def _prj_to_write(name: bytes, crs: bytes | None) -> bytes | None:
+    """The .prj file that is to be written beside a file; None: it is right as it is."""
+    import os
+
+    prj = os.path.splitext(name)[0] + b".prj"
+    try:
+        with open(prj, "rb") as file:
+            there = b" ".join(file.read().split())
+    except FileNotFoundError:
+        return prj
+    shown, said = os.fsdecode(prj), there[:60].decode("utf-8", "replace")
+    if crs is None:
+        warnings.warn(
+            f"{shown} says {said}, and the mesh's own coordinate system is not known", stacklevel=3
+        )
+        return None
+    if there == b" ".join(crs.split()):
+        return None
+    if not os.path.exists(name):
+        raise FileExistsError(f"{shown}, which is there already, says {said}: choose another path")
+    return prj
+
+
+def _write_prj(prj: bytes, crs: bytes) -> None:
+    import os
+    import tempfile
+
+    folder = os.path.dirname(prj) or b"."
+    handle, temporary = tempfile.mkstemp(prefix=b".meshwalk-", dir=folder)
+    try:
+        with open(handle, "wb") as file:
+            file.write(crs + b"\n")
+        os.chmod(temporary, 0o666 & ~_mask())
+        os.replace(temporary, prj)
+    except BaseException:
+        os.unlink(temporary)
+        raise
+
+
+def _mask() -> int:
+    import os
+
+    mask = os.umask(0o022)
+    os.umask(mask)
+    return mask

@@ -84,6 +84,8 @@ class Mesh(_core.Mesh):
         triangles. The triangles concerned are kept, but own no point.
     layout : {"auto", "hilbert", "as-given"}, optional
         How the mesh lies in memory. No number shows it.
+    crs : str, optional
+        The coordinate system of the points: WKT, or a code such as ``"EPSG:2056"``.
     threads : int, optional
         How many threads build it; 0 lets the library choose.
     progress : callable, optional
@@ -123,8 +125,9 @@ class Mesh(_core.Mesh):
            [0, 2, 3]], dtype=int32)
     """
 
-    __slots__ = ("__weakref__", "_constraints", "_fields", "_options")
+    __slots__ = ("__weakref__", "_constraints", "_crs", "_fields", "_options")
     _constraints: tuple[NDArray[np.uint32], NDArray[np.uint32]]
+    _crs: str | None
     _fields: dict[str, NDArray[np.float64]]
     _options: tuple[bool, Literal["auto", "hilbert", "as-given"]]
 
@@ -136,6 +139,7 @@ class Mesh(_core.Mesh):
         *,
         tolerant: bool = False,
         layout: Literal["auto", "hilbert", "as-given"] = "auto",
+        crs: str | None = None,
         threads: int = 0,
         progress: Progress | None = None,
     ) -> Self:
@@ -152,12 +156,14 @@ class Mesh(_core.Mesh):
             raise
         mesh._set_fields(rows[:, 2] if width == 3 else None, fields)
         mesh._options = (tolerant, layout)
+        mesh.crs = crs
         return mesh
 
     def _set_fields(
         self, heights: NDArray[np.float64] | None, fields: Mapping[str, ArrayLike] | None
     ) -> None:
         self._options = (False, "auto")
+        self._crs = None
         self._constraints = (np.empty((0, 2), np.uint32), np.empty(0, np.uint32))
         given = dict(fields or {})
         if heights is not None:
@@ -200,6 +206,22 @@ class Mesh(_core.Mesh):
     def fields(self) -> Mapping[str, NDArray[np.float64]]:
         """Values at the vertices by name, which cannot be written."""
         return MappingProxyType(self._fields)
+
+    @property
+    def crs(self) -> str | None:
+        """The coordinate system of the points, as WKT or a code; None: not known.
+
+        It may be set. It changes no number: nothing is transformed. `write` keeps it.
+        """
+        return self._crs
+
+    @crs.setter
+    def crs(self, crs: str | None) -> None:
+        if crs is not None and not isinstance(crs, str):
+            raise TypeError(f"crs must be str or None, not {type(crs).__name__}")
+        if crs is not None and ("\0" in crs or not crs.strip()):
+            raise ValueError("crs must be WKT or a code such as EPSG:2056")
+        self._crs = crs
 
     @property
     def constrained_edges(self) -> NDArray[np.int32] | NDArray[np.int64]:
@@ -266,7 +288,7 @@ class Mesh(_core.Mesh):
 
     def __reduce__(self) -> tuple[Any, ...]:
         arrays = (self.points, self.triangles, self._fields, *self._constraints)
-        return _restore, (type(self), *arrays, *self._options)
+        return _restore, (type(self), *arrays, *self._options, self._crs)
 
 
 def _restore(
@@ -278,7 +300,8 @@ def _restore(
     edge_segments: NDArray[np.uint32],
     tolerant: bool,
     layout: Literal["auto", "hilbert", "as-given"],
+    crs: str | None = None,
 ) -> Mesh:
-    mesh = cls(points, triangles, fields, tolerant=tolerant, layout=layout)
+    mesh = cls(points, triangles, fields, tolerant=tolerant, layout=layout, crs=crs)
     mesh._set_constraints(edges, edge_segments)
     return mesh

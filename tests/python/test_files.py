@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gzip
+import pickle
 import sys
 from pathlib import Path
 
@@ -41,6 +42,43 @@ def test_without_heights_and_gzipped(tmp_path: Path) -> None:
     meshwalk.Mesh(*ring_arrays()).write(path)
     (tmp_path / "mesh.off.gz").write_bytes(gzip.compress(path.read_bytes()))
     assert len(meshwalk.read(tmp_path / "mesh.off.gz")) == 8
+
+
+@pytest.mark.parametrize("ending", ["ply", "off", "node", "vtk"])
+def test_coordinate_systems(tmp_path: Path, ending: str) -> None:
+    mesh = meshwalk.Mesh(*ring_arrays(), crs="EPSG:2056")
+    path = tmp_path / f"mesh.{ending}"
+    mesh.write(path)
+    assert (tmp_path / "mesh.prj").exists() == (ending != "ply")
+    assert sorted(p.suffix for p in tmp_path.iterdir() if p.name.startswith(".")) == []
+    again = meshwalk.read(path) if ending != "vtk" else mesh
+    assert again.crs == "EPSG:2056"
+    again.crs = 'GEOGCS["a",  \n DATUM["b"]]'
+    again.write(path)
+    if ending != "vtk":
+        assert meshwalk.read(path).crs == 'GEOGCS["a", DATUM["b"]]'
+    assert pickle.loads(pickle.dumps(again)).crs == again.crs
+
+
+def test_coordinate_systems_that_clash(tmp_path: Path) -> None:
+    mesh = meshwalk.Mesh(*ring_arrays())
+    assert mesh.crs is None
+    (tmp_path / "mesh.prj").write_text("EPSG:21781\n")
+    with pytest.warns(UserWarning, match=r"mesh\.prj says EPSG:21781, and the mesh's own"):
+        mesh.write(tmp_path / "mesh.off")
+    (tmp_path / "mesh.off").unlink()
+    mesh.crs = "EPSG:2056"
+    with pytest.raises(FileExistsError, match=r"mesh\.prj, which is there already, says EPSG:217"):
+        mesh.write(tmp_path / "mesh.off")
+    assert not (tmp_path / "mesh.off").exists()
+    mesh.crs = "EPSG:21781"
+    mesh.write(tmp_path / "mesh.off")
+    assert meshwalk.read(tmp_path / "mesh.off").crs == "EPSG:21781"
+    for crs in ("", " ", "a\0b"):
+        with pytest.raises(ValueError, match="WKT or a code"):
+            mesh.crs = crs
+    with pytest.raises(TypeError, match="not int"):
+        meshwalk.Mesh(*ring_arrays(), crs=2056)  # type: ignore[arg-type]
 
 
 def test_faulty_files(tmp_path: Path) -> None:

@@ -1,6 +1,6 @@
 /* Writing MSH of Gmsh, version 2.2 as text: marked edges are lines in physical groups with the
- * names of the marks, faces are triangles and quadrilaterals in the physical group that the triangle
- * field "physical" (or "material") tells. */
+ * names of the marks, faces are triangles and quadrilaterals in the physical group that the
+ * triangle field "physical" (or "material") tells. */
 #include "io/grid/grid_writers.h"
 
 #include <math.h>

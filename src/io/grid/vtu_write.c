@@ -54,9 +54,9 @@ static void vtu_write_points(mw_output *output, const mw_mesh_file *file)
 }
 
 /* All corners, or the end of each face, or its type. */
-typedef enum vtu_part { VTU_CORNERS, VTU_ENDS, VTU_TYPES } vtu_part;
+typedef enum vtu_face_part { VTU_CORNERS, VTU_ENDS, VTU_TYPES } vtu_face_part;
 
-static void vtu_write_faces(mw_output *output, const mw_mesh_file *file, vtu_part part,
+static void vtu_write_faces(mw_output *output, const mw_mesh_file *file, vtu_face_part part,
                             uint64_t size)
 {
     uint64_t end = 0;
