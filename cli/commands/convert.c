@@ -51,9 +51,9 @@ static int convert_file(const convert_settings *s, const char *path, const char 
 static int convert_run(const void *settings, const char *const *operands)
 {
     const convert_settings *s = settings;
-    const char *output = operands[1];
-    if (s->common.output) {
-        complain("convert: the output is OUT, the second file; -o is not needed");
+    const char *output = operands[1] ? operands[1] : s->common.output;
+    if (operands[1] && s->common.output) {
+        complain("convert: two outputs, '%s' and -o %s", operands[1], s->common.output);
         return END_USAGE;
     }
     mw_mesh_file file;
@@ -72,6 +72,7 @@ const command convert_command = {
     .name = "convert",
     .operands = "MESH OUT",
     .operand_count = 2,
+    .optional_operands = 1, /* with -o OUT */
     .summary = "write a mesh in another format",
     .description =
         "Reads MESH and writes it as OUT, in the format of its ending or of --format: with its "
@@ -79,7 +80,7 @@ const command convert_command = {
         "as that format has a place for them; a warning names what has none. '-' is standard "
         "input or output.",
     .options = tables,
-    .essential = "format crs",
+    .essential = "format crs layout output quiet",
     .settings_size = sizeof(convert_settings),
     .run = convert_run,
 };

@@ -37,7 +37,7 @@ says 'has no place for marked edges: open 1, land 1 type 24 are not written; for
 run convert a.gr3 b.14; exits 0
 says "barriers are not written, as their heights are not known: 'land 1 type 24'"
 holds "ADCIRC has triangles only" test "$(sed -n 2p b.14)" = '3 5'
-run convert -q a.gr3 b.off; exits 0; says_nothing
+run convert -q a.gr3 -o b.off; exits 0; says_nothing
 run convert a.gr3 b.off; exits 0
 says 'the format off has no place for fields: depth is not written; ply, node and vtu have one'
 run convert a.gr3 b.2dm; exits 0
@@ -61,7 +61,7 @@ run convert a.gr3; exits 2
 run convert a.gr3 x.nothing; exits 2; says 'no mesh format has this ending'
 run convert a.gr3 -; exits 2; says 'wants --format'
 run convert a.gr3 a.gr3; exits 2; says 'is input and output'
-run convert -o x.off a.gr3 y.off; exits 2; says 'the output is OUT'
+run convert -o x.off a.gr3 y.off; exits 2; says "two outputs, 'y.off' and -o x.off"
 run convert none.gr3 x.off; exits 3; says 'none.gr3'
 printf 'bad\n1 3\n' >bad.gr3
 run convert bad.gr3 x.off; exits 3; says 'bad.gr3:2: the file ends after 0 of 3 vertices'
