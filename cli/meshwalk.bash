@@ -13,6 +13,8 @@ _meshwalk_options() {
         triangulate) echo "--constraints --boundary --keep --split --strict --max-edge --kind --weight --hidden --limit --format --columns --class --layer --where --crs --points-crs --constraints-crs --json $common" ;;
         locate) echo "--details --base --polygons --attribute --polygon-layer $query $stream $common" ;;
         sample) echo "--field --outside --missing --nodata --status $query $stream $common" ;;
+        weights) echo "$query --strict --stats --json --layer --where $common" ;;
+        apply) echo "--field --missing --strict --stats --json $common" ;;
         profile) echo "--field --nodata --attribute --layer --columns --crs --lines-crs --strict $common" ;;
         raster)
             echo "--resolution --like --extent --field --derive --nodata --outside --max-edge --vertex-nodata --type"
@@ -81,7 +83,9 @@ _meshwalk_names() {
         --outside) [[ $1 == raster ]] && echo 'empty nearest' || echo 'empty nearest linear' ;;
         --type) echo 'auto float32 float64' ;;
         --derive) echo 'slope aspect hillshade triangle' ;;
-        --missing) echo 'empty nearest' ;;
+        --missing)
+            if [[ $1 == apply ]]; then echo 'empty leave-out'; else echo 'empty nearest'; fi
+            ;;
         --nodata) echo none ;;
         --points-crs) echo same ;;
         --kind) echo 'delaunay greedy min-weight min-max-angle regular' ;;
@@ -134,7 +138,7 @@ _meshwalk() {
         before=${COMP_WORDS[COMP_CWORD - 2]}
     fi
     if ((COMP_CWORD == 1)); then
-        names='info check triangulate locate sample profile raster edit star probe walk convert bench --help --version'
+        names='info check triangulate locate sample weights apply profile raster edit star probe walk convert bench --help --version'
         mapfile -t COMPREPLY < <(compgen -W "$names" -- "$word")
         return
     fi

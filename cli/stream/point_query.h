@@ -88,6 +88,11 @@ int point_query_begin(point_query *q, const point_query_settings *settings,
                       const char *const *inputs, int count);
 int point_query_prepare(point_query *q, const mw_mesh *mesh, const char *path, const char *crs);
 
+/* Locate a block of points. `counters` may be NULL. Returns 0, or an exit code after a
+ * complaint. */
+int point_query_locate(const point_query *q, const query_block *block, mw_location *answers,
+                       mw_counters *counters);
+
 /* Write the header, then the row of every point with its answer, in order. `answers` are the names
  * of the answer's cells; NULL ends them; `kinds` tell what they hold, as in query_stream.h.
  * Returns the exit code. */

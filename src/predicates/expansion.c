@@ -35,6 +35,34 @@ static MW_INLINE double expansion_two_product(double a, double b, double *tail)
     return product;
 }
 
+/* Is the product of a and b 0 because a or b is, or far from where its tail would be lost? */
+static MW_INLINE bool product_is_safe(double a, double b, double product)
+{
+    double magnitude = fabs(product);
+    return (magnitude > 0x1p-900 && magnitude < 0x1p900) || a == 0 || b == 0;
+}
+
+bool mw__double_cross(const double d[4], double *det)
+{
+    double left_tail, right_tail, high_tail, low_tail, sum_tail;
+    if (fabs(d[0]) + fabs(d[1]) + fabs(d[2]) + fabs(d[3]) > 0x1p900) return false;
+    double left = expansion_two_product(d[0], d[1], &left_tail),
+           right = expansion_two_product(d[2], d[3], &right_tail);
+    if (!product_is_safe(d[0], d[1], left) || !product_is_safe(d[2], d[3], right)) return false;
+    double high = expansion_two_sum(left, -right, &high_tail),
+           low = expansion_two_sum(left_tail, -right_tail, &low_tail);
+    double sum = expansion_two_sum(high, low, &sum_tail);
+    *det = sum + 0.0; /* no -0 */
+    return fabs(high_tail) + fabs(low_tail) <= 0x1p-52 * fabs(sum);
+}
+
+bool mw__difference_is_exact(double a, double b, double *difference)
+{
+    double tail;
+    *difference = expansion_two_sum(a, -b, &tail);
+    return tail == 0;
+}
+
 mw_expansion mw__expansion_difference(mw_arena *arena, double a, double b)
 {
     double *h = arena->next, tail, sum = expansion_two_sum(a, -b, &tail);
@@ -129,6 +157,21 @@ mw_expansion mw__expansion_cross(mw_arena *arena, mw_expansion a, mw_expansion b
     mw_expansion left = mw__expansion_multiply(arena, a, d);
     mw_expansion right = mw__expansion_multiply(arena, b, c);
     return mw__expansion_subtract(arena, left, right);
+}
+
+bool mw__scale_within(const double *v, int n, double low, double *scaled, int *shift)
+{
+    double most = 0;
+    for (int i = 0; i < n; i++) most = fabs(v[i]) > most ? fabs(v[i]) : most;
+    if (!(most > 0 && most <= DBL_MAX) || !mw__all_finite(v, n)) return false;
+    *shift = 200 - ilogb(most);
+    /* in two steps, since 2^shift may be no double */
+    double half = ldexp(1, *shift / 2), rest = ldexp(1, *shift - *shift / 2);
+    for (int i = 0; i < n; i++) {
+        scaled[i] = v[i] * half * rest;
+        if (v[i] != 0 && !(fabs(scaled[i]) >= low)) return false;
+    }
+    return true;
 }
 
 bool mw__within(const double *v, int n, double low, double high)

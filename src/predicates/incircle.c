@@ -108,10 +108,22 @@ static double incircle_with_integers(const double v[8])
     return mw__big_double(&sum, 4 * base);
 }
 
+/* det 2^-exponent; where that is not 0 and no normal double, +-DBL_MAX or +-DBL_MIN. */
+static double incircle_scaled_back(double det, int exponent)
+{
+    double value = ldexp(det, -exponent), magnitude = fabs(value);
+    if (det == 0 || (magnitude >= DBL_MIN && magnitude <= DBL_MAX)) return value;
+    return copysign(magnitude > DBL_MAX ? DBL_MAX : DBL_MIN, det);
+}
+
 double mw__incircle_exact(mw_point a, mw_point b, mw_point c, mw_point d)
 {
     const double v[8] = {a.x, a.y, b.x, b.y, c.x, c.y, d.x, d.y};
+    double scaled[8];
+    int shift;
     if (MW_LIKELY(mw__within(v, 8, LOW, HIGH))) return incircle_with_expansions(v);
+    if (mw__scale_within(v, 8, LOW, scaled, &shift))
+        return incircle_scaled_back(incircle_with_expansions(scaled), 4 * shift);
     return mw__all_finite(v, 8) ? incircle_with_integers(v) : 0;
 }
 
