@@ -41,7 +41,7 @@ _meshwalk_names() {
             if [[ $1 == bench ]]; then
                 echo 'table tsv json'
             else
-                echo 'auto off ply ply-ascii node obj stl csv vtk vtu fort.14 gr3 2dm msh'
+                echo 'auto off ply ply-ascii node obj stl netcdf csv vtk vtu fort.14 gr3 2dm msh'
             fi
             ;;
         --layout) echo 'ugrid schism fvcom adcirc anuga fesom icon mpas tuflowfv' ;;

@@ -39,12 +39,17 @@ bool mesh_output_is_node(const char *output, int format)
     return ending && (strcasecmp(ending, ".node") == 0 || strcasecmp(ending, ".ele") == 0);
 }
 
-/* PLY holds the coordinate system itself. */
-static bool mesh_output_is_ply(const char *output, int format)
+/* PLY and netCDF hold the coordinate system themselves. */
+static bool mesh_output_holds_crs(const char *output, int format)
 {
-    if (format != FORMAT_BY_ENDING) return strncmp(mesh_format_name(format), "ply", 3) == 0;
+    static const char *const endings[] = {".ply", ".nc", ".nc4"};
+    if (format != FORMAT_BY_ENDING)
+        return strncmp(mesh_format_name(format), "ply", 3) == 0 ||
+               strcmp(mesh_format_name(format), "netcdf") == 0;
     const char *ending = strrchr(output, '.');
-    return ending && strcasecmp(ending, ".ply") == 0;
+    for (size_t i = 0; ending && i < sizeof endings / sizeof *endings; i++)
+        if (strcasecmp(ending, endings[i]) == 0) return true;
+    return false;
 }
 
 /* What a format has a place for. `field` and `triangle_field` are the only ones that it keeps;
@@ -60,6 +65,7 @@ static const format_places *format_find_places(const char *format)
         {.format = "ply", .fields = true},
         {.format = "ply-ascii", .fields = true},
         {.format = "node", .fields = true},
+        {.format = "netcdf", .fields = true, .triangle_fields = true},
         {.format = "csv", .fields = true},
         {.format = "vtk", .fields = true},
         {.format = "vtu", .fields = true, .triangle_fields = true},
@@ -167,8 +173,8 @@ int mesh_output_write(const char *output, int format, const mw_mesh_file *file, 
                       bool quiet)
 {
     mw_error error;
-    bool ply = mesh_output_is_ply(output, format);
-    int end = ply ? 0 : prj_output_check(output, file->crs, quiet);
+    bool inside = mesh_output_holds_crs(output, format);
+    int end = inside ? 0 : prj_output_check(output, file->crs, quiet);
     if (end) return end;
     progress_phase("writing", NULL);
     if (temporary) signals_hold(true);
@@ -178,5 +184,5 @@ int mesh_output_write(const char *output, int format, const mw_mesh_file *file, 
                       &watched, &error);
     if (temporary) signals_hold(false);
     if (status != MW_OK) return fail_writing(&error);
-    return ply ? 0 : prj_output_write(output, file->crs, quiet);
+    return inside ? 0 : prj_output_write(output, file->crs, quiet);
 }
