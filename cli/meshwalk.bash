@@ -40,7 +40,7 @@ _meshwalk_names() {
             if [[ $1 == bench ]]; then
                 echo 'table tsv json'
             else
-                echo 'auto off ply ply-ascii node obj stl csv vtk'
+                echo 'auto off ply ply-ascii node obj stl netcdf csv vtk'
             fi
             ;;
         --layout) echo 'ugrid schism fvcom adcirc anuga fesom icon mpas tuflowfv' ;;

@@ -61,7 +61,7 @@ typedef struct mw_mesh_file {
     size_t field_count;
     size_t welded; /**< STL: vertices merged because their coordinates are equal */
     /** The coordinate system of x and y, as WKT or "EPSG:n"; NULL: unknown. PLY has it in a line
-     * "comment crs ...", other files in a .prj file beside them. */
+     * "comment crs ...", netCDF in a grid mapping, other files in a .prj file beside them. */
     char *crs;
     /** Per triangle the face of the file that it is a part of, from 0 in the order of the file;
      * NULL: each face is a triangle, and triangle i is face i. Ignored by mw_write_mesh(). */
@@ -213,11 +213,14 @@ MW_API int mw_constraints_known(const char *path);
  * - "ply": binary, little-endian; "ply-ascii": the same as text (.ply means "ply")
  * - "node": Triangle, two files .node and .ele, whichever is named; z becomes the first attribute
  * - "obj", "stl": STL as text with all digits; without fields
+ * - "netcdf": UGRID 1.0 in netCDF-4, with fields, heights and the coordinate system; only into a
+ *   file
  * - "vtk": legacy VTK as text, an unstructured grid with the fields as point data, for ParaView;
  * not read - "csv": a table for other programs, one row per corner of a triangle, with the columns
  *   triangle,corner,vertex,x,y,z and the fields; not read as a mesh
  *
- * PLY keeps the coordinate system, in a line "comment crs ..."; other formats ignore it. Vertices,
+ * PLY and netCDF keep the coordinate system, others ignore it. Values per triangle go into netCDF
+ * only, edges and their marks into none. Vertices,
  * triangles, z and fields keep their order and every bit, except the sign of a NaN and the
  * vertices of STL and csv, which have corners only. Names of fields become single words.
  *

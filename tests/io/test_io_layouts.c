@@ -389,6 +389,46 @@ static void test_wrong(void **state)
     files_clear();
 }
 
+/* What is written is UGRID: values per triangle and the coordinate system come back, too. */
+static void test_writer(void **state)
+{
+    (void)state;
+    need_libnetcdf();
+    write_ugrid("a.nc", (ugrid_form){1, 1, false, MW_NETCDF_INT}, "m");
+    mw_mesh_file file = read_layout("a.nc", NULL), back;
+    char crs[] = "EPSG:25832", name[] = "cr/s", *names[] = {name};
+    double values[4] = {0.5, NAN, -3, 1e300}, *columns[] = {values};
+    file.crs = crs;
+    file.triangle_field_names = names;
+    file.triangle_fields = columns;
+    file.triangle_field_count = 1;
+    mw_error error;
+    if (mw_write_mesh("b.nc", &file, NULL, NULL, &error)) fail_msg("%s", error.message);
+    back = read_layout("b.nc", "ugrid");
+    assert_memory_equal(back.triangles, file.triangles, 12 * sizeof *file.triangles);
+    assert_memory_equal(back.points, file.points, 18 * sizeof *file.points);
+    assert_string_equal(back.crs, crs);
+    assert_true(isnan(back.fields[0][3]) && back.fields[0][1] == -9.5);
+    assert_int_equal(back.triangle_field_count, 1);
+    assert_string_equal(back.triangle_field_names[0], "cr_s");
+    assert_true(isnan(back.triangle_fields[0][1]) && back.triangle_fields[0][3] == 1e300);
+    mw_mesh_file_release(&back);
+    char wkt[] = "GEOGCS[\"WGS 84\"]";
+    file.crs = wkt;
+    assert_int_equal(mw_write_mesh("b.nc", &file, NULL, NULL, &error), MW_OK);
+    back = read_layout("b.nc", NULL);
+    assert_string_equal(back.crs, wkt);
+    mw_mesh_file_release(&back);
+    assert_int_equal(mw_write_mesh("-", &file, "netcdf", NULL, &error), MW_ERROR_ARGUMENT);
+    files_expect_error(&error, MW_ERROR_ARGUMENT, -1, "a file only");
+    file.crs = NULL;
+    file.triangle_field_names = NULL;
+    file.triangle_fields = NULL;
+    file.triangle_field_count = 0;
+    mw_mesh_file_release(&file);
+    files_clear();
+}
+
 /* Counts as other programs found them; shared/data/README.md. */
 static void test_models(void **state)
 {
@@ -430,7 +470,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_ugrid), cmocka_unit_test(test_packed),  cmocka_unit_test(test_named),
         cmocka_unit_test(test_dual),  cmocka_unit_test(test_numbers), cmocka_unit_test(test_crs),
-        cmocka_unit_test(test_wrong), cmocka_unit_test(test_models),
+        cmocka_unit_test(test_wrong), cmocka_unit_test(test_models),  cmocka_unit_test(test_writer),
     };
     return cmocka_run_group_tests(tests, files_enter, files_leave);
 }

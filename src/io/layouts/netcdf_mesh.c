@@ -46,7 +46,7 @@ static mw_status netcdf_mesh_points(const mw_netcdf *file, const mw_layout *layo
         if (!axes[k]) continue;
         status = netcdf_mesh_column(file, axes[k], &values, error);
         for (size_t v = 0; v < count && !status; v++)
-            points[3 * v + k] = values[v] * scale + offset;
+            points[3 * v + k] = offset == 0 ? values[v] * scale : values[v] * scale + offset;
         free(values);
     }
     builder->file->point_count = builder->point_room = count;
@@ -113,6 +113,25 @@ static mw_status netcdf_mesh_faces(const mw_netcdf *file, const mw_layout *layou
     return status;
 }
 
+/* Variables of real numbers over the faces alone become fields of their triangles; integers are
+ * the model's bookkeeping as a rule. */
+static mw_status netcdf_mesh_face_fields(const mw_netcdf *file, const mw_layout *layout,
+                                         mw_mesh_builder *builder, mw_error *error)
+{
+    mw_status status = MW_OK;
+    for (size_t i = 0; i < mw__netcdf_variable_count(file) && !status; i++) {
+        const mw_netcdf_variable *variable = mw__netcdf_variable_at(file, i);
+        double *values;
+        bool real = variable->type == MW_NETCDF_FLOAT || variable->type == MW_NETCDF_DOUBLE;
+        if (variable->rank != 1 || variable->dimensions[0] != layout->face_dimension || !real)
+            continue;
+        status = netcdf_mesh_column(file, variable, &values, error);
+        if (!status) status = mw__build_face_field(builder, variable->name, values, error);
+        free(values);
+    }
+    return status;
+}
+
 /* Faces whose corners come as coordinates: equal ones are one vertex. */
 static mw_status netcdf_mesh_weld(const mw_netcdf *file, const mw_layout *layout,
                                   mw_mesh_builder *builder, mw_weld *weld, mw_error *error)
@@ -159,7 +178,10 @@ static mw_status netcdf_mesh_read(const mw_netcdf *file, const mw_layout *layout
     mw_job *job = builder->job;
     mw_status status = mw__layout_crs(file, layout, &builder->file->crs, error);
     if (status) return status;
-    if (!layout->corners) return netcdf_mesh_bounds(file, layout, builder, error);
+    if (!layout->corners) {
+        status = netcdf_mesh_bounds(file, layout, builder, error);
+        return status ? status : netcdf_mesh_face_fields(file, layout, builder, error);
+    }
     status = netcdf_mesh_points(file, layout, builder, error);
     if (!status) status = netcdf_mesh_fields(file, layout, builder, error);
     if (status) return status;
@@ -171,7 +193,7 @@ static mw_status netcdf_mesh_read(const mw_netcdf *file, const mw_layout *layout
     status = netcdf_mesh_faces(file, layout, &table, builder, error);
     mw__job_steps_end(job, outer);
     mw__corner_table_release(&table);
-    return status;
+    return status ? status : netcdf_mesh_face_fields(file, layout, builder, error);
 }
 
 mw_status mw__read_netcdf(mw_source *source, mw_mesh_builder *builder, mw_error *error)

@@ -3,6 +3,7 @@
 
 #include "io/layouts/layout_axis.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -37,6 +38,16 @@ static mw_status ugrid_variable(const mw_netcdf *file, const mw_netcdf_variable 
     return status;
 }
 
+/* UGRID has no name for heights; D-Flow calls them so. NULL: there are none. */
+static const mw_netcdf_variable *ugrid_heights(const mw_netcdf *file, const mw_layout *layout)
+{
+    char name[MW_NETCDF_NAME + 8];
+    snprintf(name, sizeof name, "%s_node_z", layout->topology->name);
+    const mw_netcdf_variable *z = mw__netcdf_find(file, name);
+    bool fits = z && z->rank == 1 && z->dimensions[0] == layout->x->dimensions[0];
+    return fits ? z : NULL;
+}
+
 /* "x y", or "lat lon" where somebody wrote that. */
 static mw_status ugrid_coordinates(const mw_netcdf *file, mw_layout *layout, mw_error *error)
 {
@@ -54,7 +65,7 @@ static mw_status ugrid_coordinates(const mw_netcdf *file, mw_layout *layout, mw_
     bool swapped = kind == MW_AXIS_LATITUDE || kind == MW_AXIS_NORTHING;
     layout->x = axes[swapped];
     layout->y = axes[!swapped];
-    layout->z = axes[2];
+    layout->z = axes[2] ? axes[2] : ugrid_heights(file, layout);
     return status;
 }
 
