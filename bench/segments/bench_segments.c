@@ -20,8 +20,8 @@ enum { ONE_THREAD, ALL_THREADS, ALONE, WAYS };
 static const char *const ways[WAYS] = {"batch-1", "batch", "alone"};
 static const char *const lengths[] = {"short", "long"};
 
-/* A segment in a Delaunay triangulation of n uniform points of the unit square crosses about so many
- * edges for each unit of length, over the square root of n: as counted here. */
+/* A segment in a Delaunay triangulation of n uniform points of the unit square crosses about so
+ * many edges for each unit of length, over the square root of n: as counted here. */
 #define CROSSINGS_PER_LENGTH 2.16
 
 typedef struct segments_run {
