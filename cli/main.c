@@ -15,9 +15,9 @@
 #include <unistd.h>
 
 static const command *const commands[] = {
-    &info_command,   &check_command,  &triangulate_command, &locate_command,
-    &sample_command, &raster_command, &edit_command,        &star_command,
-    &probe_command,  &walk_command,   &bench_command,
+    &info_command,    &check_command, &triangulate_command, &locate_command, &sample_command,
+    &weights_command, &apply_command, &profile_command,     &raster_command, &edit_command,
+    &star_command,    &probe_command, &walk_command,        &bench_command,
 };
 #define COMMAND_COUNT (sizeof commands / sizeof *commands)
 
@@ -85,6 +85,7 @@ static int command_run(const command *c, int count, char **arguments)
     } else if (end == 0) {
         signals_begin();
         progress_begin(common->quiet);
+        files_use_layout(common->layout);
         end = c->run(settings, operands);
         progress_end();
     }

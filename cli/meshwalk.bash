@@ -6,13 +6,16 @@ _meshwalk_options() {
     query="$query --columns --crs --points-crs"
     query="$query --any"
     local stream='--strict --stats --json --layer --where --only-answers'
-    local common='-o --output --threads --seed -q --quiet -h --help'
+    local common='-o --output --threads --seed --layout -q --quiet -h --help'
     case $1 in
         info) echo "--layer --as --centre --lonlat --weld --json $common" ;;
         check) echo "--fix --tolerance --numbers --format --as --centre --lonlat --weld --json $common" ;;
         triangulate) echo "--constraints --boundary --keep --split --strict --max-edge --from --tolerance --band --kind --weight --hidden --limit --format --columns --class --layer --where --crs --points-crs --constraints-crs --json $common" ;;
         locate) echo "--details --base --polygons --attribute --polygon-layer $query $stream $common" ;;
-        sample) echo "--field --outside --missing --nodata --status $query $stream $common" ;;
+        sample) echo "--field --outside --missing --nodata --status --time --values --time-column --wide --recover $query $stream $common" ;;
+        weights) echo "$query --strict --stats --json --layer --where $common" ;;
+        apply) echo "--field --missing --strict --stats --json $common" ;;
+        profile) echo "--field --nodata --attribute --layer --columns --crs --lines-crs --strict $common" ;;
         raster)
             echo "--resolution --like --extent --field --derive --nodata --outside --max-edge --vertex-nodata --type"
             echo "--driver --creation --crs --json $common"
@@ -37,9 +40,10 @@ _meshwalk_names() {
             if [[ $1 == bench ]]; then
                 echo 'table tsv json'
             else
-                echo 'auto off ply ply-ascii node obj stl csv vtk'
+                echo 'auto off ply ply-ascii node obj stl netcdf csv vtk'
             fi
             ;;
+        --layout) echo 'ugrid schism fvcom adcirc anuga fesom icon mpas tuflowfv' ;;
         --enclose) echo 'auto yes no' ;;
         --tasks) echo 'random sorted coherent half-outside total dense delaunay connectivity' ;;
         --engines)
@@ -78,7 +82,9 @@ _meshwalk_names() {
         --outside) [[ $1 == raster ]] && echo 'empty nearest' || echo 'empty nearest linear' ;;
         --type) echo 'auto float32 float64' ;;
         --derive) echo 'slope aspect hillshade triangle' ;;
-        --missing) echo 'empty nearest' ;;
+        --missing)
+            if [[ $1 == apply ]]; then echo 'empty leave-out'; else echo 'empty nearest'; fi
+            ;;
         --nodata) echo none ;;
         --points-crs) echo same ;;
         --kind) echo 'delaunay greedy min-weight min-max-angle regular' ;;
@@ -131,7 +137,7 @@ _meshwalk() {
         before=${COMP_WORDS[COMP_CWORD - 2]}
     fi
     if ((COMP_CWORD == 1)); then
-        names='info check triangulate locate sample raster edit star probe walk bench --help --version'
+        names='info check triangulate locate sample weights apply profile raster edit star probe walk bench --help --version'
         mapfile -t COMPREPLY < <(compgen -W "$names" -- "$word")
         return
     fi
@@ -154,7 +160,7 @@ _meshwalk() {
         --threads | --seed | --steps | --sample | --cells | --layers | --levels | --tolerance | \
             --columns | --resolution | --extent | --nodata | --vertex-nodata | --driver | \
             --creation | \
-            --crs | --constraints-crs | --where) return ;;
+            --crs | --lines-crs | --constraints-crs | --where) return ;;
         --from | --to | --centre | --max-distance | --samples | --iterations | --race | \
             --max-edge | --queries | --sizes | --limit | --rounds | --seeds | --undo) return ;;
     esac

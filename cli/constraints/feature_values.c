@@ -48,6 +48,9 @@ static bool values_take(feature_values *v, size_t field, const char *name, char 
 int feature_values_choose(feature_values *v, const char *path, const char *const *names,
                           const char *kinds, size_t count)
 {
+    for (size_t i = 0; !v->list && i < count; i++)
+        if (!values_take(v, i, names[i], kinds[i])) return fail_memory();
+    if (!v->list) return 0;
     size_t whole = values_find(v->list, strlen(v->list), names, count);
     if (whole < count) return values_take(v, whole, names[whole], kinds[whole]) ? 0 : fail_memory();
     for (const char *name = v->list;; name++) {

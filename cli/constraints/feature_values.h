@@ -6,10 +6,11 @@
 
 /* All zero: no attributes. */
 typedef struct feature_values {
-    const char *list; /* their names, separated by commas; or one name, which may have commas */
-    char **names;     /* as the file has them                                                 */
-    char *kinds;      /* of each: 't' text, 'i' integer, 'r' real                             */
-    size_t *fields;   /* of each: its number among the attributes of the file                 */
+    /* their names, separated by commas; or one name, which may have commas; NULL: all */
+    const char *list;
+    char **names;   /* as the file has them                                                 */
+    char *kinds;    /* of each: 't' text, 'i' integer, 'r' real                             */
+    size_t *fields; /* of each: its number among the attributes of the file                 */
     size_t count;
     text cells;    /* each is ended by NUL; those of a feature follow each other */
     size_t *begin; /* of each cell                                               */

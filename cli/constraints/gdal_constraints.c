@@ -281,9 +281,16 @@ static bool layer_may_have_polygons(OGRLayerH layer)
     }
 }
 
+static bool layer_has_points(OGRLayerH layer)
+{
+    OGRwkbGeometryType type = gdal.OGR_GT_Flatten(gdal.OGR_L_GetGeomType(layer));
+    return type == wkbPoint || type == wkbMultiPoint || type == wkbNone;
+}
+
 static bool layer_is_wanted(const gdal_constraints_options *o, OGRLayerH layer)
 {
     if (o->layer) return strcmp(gdal.OGR_L_GetName(layer), o->layer) == 0;
+    if (o->lines) return !layer_has_points(layer);
     return !o->polygons || layer_may_have_polygons(layer);
 }
 
@@ -299,8 +306,9 @@ static int layers_fail(const gdal_constraints_options *o, GDALDatasetH set, cons
     else if (o->layer)
         complain("%s: has no layer '%s', but: %.*s", path, o->layer, size, names.bytes);
     else
-        complain("%s: which layer has the polygons? --polygon-layer may be one of: %.*s", path,
-                 size, names.bytes);
+        complain("%s: which layer has the %s? %s may be one of: %.*s", path,
+                 o->lines ? "lines" : "polygons", o->lines ? "--layer" : "--polygon-layer", size,
+                 names.bytes);
     text_release(&names);
     return o->layer ? END_INPUT : END_USAGE;
 }
@@ -308,7 +316,7 @@ static int layers_fail(const gdal_constraints_options *o, GDALDatasetH set, cons
 static int collector_read_layers(constraint_collector *c, GDALDatasetH set, const char *path)
 {
     int end = 0, wanted = 0, count = gdal.GDALDatasetGetLayerCount(set);
-    bool one = c->options->layer || c->options->polygons;
+    bool one = c->options->layer || c->options->polygons || c->options->lines;
     for (int i = 0; i < count; i++)
         wanted += layer_is_wanted(c->options, gdal.GDALDatasetGetLayer(set, i));
     if (one && (c->options->layer ? wanted == 0 : wanted > 1))
@@ -340,7 +348,9 @@ int gdal_constraints_read(const char *path, const gdal_constraints_options *opti
     gdal.GDALClose(set);
     if (end == 0 && file->point_count == 0) {
         complain("%s: GDAL finds no %spolygons in it", path,
-                 options->polygons ? "" : "points, lines or ");
+                 options->polygons ? ""
+                 : options->lines  ? "lines or "
+                                   : "points, lines or ");
         end = END_INPUT;
     }
     if (end) mw_constraint_file_release(file);

@@ -11,8 +11,8 @@
 typedef struct gdal_constraints_options {
     /* the only one that is read; NULL: see `polygons` */
     const char *layer;
-    /* without `layer`: the only layer that has polygons; several are an error */
-    bool polygons;
+    /* without `layer`: the only layer that has polygons, or lines; several are an error */
+    bool polygons, lines;
     /* NULL, or filled with the attributes that its list names */
     feature_values *values;
 } gdal_constraints_options;

@@ -148,12 +148,20 @@ static bool file_holds_points(const char *path)
     return points;
 }
 
+static const char *files_layout;
+
+void files_use_layout(const char *layout)
+{
+    files_layout = layout;
+}
+
 int files_read_mesh(const char *path, mw_mesh_file *file)
 {
     mw_error error;
     progress_phase("reading", path);
-    mw_status status =
-        mw_read_mesh(path, &(mw_file_options){.progress = progress_of_call()}, file, &error);
+    mw_status status = mw_read_mesh(
+        path, &(mw_file_options){.progress = progress_of_call(), .layout = files_layout}, file,
+        &error);
     if (status == MW_OK) return 0;
     int end = fail_reading(&error);
     if (status == MW_ERROR_INPUT && !files_is_standard(path) && file_holds_points(path))

@@ -23,6 +23,8 @@ int files_check_text_output(const char *output);
 bool files_same_output(const char *one, const char *other);
 
 /* Read a mesh. Returns 0, or an exit code after a complaint. */
+/* The layout of meshes in netCDF that are read from now on; NULL: recognised. */
+void files_use_layout(const char *layout);
 int files_read_mesh(const char *path, mw_mesh_file *file);
 
 /* Does a triangle have an area? In a mesh without one no point can be located. */

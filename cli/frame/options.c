@@ -8,10 +8,18 @@
 #include <float.h>
 #include <inttypes.h>
 #include <math.h>
+#include <meshwalk/io.h>
 #include <meshwalk/locate.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+static const char *layout_name(int i)
+{
+    return mw_layout_name((size_t)i);
+}
+
+static const choices layout_choices = {.noun = "layout", .name = layout_name};
 
 const option common_options[] = {
     {"output", 'o', OPTION_TEXT, offsetof(common_settings, output), "FILE",
@@ -22,6 +30,11 @@ const option common_options[] = {
      "use at most N threads (default: 0, all); results do not depend on it", NULL},
     {"seed", 0, OPTION_SEED, offsetof(common_settings, seed), "S",
      "seed of everything random (default: 0); where a point lies does not depend on it", NULL},
+    {"layout", 0, OPTION_TEXT, offsetof(common_settings, layout), "NAME",
+     "of a mesh in netCDF: how its file is laid out; NAME:0 and NAME:1 count its vertices from 0 "
+     "or "
+     "1 (default: recognised)",
+     &layout_choices},
     {"quiet", 'q', OPTION_FLAG, offsetof(common_settings, quiet), NULL,
      "no progress, no warnings, no remarks", NULL},
     {"help", 'h', OPTION_FLAG, offsetof(common_settings, help), NULL,

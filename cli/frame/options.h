@@ -70,7 +70,8 @@ typedef struct command {
 typedef struct common_settings {
     const char *output; /* NULL or "-": standard output */
     uint64_t seed;
-    uint32_t threads; /* 0: all there are, see options_threads */
+    uint32_t threads;   /* 0: all there are, see options_threads */
+    const char *layout; /* of meshes in netCDF; NULL: recognised */
     bool quiet, help, help_all;
 } common_settings;
 

@@ -17,7 +17,8 @@ static const char *mesh_format_name(int i)
 
 const choices mesh_formats = {"format", mesh_format_name, NULL};
 
-/* Is the ending the name of a format, or .ele, which belongs to the format node? */
+/* Is the ending the name of a format, or .ele, which belongs to the format node, or one of netcdf?
+ */
 static bool ending_is_known(const char *path)
 {
     const char *ending = strrchr(path, '.');
@@ -25,7 +26,8 @@ static bool ending_is_known(const char *path)
     const char *name;
     for (size_t i = 0; (name = mw_mesh_format_name(i)); i++)
         if (strcasecmp(ending + 1, name) == 0) return true;
-    return strcasecmp(ending, ".ele") == 0;
+    return strcasecmp(ending, ".ele") == 0 || strcasecmp(ending, ".nc") == 0 ||
+           strcasecmp(ending, ".nc4") == 0;
 }
 
 int mesh_output_check(const char *command_name, const char *output, int format)
@@ -49,17 +51,23 @@ bool mesh_output_is_node(const char *output, int format)
     return ending && (strcasecmp(ending, ".node") == 0 || strcasecmp(ending, ".ele") == 0);
 }
 
-/* PLY holds the coordinate system itself. */
-static bool mesh_output_is_ply(const char *output, int format)
+/* PLY and netCDF hold the coordinate system themselves. */
+static bool mesh_output_holds_crs(const char *output, int format)
 {
-    if (format != FORMAT_BY_ENDING) return strncmp(mesh_format_name(format), "ply", 3) == 0;
+    static const char *const endings[] = {".ply", ".nc", ".nc4"};
+    if (format != FORMAT_BY_ENDING)
+        return strncmp(mesh_format_name(format), "ply", 3) == 0 ||
+               strcmp(mesh_format_name(format), "netcdf") == 0;
     const char *ending = strrchr(output, '.');
-    return ending && strcasecmp(ending, ".ply") == 0;
+    for (size_t i = 0; ending && i < sizeof endings / sizeof *endings; i++)
+        if (strcasecmp(ending, endings[i]) == 0) return true;
+    return false;
 }
 
 static bool format_holds_fields(const char *format)
 {
-    static const char *const names[] = {"ply", "ply-ascii", "node", "ele", "vtk", "csv"};
+    static const char *const names[] = {"ply",    "ply-ascii", "node", "ele",
+                                        "netcdf", "nc",        "vtk",  "csv"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (strcasecmp(format, names[i]) == 0) return true;
     return false;
@@ -80,8 +88,8 @@ int mesh_output_write(const char *output, int format, const mw_mesh_file *file, 
                       bool quiet)
 {
     mw_error error;
-    bool ply = mesh_output_is_ply(output, format);
-    int end = ply ? 0 : prj_output_check(output, file->crs, quiet);
+    bool inside = mesh_output_holds_crs(output, format);
+    int end = inside ? 0 : prj_output_check(output, file->crs, quiet);
     if (end) return end;
     progress_phase("writing", NULL);
     if (temporary) signals_hold(true);
@@ -91,5 +99,5 @@ int mesh_output_write(const char *output, int format, const mw_mesh_file *file, 
                       &watched, &error);
     if (temporary) signals_hold(false);
     if (status != MW_OK) return fail_writing(&error);
-    return ply ? 0 : prj_output_write(output, file->crs, quiet);
+    return inside ? 0 : prj_output_write(output, file->crs, quiet);
 }

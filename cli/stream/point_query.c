@@ -136,7 +136,9 @@ static int point_query_fail_mesh(const point_query *q, const char *path, bool ar
                                  const mw_error *error)
 {
     int end = fail_mesh(path, error);
-    if (end == END_INPUT && !q->settings->any && area)
+    if (end == END_INPUT && q->settings->lines && area)
+        complain("'meshwalk check %s' lists every defect; --fix mends some", path);
+    else if (end == END_INPUT && !q->settings->any && area)
         complain("'meshwalk check %s' lists every defect; --any locates points all the same", path);
     return end;
 }
@@ -289,12 +291,11 @@ static mw_status point_query_interpolate(const point_query *q, const mw_location
     return mw_interpolate_table(q->mesh, &table, answers, count, &options, v->at_points, error);
 }
 
-static int point_query_answer_block(void *self, const query_block *block, void *answers)
+int point_query_locate(const point_query *q, const query_block *block, mw_location *answers,
+                       mw_counters *counters)
 {
-    point_query_context *context = self;
-    const point_query_settings *settings = context->query->settings;
+    const point_query_settings *settings = q->settings;
     mw_error error;
-    mw_counters counters = {0};
     mw_query_options options = {
         .walk = (mw_walk_kind)settings->walk,
         .start = (mw_start_kind)settings->start,
@@ -307,14 +308,23 @@ static int point_query_answer_block(void *self, const query_block *block, void *
         .threads = settings->stream.common.threads,
         .tolerance = settings->tolerance,
         .counters = settings->stream.stats,
-        .index = context->query->index,
+        .index = q->index,
         .progress = progress_of_call(),
     };
-    mw_status status = mw_locate_batch(context->query->locator, block->values, block->count,
-                                       block->stride, &options, answers, &counters, &error);
-    if (status == MW_OK)
-        status = point_query_interpolate(context->query, answers, block->count, &error);
-    if (status != MW_OK) return fail_query(&error);
+    mw_status status = mw_locate_batch(q->locator, block->values, block->count, block->stride,
+                                       &options, answers, counters, &error);
+    return status == MW_OK ? 0 : fail_query(&error);
+}
+
+static int point_query_answer_block(void *self, const query_block *block, void *answers)
+{
+    point_query_context *context = self;
+    mw_error error;
+    mw_counters counters = {0};
+    int end = point_query_locate(context->query, block, answers, &counters);
+    if (end) return end;
+    if (point_query_interpolate(context->query, answers, block->count, &error) != MW_OK)
+        return fail_query(&error);
     location_statistics_add(&context->statistics, answers, block->count, &counters);
     extent_add(&context->extent, block->values, block->count, block->stride);
     return 0;

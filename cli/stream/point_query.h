@@ -17,6 +17,7 @@ typedef struct point_query_settings {
     int finish, fill;            /* numbers of the names of --finish and --fill */
     int descent;                 /* mw_descent */
     bool areas, any;
+    bool lines; /* of a command about lines, which has no --any */
 } point_query_settings;
 
 extern const option point_query_options[];
@@ -86,6 +87,11 @@ void point_query_release(point_query *q);
 int point_query_begin(point_query *q, const point_query_settings *settings,
                       const char *const *inputs, int count);
 int point_query_prepare(point_query *q, const mw_mesh *mesh, const char *path, const char *crs);
+
+/* Locate a block of points. `counters` may be NULL. Returns 0, or an exit code after a
+ * complaint. */
+int point_query_locate(const point_query *q, const query_block *block, mw_location *answers,
+                       mw_counters *counters);
 
 /* Write the header, then the row of every point with its answer, in order. `answers` are the names
  * of the answer's cells; NULL ends them; `kinds` tell what they hold, as in query_stream.h.

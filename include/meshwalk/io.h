@@ -61,7 +61,7 @@ typedef struct mw_mesh_file {
     size_t field_count;
     size_t welded; /**< STL: vertices merged because their coordinates are equal */
     /** The coordinate system of x and y, as WKT or "EPSG:n"; NULL: unknown. PLY has it in a line
-     * "comment crs ...", other files in a .prj file beside them. */
+     * "comment crs ...", netCDF in a grid mapping, other files in a .prj file beside them. */
     char *crs;
     /** Per triangle the face of the file that it is a part of, from 0 in the order of the file;
      * NULL: each face is a triangle, and triangle i is face i. Ignored by mw_write_mesh(). */
@@ -85,6 +85,9 @@ typedef struct mw_mesh_file {
 typedef struct mw_file_options {
     /** Progress and cancelling, see base.h; NULL: none. The fraction of a pipe is a guess. */
     const mw_progress *progress;
+    /** Reading netCDF: the layout that the file has, such as "fvcom", with ":0" or ":1" behind it
+     * for the number of the first vertex; NULL: recognised. */
+    const char *layout;
     uint32_t reserved[6]; /**< must be zero */
 } mw_file_options;
 
@@ -97,6 +100,11 @@ typedef struct mw_file_options {
  * - PLY: text, little- and big-endian; other numbers of the vertices become fields; also triangle
  *   strips
  * - STL: text and binary; corners with equal coordinates become one vertex (-0.0 equals 0.0)
+ * - netCDF, classic and netCDF-4, by libnetcdf (mw_netcdf_version()): UGRID 1.0; FVCOM, SCHISM,
+ *   ADCIRC, ANUGA, FESOM2, TUFLOW-FV; ICON: the cells; MPAS: the triangles between the centres of
+ *   the cells, so that values of cells are those of vertices. Variables of numbers over the
+ *   vertices become fields: unpacked, NaN where missing. Longitudes and latitudes are degrees. The
+ *   coordinate system is that of the CF grid mapping, or EPSG:4326 of longitudes and latitudes
  * - .node and .ele of Triangle: `path` names either, or both without ending; numbered from 0 or 1.
  *   Attributes become fields "attribute1", ..., unless a comment "# attributes: NAME, NAME" at the
  *   top names them; one named z is the height
@@ -205,11 +213,14 @@ MW_API int mw_constraints_known(const char *path);
  * - "ply": binary, little-endian; "ply-ascii": the same as text (.ply means "ply")
  * - "node": Triangle, two files .node and .ele, whichever is named; z becomes the first attribute
  * - "obj", "stl": STL as text with all digits; without fields
+ * - "netcdf": UGRID 1.0 in netCDF-4, with fields, heights and the coordinate system; only into a
+ *   file
  * - "vtk": legacy VTK as text, an unstructured grid with the fields as point data, for ParaView;
  * not read - "csv": a table for other programs, one row per corner of a triangle, with the columns
  *   triangle,corner,vertex,x,y,z and the fields; not read as a mesh
  *
- * PLY keeps the coordinate system, in a line "comment crs ..."; other formats ignore it. Vertices,
+ * PLY and netCDF keep the coordinate system, others ignore it. Values per triangle go into netCDF
+ * only, edges and their marks into none. Vertices,
  * triangles, z and fields keep their order and every bit, except the sign of a NaN and the
  * vertices of STL and csv, which have corners only. Names of fields become single words.
  *
@@ -232,6 +243,10 @@ MW_API mw_status mw_write_mesh(const char *path, const mw_mesh_file *file, const
                                const mw_file_options *options, mw_error *error);
 /** The name of format i of mw_write_mesh(), i from 0; NULL beyond the last. */
 MW_API const char *mw_mesh_format_name(size_t i);
+
+/** The names of the layouts that meshes in netCDF files can have, from 0; NULL after the last.
+ * Thread-safe. */
+MW_API const char *mw_layout_name(size_t i);
 
 /** Options of a point reader. Zero-initialised options read everything. */
 typedef struct mw_point_reader_options {

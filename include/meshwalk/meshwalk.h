@@ -18,5 +18,7 @@
 #include <meshwalk/star.h>
 #include <meshwalk/probe.h>
 #include <meshwalk/io.h>
+#include <meshwalk/weights.h>
+#include <meshwalk/series.h>
 
 #endif

@@ -16,7 +16,8 @@ static int core_exec(PyObject *module)
                    surface_init(module, state) || star_init(module, state) ||
                    prober_init(module, state) || editor_init(module, state) || check_init(module) ||
                    layouts_init(module) || triangulation_init(module) || files_init(module) ||
-                   points_init(module) || borrowed_init(module) || core_add_numbers(module)
+                   points_init(module) || borrowed_init(module) || segments_init(module) ||
+                   core_add_numbers(module)
                ? -1
                : 0;
 }

@@ -147,6 +147,9 @@ PyObject *mesh_new(core_state *state, PyObject *class, mw_mesh *mesh);
 int location_init(PyObject *module, core_state *state);
 PyObject *location_new(core_state *state, const mw_location *location);
 int locator_init(PyObject *module, core_state *state);
+int segments_init(PyObject *module);
+/* The pieces of segments, as memory of offsets and of pieces; args: ends, threads, progress. */
+PyObject *segments_follow(core_state *state, const mw_locator *locator, PyObject *args);
 int surface_init(PyObject *module, core_state *state);
 int star_init(PyObject *module, core_state *state);
 int prober_init(PyObject *module, core_state *state);

@@ -45,6 +45,20 @@ static int layout_add_nearest(PyObject *module)
                                     "itemsize", (Py_ssize_t)sizeof(mw_nearest_surface_point)));
 }
 
+static int layout_add_piece(PyObject *module)
+{
+    return layout_add(module, "PIECE_LAYOUT",
+                      Py_BuildValue("{s:n,s:n,s:n,s:n,s:n,s:n,s:n,s:n}",
+                                    LAYOUT_MEMBER(mw_segment_piece, "start", from),
+                                    LAYOUT_MEMBER(mw_segment_piece, "stop", to),
+                                    LAYOUT_MEMBER(mw_segment_piece, "triangle", triangle),
+                                    LAYOUT_MEMBER(mw_segment_piece, "start_at", from_at),
+                                    LAYOUT_MEMBER(mw_segment_piece, "stop_at", to_at),
+                                    LAYOUT_MEMBER(mw_segment_piece, "along", along),
+                                    LAYOUT_MEMBER(mw_segment_piece, "gap", gap), "itemsize",
+                                    (Py_ssize_t)sizeof(mw_segment_piece)));
+}
+
 static int layout_add_changed(PyObject *module)
 {
     return layout_add(module, "CHANGED_LAYOUT",
@@ -57,7 +71,7 @@ static int layout_add_changed(PyObject *module)
 int layouts_init(PyObject *module)
 {
     return layout_add_location(module) || layout_add_touch(module) || layout_add_nearest(module) ||
-                   layout_add_changed(module)
+                   layout_add_changed(module) || layout_add_piece(module)
                ? -1
                : 0;
 }

@@ -200,6 +200,13 @@ static PyObject *locator_walk_path(PyObject *self, PyObject *args)
                      : PyErr_NoMemory();
 }
 
+/* _segment(ends, threads, progress): memory of offsets (size_t) and of pieces */
+static PyObject *locator_segment(PyObject *self, PyObject *args)
+{
+    locator_object *object = (locator_object *)self;
+    return segments_follow(object->state, object->locator, args);
+}
+
 /* describe(): a dictionary of the members of mw_locator_info, and of the void promise, or None */
 static PyObject *locator_describe(PyObject *self, PyObject *unused)
 {
@@ -228,6 +235,7 @@ static PyMethodDef locator_methods[] = {
     {"locate_one", (PyCFunction)(void (*)(void))locator_locate_one, METH_FASTCALL, locator_one_doc},
     {"_nearest_border", locator_nearest_border, METH_VARARGS, NULL},
     {"_walk_path", locator_walk_path, METH_VARARGS, NULL},
+    {"_segment", locator_segment, METH_VARARGS, NULL},
     {"_describe", locator_describe, METH_NOARGS, NULL},
     {NULL, NULL, 0, NULL},
 };

@@ -44,6 +44,7 @@ from meshwalk._locator import Locator, LocatorInfo, NearestBorder
 from meshwalk._mesh import Mesh, MeshInfo
 from meshwalk._plot import explain, plot
 from meshwalk._prober import NearestPoints, Prober, Touches, TouchState
+from meshwalk._segments import Segments
 from meshwalk._star import Star, StarInfo, direction_to_lonlat, lonlat_to_direction
 from meshwalk._surface import Surface, SurfaceInfo
 from meshwalk._triangulate import (
@@ -82,6 +83,7 @@ __all__ = [
     "NearestPoints",
     "OptimumWarning",
     "Prober",
+    "Segments",
     "SkippedRingWarning",
     "Star",
     "StarInfo",

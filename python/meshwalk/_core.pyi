@@ -9,6 +9,7 @@ LOCATION_LAYOUT: dict[str, int]
 TOUCH_LAYOUT: dict[str, int]
 NEAREST_LAYOUT: dict[str, int]
 CHANGED_LAYOUT: dict[str, int]
+PIECE_LAYOUT: dict[str, int]
 MAX_TRIANGLES: int
 MESH_FORMATS: tuple[str, ...]
 version: str
@@ -81,6 +82,9 @@ class Locator:
         /,
     ) -> None: ...
     def _walk_path(self, x: float, y: float, walk: str, start: str, seed: int, /) -> memoryview: ...
+    def _segment(
+        self, ends: Buffer, threads: int, progress: Progress | None, /
+    ) -> tuple[memoryview, memoryview]: ...
     def _nearest_border(
         self, x: float, y: float, /
     ) -> tuple[int, int, float, tuple[float, float], tuple[float, float, float]]: ...
@@ -113,6 +117,15 @@ def borrowed_locate(
     progress: Progress | None,
     /,
 ) -> bool: ...
+def segment_weights(
+    mesh: Mesh,
+    ends: Buffer,
+    segment: Buffer,
+    pieces: Buffer,
+    weights: Buffer,
+    points: Buffer,
+    /,
+) -> None: ...
 def locator_from_mesh(
     cls: type[_Locator],
     mesh: Mesh,

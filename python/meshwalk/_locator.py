@@ -10,6 +10,7 @@ from meshwalk import _arrays, _core
 from meshwalk._errors import InputError
 from meshwalk._locations import LOCATION, Locations
 from meshwalk._mesh import Mesh
+from meshwalk._segments import PIECE, Segments
 
 if TYPE_CHECKING:
     from typing import Self
@@ -272,6 +273,56 @@ class Locator(_core.Locator):
         """
         path = np.frombuffer(self._walk_path(x, y, walk, start, seed), np.uint32)
         return path.view(np.int32)
+
+    def segment(
+        self, a: ArrayLike, b: ArrayLike, threads: int = 0, *, progress: Progress | None = None
+    ) -> Segments:
+        """List the triangles along straight segments, exactly.
+
+        Parameters
+        ----------
+        a, b : array_like, shape (..., 2)
+            Where the segments begin and end, in the units of the mesh; they are broadcast. A
+            polyline `xy` has the segments from ``xy[:-1]`` to ``xy[1:]``. A segment with a point
+            that is NaN, infinite or masked has no pieces.
+        threads : int, optional
+            How many threads work on it; 0 lets the library choose. The answers are the same.
+        progress : callable, optional
+            As of `locate`.
+
+        Returns
+        -------
+        Segments
+            All pieces, in the order of the segments: their triangles, where they begin and end.
+
+        Raises
+        ------
+        ValueError
+            Pockets and holes are open (``fill="no"``), or the mesh is no embedding.
+
+        Examples
+        --------
+        >>> import meshwalk
+        >>> mesh = meshwalk.Mesh([[0, 0], [4, 0], [4, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
+        >>> pieces = meshwalk.Locator(mesh).segment([1, 2], [9, 2])
+        >>> pieces.triangle
+        array([1, 0], dtype=int32)
+        >>> pieces.start, pieces.stop
+        (array([0.   , 0.125]), array([0.125, 0.375]))
+        >>> pieces.interpolate([10, 20, 30, 20])
+        array([[17.5, 20. ],
+               [20. , 25. ]])
+        """
+        begin, end = _arrays.queries(a, "a", 2), _arrays.queries(b, "b", 2)
+        shape = np.broadcast_shapes(begin[1], end[1])
+        ends = np.empty((*shape, 4))
+        ends[..., :2] = begin[0].reshape(*begin[1], 2)
+        ends[..., 2:] = end[0].reshape(*end[1], 2)
+        rows = ends.reshape(-1, 4)
+        offsets, records = self._segment(rows, threads, progress)
+        return Segments(
+            self.mesh, rows, np.frombuffer(offsets, np.int64), np.frombuffer(records, PIECE)
+        )
 
     def describe(self) -> LocatorInfo:
         """Tell what the locator has built beside the mesh, in bytes.

@@ -179,6 +179,8 @@ bool mw__queries_are_dense(const mw_locator *locator, const mw_queries *queries)
 {
     static const double PART = 1.0 / 32;
     enum { LAPS = 16 };
+    /* beyond the squares of doubles */
+    if (!(locator->cell2 > 0 && locator->cell2 < INFINITY)) return false;
     double left = GRID * PART * (double)queries->n;
     for (size_t lap = 0; lap < LAPS; lap++)
         for (size_t i = lap * RUN; i + 1 < queries->n; i += LAPS * RUN) {

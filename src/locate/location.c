@@ -24,7 +24,8 @@ void mw__location_areas(const mw_point corner[3], mw_point q, double area[3])
     if (MW_LIKELY(sure && off < 0x1p-42 * sum)) return;
     /* On an edge, or the triangle is so thin that rounded areas would spoil the weights. */
     for (uint32_t k = 0; k < 3; k++)
-        area[k] = mw__orient2d_exact(corner[mw__next(k)], corner[mw__prev(k)], q);
+        if (!(fabs(area[k]) > bound[k] && bound[k] < 0x1p-44 * sum))
+            area[k] = mw__orient2d_exact(corner[mw__next(k)], corner[mw__prev(k)], q);
 }
 
 /* Areas up to a common factor, where they would leave the range of doubles: the largest becomes

@@ -53,7 +53,8 @@ static MW_INLINE bool mw__locator_is_close(const mw_locator *locator, uint32_t t
     mw_point a = tiling->point[v[0]], b = tiling->point[v[1]], c = tiling->point[v[2]];
     double ab = mw__distance2(a, b), bc = mw__distance2(b, c), ca = mw__distance2(c, a);
     double least = ab < bc ? ab : bc, shortest = least < ca ? least : ca, far = mw__distance2(a, q);
-    return far <= LENGTHS * LENGTHS * shortest && far <= locator->cell2;
+    /* of squares that under- or overflow nothing follows */
+    return far < LENGTHS * LENGTHS * shortest && far < locator->cell2;
 }
 
 /* Where to begin where there is a guide: at tile `last`, if q is close to it. */

@@ -55,6 +55,28 @@ static mw_location query_outside(const mw_locator *locator, uint32_t mark, mw_po
     return location;
 }
 
+/* If two areas vanish q is at a vertex of the tile. Its answer in another triangle that has this
+ * vertex: the same as by areas there, without a look at the corners. False where q is on an edge,
+ * or the triangle may have another vertex at this place. */
+static bool query_answer_at_vertex(const mw_locator *locator, const mw_triangle *tile,
+                                   const double area[3], uint32_t triangle, mw_location *location)
+{
+    const mw_mesh *mesh = locator->mesh;
+    uint32_t at = area[0] != 0 ? 0 : area[1] != 0 ? 1 : 2;
+    if (area[mw__next(at)] != 0 || area[mw__prev(at)] != 0 || !locator->tiling.borrowed)
+        return false;
+    const mw_triangle *other = &mesh->tri[mw__triangle_slot(mesh, triangle)];
+    for (uint32_t k = 0; k < 3; k++) {
+        if (other->v[k] != tile->v[at]) continue;
+        uint32_t local = mw__user_local_vertex(other->user, k);
+        *location = (mw_location){
+            .triangle = triangle, .hole = MW_NONE, .where = MW_ON_VERTEX, .local = (uint8_t)local};
+        location->weight[local] = 1;
+        return true;
+    }
+    return false;
+}
+
 /* The answer for q in tile t. The walk knew on which side of the edges q lies, but did not keep it;
  * the three tests made here are also the weights. */
 static mw_location query_answer(const mw_locator *locator, uint32_t t, mw_point q, double tolerance)
@@ -75,8 +97,12 @@ static mw_location query_answer(const mw_locator *locator, uint32_t t, mw_point 
     uint32_t triangle = !inside                 ? lowest_at_boundary(tiling, tile, area)
                         : tile->user & MW_GHOST ? MW_NONE
                                                 : tile->user & MW_USER_MASK;
-    return triangle == MW_NONE ? query_outside(locator, tile->user, q, tolerance)
-                               : mw__location_in_triangle(locator->mesh, triangle, q);
+    if (triangle == MW_NONE) return query_outside(locator, tile->user, q, tolerance);
+    if (triangle == (tile->user & ~MW_REVERSED) && tiling->borrowed)
+        return mw__location_of(corner, tile->user, q, area);
+    mw_location location;
+    if (query_answer_at_vertex(locator, tile, area, triangle, &location)) return location;
+    return mw__location_in_triangle(locator->mesh, triangle, q);
 }
 
 static void query_count(mw_counters *counters, const mw_work *work, bool cycle, bool handover)

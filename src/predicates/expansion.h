@@ -38,6 +38,18 @@ double mw__expansion_estimate(mw_expansion e);
 mw_expansion mw__expansion_cross(mw_arena *arena, mw_expansion a, mw_expansion b, mw_expansion c,
                                  mw_expansion d);
 
+/* d[0] d[1] - d[2] d[3] of four doubles, into *det with a relative error below 2^-50 and its sign.
+ * False where that takes more than a few sums, or a product is not of a magnitude from 2^-900 to
+ * 2^900 or 0. */
+bool mw__double_cross(const double d[4], double *det);
+
+/* a - b. False where it is rounded. */
+bool mw__difference_is_exact(double a, double b, double *difference);
+
+/* Scale v[0..n) by 2^shift, so that the largest is about 2^200: *shift is returned. False where one
+ * of them is not finite, all are 0, or the smallest would leave low. */
+bool mw__scale_within(const double *v, int n, double low, double *scaled, int *shift);
+
 /* Is each of v[0..n) zero or of a magnitude from low to high? False for NaN. */
 bool mw__within(const double *v, int n, double low, double high);
 

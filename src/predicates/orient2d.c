@@ -21,6 +21,32 @@ static double orient2d_with_expansions(const double v[8])
         mw__expansion_cross(&arena, difference[0], difference[2], difference[3], difference[1]));
 }
 
+/* The same, where differences are exact and their products not far from 1: points that are near one
+ * another, as seen from the origin, which is most of those that a filter leaves open. */
+static bool orient2d_with_doubles(const double v[8], double *det)
+{
+    double d[4];
+    bool exact = true;
+    for (int i = 0; i < 4; i++)
+        exact = mw__difference_is_exact(v[2 * i], v[2 * i + 1], &d[i]) && exact;
+    return exact && mw__double_cross(d, det);
+}
+
+/* In the range of expansions. */
+static double orient2d_within(const double v[8])
+{
+    double det;
+    return orient2d_with_doubles(v, &det) ? det : orient2d_with_expansions(v);
+}
+
+/* det 2^-exponent; where that is not 0 and no normal double, +-DBL_MAX or +-DBL_MIN. */
+static double orient2d_scaled_back(double det, int exponent)
+{
+    double value = ldexp(det, -exponent), magnitude = fabs(value);
+    if (det == 0 || (magnitude >= DBL_MIN && magnitude <= DBL_MAX)) return value;
+    return copysign(magnitude > DBL_MAX ? DBL_MAX : DBL_MIN, det);
+}
+
 /* The same over 2^(2 base), returned. */
 static int orient2d_with_integers(const double v[8], mw_big *result)
 {
@@ -33,7 +59,11 @@ static int orient2d_with_integers(const double v[8], mw_big *result)
 
 static double orient2d_exact(const double v[8])
 {
-    if (MW_LIKELY(mw__within(v, 8, LOW, HIGH))) return orient2d_with_expansions(v);
+    double scaled[8];
+    int shift;
+    if (MW_LIKELY(mw__within(v, 8, LOW, HIGH))) return orient2d_within(v);
+    if (mw__scale_within(v, 8, LOW, scaled, &shift))
+        return orient2d_scaled_back(orient2d_within(scaled), 2 * shift);
     if (!mw__all_finite(v, 8)) return 0;
     mw_big result;
     int base = orient2d_with_integers(v, &result);
@@ -42,14 +72,22 @@ static double orient2d_exact(const double v[8])
 
 double mw__orient2d_exact(mw_point a, mw_point b, mw_point c)
 {
+    if ((a.x == c.x && a.y == c.y) || (b.x == c.x && b.y == c.y)) return 0; /* c is a vertex */
     return orient2d_exact((const double[8]){a.x, c.x, b.y, c.y, a.y, c.y, b.x, c.x});
 }
 
 double mw__orient2d_fraction(mw_point a, mw_point b, mw_point c, int *exponent)
 {
+    const double v[8] = {a.x, c.x, b.y, c.y, a.y, c.y, b.x, c.x};
+    double scaled[8];
+    int shift;
+    if (mw__scale_within(v, 8, LOW, scaled, &shift)) {
+        double det = frexp(orient2d_within(scaled), exponent);
+        *exponent -= 2 * shift;
+        return det;
+    }
     mw_big result;
-    int base =
-        orient2d_with_integers((const double[8]){a.x, c.x, b.y, c.y, a.y, c.y, b.x, c.x}, &result);
+    int base = orient2d_with_integers(v, &result);
     double fraction = mw__big_fraction(&result, exponent);
     *exponent += 2 * base;
     return fraction;

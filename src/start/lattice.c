@@ -36,19 +36,22 @@ mw_point mw__lattice_middle(const mw_lattice *lattice, uint32_t column, uint32_t
 /* --- cells in the shape of the tiles --- */
 
 /* Add the tensor of a tile's edges, sum of e e^T, to xx, xy, yy: divided by its trace, times the
- * tile's area, so that each part of the mesh counts by its area. */
-static void tile_add_shape(const mw_tiling *tiling, uint32_t t, double shape[3])
+ * tile's area, so that each part of the mesh counts by its area. Edges are multiplied by `unit`, so
+ * that no square leaves the doubles. */
+static void tile_add_shape(const mw_tiling *tiling, uint32_t t, double unit, double shape[3])
 {
     const mw_point *p = tiling->point;
     const uint32_t *v = tiling->tri[t].v;
-    double xx = 0, xy = 0, yy = 0;
+    double xx = 0, xy = 0, yy = 0, ax = 0, ay = 0, area = 0;
     for (int k = 0; k < 3; k++) {
-        double x = p[v[k + 1]].x - p[v[k]].x, y = p[v[k + 1]].y - p[v[k]].y;
+        double x = (p[v[k + 1]].x - p[v[k]].x) * unit, y = (p[v[k + 1]].y - p[v[k]].y) * unit;
+        if (k == 0) ax = x, ay = y;
+        if (k == 1) area = ax * y - ay * x;
         xx += x * x;
         xy += x * y;
         yy += y * y;
     }
-    double weight = mw__orient2d_double(p[v[0]], p[v[1]], p[v[2]]) / (xx + yy);
+    double weight = area / (xx + yy);
     if (!(weight > 0 && weight < INFINITY)) return;
     shape[0] += xx * weight;
     shape[1] += xy * weight;
@@ -56,14 +59,14 @@ static void tile_add_shape(const mw_tiling *tiling, uint32_t t, double shape[3])
 }
 
 /* The direction in which tiles are long, and how many times longer than across. Looks at a few. */
-static double tiles_shape(const mw_tiling *tiling, double direction[2])
+static double tiles_shape(const mw_tiling *tiling, double unit, double direction[2])
 {
     enum { PROBES = 1024 };
     double shape[3] = {0};
     for (uint32_t i = 0; i < PROBES && i < tiling->tri_count; i++)
         tile_add_shape(tiling,
                        (uint32_t)((uint64_t)i * tiling->tri_count / PROBES % tiling->tri_count),
-                       shape);
+                       unit, shape);
     /* beyond the doubles */
     if (!(shape[0] + shape[2] > 0 && shape[0] + shape[2] < INFINITY)) return 1;
     double half = (shape[0] - shape[2]) / 2, root = hypot(half, shape[1]),
@@ -76,13 +79,20 @@ static double tiles_shape(const mw_tiling *tiling, double direction[2])
     return least > 0 ? sqrt((sum / 2 + root) / least) : INFINITY;
 }
 
+/* The power of two that makes an extent about 1. */
+static double unit_within(const double low[2], const double high[2])
+{
+    double width = fmax(high[0] / 2 - low[0] / 2, high[1] / 2 - low[1] / 2);
+    return width > 0x1p-1000 ? ldexp(1, -ilogb(width)) : 0x1p1000;
+}
+
 static mw_lattice lattice_shape(const mw_tiling *tiling, const double low[2], const double high[2],
                                 uint32_t cells, mw_job *job)
 {
     /* tiles that are less long than the first are common */
     static const double common = 4, most = 0x1p20;
     mw_lattice lattice = mw__lattice(low, high, cells);
-    double d[2], aspect = fmin(tiles_shape(tiling, d), most);
+    double d[2], aspect = fmin(tiles_shape(tiling, unit_within(low, high), d), most);
     if (!(aspect > common)) return lattice;
     const double axis[2][2] = {{-d[1] * aspect, d[0] * aspect}, {d[0], d[1]}};
     double least[2], greatest[2];

@@ -146,7 +146,6 @@ static const struct {
     {"bad/mobius_strip.mesh", "not a mesh in a known format", -1},
     {"tet/box.node", "elements of 4 corners", 1},
     {"terrain/volcano.asc", "not a mesh in a known format", -1},
-    {"star/mpas_qu1920.nc.gz", "not a mesh in a known format", -1},
     {"terrain/1.2-with-color.las", "not a mesh in a known format", -1},
 };
 

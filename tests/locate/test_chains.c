@@ -173,11 +173,43 @@ static void test_good_meshes(void **state)
     }
 }
 
+/* Squares of lengths under- and overflow: the guide leads as well as at the extent 1, and a query
+ * does not begin at the last triangle, wherever that is. */
+static void test_extents(void **state)
+{
+    (void)state;
+    enum { QUERIES = 1000, SIDE = 100 };
+    static const double extents[] = {1, 1e-150, 1e-290, 5e-306, 1e150, 1e250, 1e300};
+    uint64_t random = 19;
+    for (size_t i = 0; i < sizeof extents / sizeof *extents; i++) {
+        arrays a = arrays_grid(SIDE, 0.4, &random);
+        arrays_transform(&a, extents[i], 0, 0);
+        mw_mesh *mesh = arrays_mesh(&a, (mw_mesh_options){0});
+        mw_locator *locator = mesh_locator(mesh, (mw_locator_options){0});
+        mw_query_options options = {.counters = 1};
+        mw_cursor cursor;
+        assert_int_equal(locator->guide.start, MW_START_GRID);
+        assert_int_equal(mw_cursor_init(locator, &options, &cursor, NULL), MW_OK);
+        double q[2 * QUERIES];
+        mw_counters c;
+        mw_location at[QUERIES];
+        for (size_t k = 0; k < 2 * QUERIES; k++) q[k] = extents[i] * SIDE * random_unit(&random);
+        for (size_t k = 0; k < QUERIES; k++) mw_locate(locator, &cursor, q[2 * k], q[2 * k + 1]);
+        assert_true(cursor.counters.triangles_visited < 6 * QUERIES);
+        assert_int_equal(mw_locate_batch(locator, q, QUERIES, 2, &options, at, &c, NULL), MW_OK);
+        assert_true(c.triangles_visited < 6 * QUERIES);
+        mw_locator_destroy(locator);
+        mw_mesh_destroy(mesh);
+        arrays_free(&a);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_traps),
         cmocka_unit_test(test_good_meshes),
+        cmocka_unit_test(test_extents),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

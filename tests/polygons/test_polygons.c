@@ -363,10 +363,10 @@ static void what_is_no_polygon_is_refused(void **state)
     none.segment_count = 0;
     expect_refused(none, MW_ERROR_INPUT, "there is no polygon");
     unnumbered.polygon = NULL;
-    expect_refused(unnumbered, MW_ERROR_ARGUMENT, "numbers of polygons");
+    expect_refused(unnumbered, MW_ERROR_ARGUMENT, "the polygon of each segment");
     seeded.hole_seeds = scene.point;
     seeded.hole_seed_count = 1;
-    expect_refused(seeded, MW_ERROR_ARGUMENT, "seeds");
+    expect_refused(seeded, MW_ERROR_ARGUMENT, "seed points");
     const double line[] = {0, 0, 1, 1, 2, 2, 3, 3};
     flat.points = line;
     expect_refused(flat, MW_ERROR_INPUT, "line");

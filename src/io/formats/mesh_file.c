@@ -2,6 +2,7 @@
 #include "base/options.h"
 #include "io/mesh/mesh_builder.h"
 #include "io/formats/mesh_formats.h"
+#include "io/layouts/layout_find.h"
 #include "io/mesh/mesh_readers.h"
 #include "io/mesh/node_ele.h"
 #include "io/text/byte_source.h"
@@ -47,11 +48,13 @@ static mw_status mesh_read_path(const char *path, mw_mesh_builder *builder, mw_e
     return status;
 }
 
-static mw_status mesh_read(const char *path, mw_job *job, mw_mesh_file *file, mw_error *error)
+static mw_status mesh_read(const char *path, const char *layout, mw_job *job, mw_mesh_file *file,
+                           mw_error *error)
 {
     mw_mesh_builder builder;
     mw__build_start(&builder, file, NULL);
     builder.job = job;
+    builder.layout = layout;
     mw__job_stage(job, "reading", 1);
     mw_status status = mesh_read_path(path, &builder, error);
     mw__build_release(&builder);
@@ -66,9 +69,10 @@ mw_status mw_read_mesh(const char *path, const mw_file_options *options, mw_mesh
     if (!path || !file) return mw__fail(error, MW_ERROR_ARGUMENT, "mw_read_mesh: NULL");
     if (!options) options = &defaults;
     mw_status status = MW_RESERVED_CHECK(mw_file_options, options, error);
+    if (!status) status = mw__layout_check(options->layout, error);
     if (status) return status;
     mw_job job = mw__job(1, options->progress);
-    status = mw__job_end(&job, mesh_read(path, &job, file, error), error);
+    status = mw__job_end(&job, mesh_read(path, options->layout, &job, file, error), error);
     if (!status && !file->crs) status = mw_read_prj(path, &file->crs, error);
     if (status) mw_mesh_file_release(file);
     return status;

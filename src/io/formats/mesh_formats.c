@@ -1,6 +1,7 @@
 #include "io/formats/mesh_formats.h"
 
 #include "io/grid/grid_readers.h"
+#include "io/layouts/netcdf_mesh.h"
 #include "io/mesh/mesh_readers.h"
 #include "io/mesh/mesh_writers.h"
 #include "io/text/file_head.h"
@@ -111,6 +112,11 @@ static const mw_mesh_format formats[] = {
      .first_word = is_solid,
      .read = mw__read_stl,
      .write = mw__write_stl},
+    {.name = "netcdf",
+     .endings = ".nc\0.nc4\0",
+     .first_bytes = mw__netcdf_begins,
+     .read = mw__read_netcdf,
+     .write = mw__write_netcdf},
     {.name = "csv", .endings = ".csv\0", .write = mw__write_csv},
     {.name = "vtk",
      .endings = ".vtk\0",

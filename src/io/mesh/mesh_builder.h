@@ -14,8 +14,9 @@
 
 typedef struct mw_mesh_builder {
     mw_mesh_file *file;
-    mw_source *source; /* what is read from: for messages */
-    mw_job *job;       /* that watches the reading; may be NULL */
+    mw_source *source;  /* what is read from: for messages */
+    mw_job *job;        /* that watches the reading; may be NULL */
+    const char *layout; /* asked for in netCDF files; NULL: whichever is there */
     size_t point_room, triangle_room;
     int64_t first_number; /* number of the first vertex: 0 or 1 */
     bool points_complete;

@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 /* Longest text of an attribute that is taken; a CRS as WKT is the longest of use. */
 enum { TEXT_LIMIT = 1 << 16 };
@@ -27,6 +28,7 @@ struct mw_netcdf {
     size_t variable_count;
     netcdf_dimension *dimensions;
     size_t dimension_count;
+    uint64_t size; /* of the file, in bytes */
 };
 
 bool mw__netcdf_begins(const char *head, size_t size)
@@ -158,8 +160,10 @@ mw_status mw__netcdf_open(const char *path, mw_netcdf **out, mw_error *error)
 {
     char *plain = netcdf_file_plain_path(path);
     if (!plain) return mw__fail_memory(error);
+    struct stat info;
     mw_status status = netcdf_file_start(path, out, error);
     if (!status) {
+        (*out)->size = stat(path, &info) == 0 ? (uint64_t)info.st_size : 0;
         mw__netcdf_lock(&(*out)->nc);
         int code = (*out)->nc.nc_open(plain, NETCDF_READ, &(*out)->id);
         status = netcdf_file_finish(out, code, error);
@@ -173,6 +177,7 @@ mw_status mw__netcdf_open_memory(const char *name, void *bytes, size_t size, mw_
 {
     mw_status status = netcdf_file_start(name, out, error);
     if (status) return status;
+    (*out)->size = size;
     mw__netcdf_lock(&(*out)->nc);
     int code = (*out)->nc.nc_open_mem("memory", NETCDF_READ, size, bytes, &(*out)->id);
     return netcdf_file_finish(out, code, error);
@@ -188,6 +193,11 @@ void mw__netcdf_close(mw_netcdf *file)
     free(file->dimensions);
     free(file->name);
     free(file);
+}
+
+uint64_t mw__netcdf_file_size(const mw_netcdf *file)
+{
+    return file->size;
 }
 
 const char *mw__netcdf_name(const mw_netcdf *file)

@@ -54,6 +54,8 @@ mw_status mw__netcdf_open_memory(const char *name, void *bytes, size_t size, mw_
 /* NULL is allowed. */
 void mw__netcdf_close(mw_netcdf *file);
 const char *mw__netcdf_name(const mw_netcdf *file);
+/* Bytes of the file. */
+uint64_t mw__netcdf_file_size(const mw_netcdf *file);
 
 /* What is in the root group. Variables in the order of the file. */
 size_t mw__netcdf_variable_count(const mw_netcdf *file);

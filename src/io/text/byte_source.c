@@ -18,6 +18,12 @@
 
 enum { BLOCK = 1 << 18, PACKED_BLOCK = 1 << 16, MEMORY_BLOCK = 64 };
 
+bool mw__source_is_plain_file(mw_source *source)
+{
+    return source->size > 0 && strcmp(source->path, "-") != 0 &&
+           (!source->gz || gzdirect(source->gz) == 1);
+}
+
 const char *mw__source_name(const mw_source *source)
 {
     return strcmp(source->path, "-") == 0 ? "standard input" : source->path;
@@ -50,6 +56,7 @@ static mw_status source_fail_at(const mw_source *source, uint64_t position, mw_e
     vsnprintf(message, sizeof message, format, arguments);
     mw__message_clean(message);
     const char *name = mw__source_name(source);
+    if (source->placeless) return mw__fail(error, MW_ERROR_INPUT, "%.240s: %s", name, message);
     if (source->binary)
         mw__fail(error, MW_ERROR_INPUT, "%.240s: at byte %" PRIu64 ": %s", name, position, message);
     else

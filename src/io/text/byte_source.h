@@ -37,6 +37,7 @@ typedef struct mw_source {
     bool ended;              /* the buffer holds all that is left */
     const char *damage;      /* what is wrong behind that, or NULL */
     bool binary;             /* errors name bytes instead of lines */
+    bool placeless;          /* errors name neither */
     mw_job *job;             /* NULL, or has a step for each block that is read */
     uint64_t size;           /* of the file, packed or not; 0: unknown */
 } mw_source;
@@ -54,6 +55,10 @@ void mw__source_watch(mw_source *source, mw_job *job);
 /* How much of the file has been read, from 0 to 1; -1: unknown. */
 double mw__source_fraction(const mw_source *source);
 void mw__source_close(mw_source *source);
+
+/* Is this a regular file, not packed, that another library can open by its path? To be asked after
+ * the first mw__source_peek. */
+bool mw__source_is_plain_file(mw_source *source);
 
 /* The path for messages. */
 const char *mw__source_name(const mw_source *source);

@@ -1,0 +1,132 @@
+/* weights - the weights that interpolate values of a mesh at points, as a file. */
+#include "cli/commands/commands.h"
+#include "cli/frame/files.h"
+#include "cli/frame/message.h"
+#include "cli/frame/progress.h"
+#include "cli/stream/located_points.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct weights_settings {
+    point_query_settings query;
+} weights_settings;
+
+static int weights_check(const char *output, const char *const *operands)
+{
+    if (!files_is_standard(output)) return files_check_output(output, operands, 2);
+    complain("weights wants an output: -o FILE.nc, or FILE.npz");
+    return END_USAGE;
+}
+
+/* Places of the vertices, packed, in the mesh's own coordinates. */
+static double *weights_vertices(const mw_mesh *mesh)
+{
+    const uint32_t n = mw_mesh_vertex_count(mesh);
+    double *xy = malloc(2 * (size_t)n * sizeof *xy + 1);
+    for (uint32_t v = 0; v < n && xy; v++) mw_mesh_vertex(mesh, v, xy + 2 * (size_t)v);
+    return xy;
+}
+
+static int weights_write(const point_query *q, const located_points *p, const mw_operator *weights,
+                         const char *output)
+{
+    mw_error error;
+    double *vertices = weights_vertices(q->mesh);
+    if (!vertices) return fail_memory();
+    const mw_weight_places places = {.columns = vertices,
+                                     .rows = p->moved,
+                                     .row_stride = p->width,
+                                     .located = p->located,
+                                     .degrees = p->lonlat && p->moved == p->points};
+    const mw_file_options options = {.progress = progress_of_call()};
+    progress_phase("writing", output);
+    mw_status status = mw_write_weights(output, weights, &places, &options, &error);
+    free(vertices);
+    return status == MW_OK ? 0 : fail_writing(&error);
+}
+
+static int weights_report(const point_query *q, const located_points *p, const mw_operator *weights)
+{
+    mw_operator_info info;
+    report r;
+    mw_operator_describe(weights, &info);
+    report_begin(&r, q->settings->stream.json);
+    report_count(&r, "points", p->count);
+    for (int i = 0; i < MW_WHERE_COUNT; i++)
+        report_count(&r, mw_where_name((mw_where)i), p->where[i]);
+    report_count(&r, "vertices", info.columns);
+    report_count(&r, "weights", info.entries);
+    report_end(&r);
+    return files_write_error_text(&r.text);
+}
+
+static int weights_make(const point_query *q, const located_points *p, const char *output)
+{
+    mw_error error;
+    mw_operator *weights;
+    const mw_operator_options options = {.threads = q->settings->stream.common.threads,
+                                         .progress = progress_of_call()};
+    progress_phase("weighing", NULL);
+    if (mw_operator_create(q->mesh, p->located, p->count, &options, &weights, &error) != MW_OK)
+        return fail_query(&error);
+    int end = weights_write(q, p, weights, output);
+    if (end == 0 && q->settings->stream.stats) end = weights_report(q, p, weights);
+    mw_operator_destroy(weights);
+    if (end == 0 && q->settings->stream.strict && located_points_lost(p)) end = END_UNANSWERED;
+    return end;
+}
+
+static int weights_run(const void *settings, const char *const *operands)
+{
+    /* The query writes no rows: the output is ours. */
+    point_query_settings s = ((const weights_settings *)settings)->query;
+    const char *output = s.stream.common.output;
+    point_query q;
+    located_points p = {0};
+    int end = weights_check(output, operands);
+    if (end) return end;
+    s.stream.common.output = NULL;
+    end = point_query_open(&q, &s, operands, false, NULL, NULL);
+    if (end == 0) end = located_points_read(&p, &q, operands[1], NULL);
+    if (end == 0) end = weights_make(&q, &p, output);
+    located_points_release(&p);
+    point_query_release(&q);
+    return end;
+}
+
+static const option weights_options[] = {
+    {"strict", 0, OPTION_FLAG, offsetof(weights_settings, query.stream.strict), NULL,
+     "exit with 1 if a point is in no triangle", NULL},
+    {"stats", 0, OPTION_FLAG, offsetof(weights_settings, query.stream.stats), NULL,
+     "print counts on standard error when done", NULL},
+    {"json", 0, OPTION_FLAG, offsetof(weights_settings, query.stream.json), NULL,
+     "with --stats: as JSON", NULL},
+    {"layer", 0, OPTION_TEXT, offsetof(weights_settings, query.stream.source.layer), "NAME",
+     "of a file that GDAL reads: the layer with the points (default: the only one that has any)",
+     NULL},
+    {"where", 0, OPTION_TEXT, offsetof(weights_settings, query.stream.source.where), "CONDITION",
+     "of a file that GDAL reads: which features are read, in SQL, as \"depth > 10\" (default: all)",
+     NULL},
+    {0},
+};
+
+static const option *const tables[] = {weights_options, point_query_options, common_options, NULL};
+
+const command weights_command = {
+    .name = "weights",
+    .operands = "MESH POINTS",
+    .operand_count = 2,
+    .summary = "write the weights that interpolate values at points",
+    .description =
+        "Locates POINTS once, and writes which vertices of MESH each takes its value from, and "
+        "with "
+        "which weights: as netCDF in the layout of ESMF's weight files, which xESMF, uxarray and "
+        "meshwalk apply read, or, to a name that ends in .npz, as a sparse matrix of SciPy. A "
+        "point in no triangle has no weights; its status is in the variable status_b.",
+    .options = tables,
+    .essential = "columns points-crs tolerance stats output",
+    .settings_size = sizeof(weights_settings),
+    .run = weights_run,
+};

@@ -1,0 +1,40 @@
+/* row_output.h - rows that a command makes, each with a point: a table (CSV), or the features of a
+ * vector file, by the ending of its name. */
+#ifndef MW_CLI_LINES_ROW_OUTPUT_H
+#define MW_CLI_LINES_ROW_OUTPUT_H
+
+#include "cli/frame/text.h"
+#include "cli/gdal/gdal_rows.h"
+
+#include <meshwalk/meshwalk.h>
+
+typedef struct row_output {
+    const char *path; /* "-": standard output */
+    const char *crs;
+    bool quiet;
+    mw_output *out;  /* NULL if features are written */
+    gdal_rows *rows; /* NULL if a table is written */
+    text text;       /* rows not written yet */
+    double *points;  /* x, y of each of them */
+    size_t count, room;
+} row_output;
+
+/* The functions return 0, or an exit code after a complaint. */
+
+/* Refuse an output that cannot be written, before anything is read. NULL: standard output. */
+int row_output_check(const char *path);
+
+/* Begin with the header, whose texts are not in quotes.
+ *   kinds  of its columns: 't' text, 'i' integer, 'r' real
+ *   crs    of the points; NULL: not known
+ * Close it in both cases. */
+int row_output_open(row_output *o, const char *path, const text *header, const char *kinds,
+                    const char *crs, bool quiet);
+
+/* Append a row, which the caller has written to o->text with its end. */
+int row_output_row(row_output *o, const double point[2]);
+
+/* Finish the output, or remove it if not `commit`. */
+int row_output_close(row_output *o, bool commit);
+
+#endif

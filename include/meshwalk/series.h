@@ -1,0 +1,121 @@
+/**
+ * @file series.h
+ * Values over time that files hold beside a mesh: water levels, velocities, temperatures.
+ *
+ *     mw_series_open("fort.63.nc", NULL, &series, &error);
+ *     const mw_series_info *info = mw_series_describe(series);
+ *     for (size_t step = 0; step < info->step_count; step++)
+ *         mw_series_read(series, field, step, values, &error);
+ *
+ * One step of one field is read at a time; a series itself holds its times and the names of its
+ * fields only. Vertices and faces have the numbers that mw_read_mesh() gives them.
+ */
+#ifndef MESHWALK_SERIES_H
+#define MESHWALK_SERIES_H
+
+#include <meshwalk/base.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** Values over time, opened. Opaque. */
+typedef struct mw_series mw_series;
+
+/** What the values of a field belong to. */
+typedef enum mw_series_location {
+    MW_SERIES_VERTEX = 0, /**< the vertices of the mesh */
+    MW_SERIES_FACE        /**< the faces of the file, which may be polygons: mw_mesh_file.faces */
+} mw_series_location;
+
+/** A field of a series. Texts belong to the series. */
+typedef struct mw_series_field {
+    /** "zeta"; "temp:0", "temp:1" ... for the layers or components of a variable that has several,
+     * in the order of the file */
+    const char *name;
+    const char *unit; /**< "" = the file does not tell */
+    mw_series_location location;
+    int constant;       /**< 1 = the field does not depend on time: all steps are equal */
+    size_t value_count; /**< vertices or faces */
+    uint32_t reserved[4];
+} mw_series_field;
+
+/** What a series holds. Texts and arrays belong to the series. */
+typedef struct mw_series_info {
+    size_t step_count;   /**< 0 = constant fields only */
+    const double *times; /**< of the steps, increasing */
+    /** Of the times, as CF has them: "seconds since 2015-12-14 00:00:00"; "" = not known. */
+    const char *time_unit;
+    /** Calendar of CF: "standard", "noleap", "360_day" ...; "" = the file does not tell, which
+     * means "standard". */
+    const char *calendar;
+    const mw_series_field *fields;
+    size_t field_count;
+    uint32_t reserved[6];
+} mw_series_info;
+
+/** How a series is opened. All zero = the defaults. */
+typedef struct mw_series_options {
+    /** Numbers of vertices and faces of the mesh that the values belong to; 0 = those of the mesh
+     * in the file. They are needed where the mesh is in another file. */
+    size_t vertex_count, face_count;
+    const char *layout; /**< as mw_file_options.layout; NULL = recognised */
+    /** Further files with the same fields, whose times follow; NULL = none. */
+    const char *const *more_paths;
+    size_t more_count;
+    uint32_t reserved[6]; /**< must be zero */
+} mw_series_options;
+
+/**
+ * Open the values over time in a file.
+ *
+ * netCDF: every variable of numbers over the vertices or the faces of the mesh (layouts: see
+ * mw_read_mesh()), with or without a time, and with at most one dimension more, is a field, or one
+ * for each index of that dimension. Values are unpacked (scale_factor, add_offset).
+ *
+ * @param path     the file; it may be packed by gzip, which is then unpacked in memory
+ * @param options  NULL = all zero
+ * @param out      set to the series, owned by the caller (mw_series_close()), or to NULL on failure
+ * @param error    NULL, or receives the message of a failure
+ * @return MW_OK; MW_ERROR_INPUT: no such values, numbers of vertices or faces that differ from
+ *         those of the mesh, times that do not increase, a calendar that CF does not know, files
+ *         that do not fit together; MW_ERROR_SYSTEM, also where libnetcdf is not found;
+ *         MW_ERROR_ARGUMENT, MW_ERROR_MEMORY
+ *
+ * Thread-safe. Reads no values but the times.
+ */
+MW_API mw_status mw_series_open(const char *path, const mw_series_options *options, mw_series **out,
+                                mw_error *error);
+
+/** Tell what a series holds.
+ * @return owned by the series, never NULL. Thread-safe. */
+MW_API const mw_series_info *mw_series_describe(const mw_series *series);
+
+/** Find a field by its name.
+ * @return its number, from 0; SIZE_MAX = there is none. Thread-safe. */
+MW_API size_t mw_series_find(const mw_series *series, const char *name);
+
+/**
+ * Read the values of a field at a step.
+ *
+ * @param series  the series
+ * @param field   number of the field, from 0
+ * @param step    number of the step, from 0; ignored for a constant field
+ * @param values  receives mw_series_field.value_count doubles; NaN where the value is missing
+ * @param error   NULL, or receives the message of a failure
+ * @return MW_OK; MW_ERROR_ARGUMENT: no such field or step; MW_ERROR_INPUT, MW_ERROR_SYSTEM,
+ *         MW_ERROR_MEMORY
+ *
+ * One thread at a time may read from one series. O(value_count) time, no memory but `values` and
+ * what reading takes.
+ */
+MW_API mw_status mw_series_read(mw_series *series, size_t field, size_t step, double *values,
+                                mw_error *error);
+
+/** Close a series. NULL is allowed. */
+MW_API void mw_series_close(mw_series *series);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

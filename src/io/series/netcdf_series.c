@@ -1,0 +1,186 @@
+#include "io/layouts/layout_find.h"
+#include "io/layouts/netcdf_mesh.h"
+#include "io/netcdf/netcdf_values.h"
+#include "io/series/netcdf_times.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Where the values of a field stand in its variable: the numbers of dimensions. */
+typedef struct netcdf_place {
+    const mw_netcdf_variable *variable;
+    mw_netcdf_packing packing;
+    int time, layer, values; /* -1: no such dimension */
+    size_t layer_index;
+} netcdf_place;
+
+typedef struct netcdf_content {
+    mw_netcdf *file;
+    void *memory;
+    netcdf_place *places; /* of the fields */
+    int time_dimension, vertex_dimension, face_dimension;
+    mw_layout layout;
+} netcdf_content;
+
+static bool netcdf_series_is(const char *path, const char *head, size_t size)
+{
+    (void)path;
+    return mw__netcdf_begins(head, size);
+}
+
+static void netcdf_series_close(void *content)
+{
+    netcdf_content *c = content;
+    mw__netcdf_close(c->file);
+    free(c->memory);
+    free(c->places);
+    free(c);
+}
+
+/* The dimension of that length that is not the time; -1: none. */
+static int netcdf_series_dimension(const netcdf_content *c, size_t length)
+{
+    int count = (int)mw__netcdf_dimension_count(c->file);
+    for (int d = 0; d < count && length > 0; d++) {
+        size_t other;
+        mw__netcdf_dimension_at(c->file, d, &other);
+        if (other == length && d != c->time_dimension) return d;
+    }
+    return -1;
+}
+
+static mw_status netcdf_series_check_count(const netcdf_content *c, int dimension, size_t count,
+                                           const char *what, mw_error *error)
+{
+    size_t length;
+    if (dimension < 0 || count == 0) return MW_OK;
+    mw__netcdf_dimension_at(c->file, dimension, &length);
+    if (length == count) return MW_OK;
+    return mw__netcdf_fail(c->file, NULL, error, "it has values of %zu %s; the mesh has %zu",
+                           length, what, count);
+}
+
+/* The dimensions of vertices and faces: those of the mesh in the file, or by their lengths. */
+static mw_status netcdf_series_dimensions(netcdf_content *c, const mw_series_options *options,
+                                          mw_error *error)
+{
+    bool counted = options->vertex_count || options->face_count;
+    mw_status status = mw__layout_find(c->file, options->layout, &c->layout, error);
+    if (status && (status != MW_ERROR_INPUT || !counted || c->layout.x)) return status;
+    c->vertex_dimension = c->layout.vertex_dimension;
+    c->face_dimension = c->layout.face_dimension;
+    if (status) {
+        c->vertex_dimension = netcdf_series_dimension(c, options->vertex_count);
+        c->face_dimension = netcdf_series_dimension(c, options->face_count);
+        if (c->face_dimension == c->vertex_dimension) c->face_dimension = -1;
+        return MW_OK;
+    }
+    status =
+        netcdf_series_check_count(c, c->vertex_dimension, options->vertex_count, "vertices", error);
+    if (status) return status;
+    return netcdf_series_check_count(c, c->face_dimension, options->face_count, "faces", error);
+}
+
+/* Is this a field, and where are its values? */
+static bool netcdf_series_place(const netcdf_content *c, const mw_netcdf_variable *variable,
+                                netcdf_place *place)
+{
+    *place = (netcdf_place){.variable = variable, .time = -1, .layer = -1, .values = -1};
+    if (variable->rank > 3 || variable->type == MW_NETCDF_CHAR ||
+        variable->type >= MW_NETCDF_STRING || variable == c->layout.x || variable == c->layout.y ||
+        variable == c->layout.corners || variable == c->layout.counts)
+        return false;
+    for (int k = 0; k < (int)variable->rank; k++) {
+        int d = variable->dimensions[k];
+        bool values = d >= 0 && (d == c->vertex_dimension || d == c->face_dimension);
+        int *role = d == c->time_dimension ? &place->time : values ? &place->values : &place->layer;
+        if (*role >= 0) return false;
+        *role = k;
+    }
+    /* tables of numbers of vertices and of faces are constant, and have several a face */
+    bool table = place->time < 0 && place->layer >= 0 && variable->type != MW_NETCDF_FLOAT &&
+                 variable->type != MW_NETCDF_DOUBLE;
+    return place->values >= 0 && !table;
+}
+
+static mw_status netcdf_series_field(netcdf_content *c, mw_series_part *part,
+                                     const netcdf_place *place, const char *unit, mw_error *error)
+{
+    const mw_netcdf_variable *variable = place->variable;
+    char name[MW_NETCDF_NAME + 24];
+    netcdf_place *places = mw__realloc(c->places, part->field_count + 1, sizeof *places);
+    if (!places) return mw__fail_memory(error);
+    c->places = places;
+    places[part->field_count] = *place;
+    bool layers = place->layer >= 0 && variable->lengths[place->layer] > 1;
+    snprintf(name, sizeof name, layers ? "%s:%zu" : "%s", variable->name, place->layer_index);
+    mw_series_field field = {.location = variable->dimensions[place->values] == c->vertex_dimension
+                                             ? MW_SERIES_VERTEX
+                                             : MW_SERIES_FACE,
+                             .constant = place->time < 0,
+                             .value_count = variable->lengths[place->values]};
+    return mw__series_part_add(part, name, unit, field, error);
+}
+
+static mw_status netcdf_series_variable(netcdf_content *c, mw_series_part *part,
+                                        netcdf_place *place, mw_error *error)
+{
+    enum { MOST_LAYERS = 4096 };
+    char *unit;
+    size_t layers = place->layer >= 0 ? place->variable->lengths[place->layer] : 1;
+    if (layers > MOST_LAYERS) return MW_OK;
+    mw_status status = mw__netcdf_text(c->file, place->variable, "units", &unit, error);
+    if (!status && !unit) status = mw__netcdf_text(c->file, place->variable, "unit", &unit, error);
+    place->packing = mw__netcdf_packing(c->file, place->variable);
+    for (size_t k = 0; k < layers && !status; k++) {
+        place->layer_index = k;
+        status = netcdf_series_field(c, part, place, unit, error);
+    }
+    free(unit);
+    return status;
+}
+
+static mw_status netcdf_series_fill(netcdf_content *c, const mw_series_options *options,
+                                    mw_series_part *part, mw_error *error)
+{
+    c->time_dimension = mw__netcdf_time_dimension(c->file);
+    mw_status status = netcdf_series_dimensions(c, options, error);
+    if (!status) status = mw__netcdf_times(c->file, c->time_dimension, part, error);
+    for (size_t i = 0; i < mw__netcdf_variable_count(c->file) && !status; i++) {
+        netcdf_place place;
+        if (netcdf_series_place(c, mw__netcdf_variable_at(c->file, i), &place))
+            status = netcdf_series_variable(c, part, &place, error);
+    }
+    if (status || part->field_count > 0) return status;
+    return mw__netcdf_fail(c->file, NULL, error,
+                           "no values over the vertices or faces of the mesh");
+}
+
+static mw_status netcdf_series_open(mw_source *source, const mw_series_options *options,
+                                    mw_series_part *part, mw_error *error)
+{
+    netcdf_content *c = mw__calloc(1, sizeof *c);
+    if (!c) return mw__fail_memory(error);
+    part->content = c;
+    mw_status status = mw__netcdf_open_source(source, &c->file, &c->memory, error);
+    return status ? status : netcdf_series_fill(c, options, part, error);
+}
+
+static mw_status netcdf_series_read(void *content, size_t field, size_t step, double *values,
+                                    mw_error *error)
+{
+    const netcdf_content *c = content;
+    const netcdf_place *place = &c->places[field];
+    const mw_netcdf_variable *variable = place->variable;
+    size_t starts[3] = {0}, counts[3] = {1, 1, 1};
+    if (place->time >= 0) starts[place->time] = step;
+    if (place->layer >= 0) starts[place->layer] = place->layer_index;
+    counts[place->values] = variable->lengths[place->values];
+    mw_status status = mw__netcdf_doubles(c->file, variable, starts, counts, values, error);
+    if (!status) mw__netcdf_unpack(&place->packing, values, counts[place->values]);
+    return status;
+}
+
+const mw_series_kind mw__netcdf_series = {netcdf_series_is, netcdf_series_open, netcdf_series_read,
+                                          netcdf_series_close};

@@ -1,0 +1,45 @@
+#!/usr/bin/env bash
+# weights and apply: files of weights, and fields interpolated by them.
+# shellcheck source=driver.sh disable=SC2154
+. "$(dirname "$0")/driver.sh"
+printf '%s\n' "$square" >square.off
+points=$'0.75 0.25\n1 1\n2 0.5\nnan 0\n'
+
+# A sparse matrix needs no library.
+run_on "$points" weights square.off - -o w.npz --stats; exits 0; prints ''
+says '^points +4$'; says '^inside +1$|^edge +1$'; says '^outside +1$'; says '^bad +1$'
+says '^vertices +4$'; says '^weights +[1-4]$'
+holds "an archive" test "$(head -c 2 w.npz)" == PK
+run_on "$points" weights square.off - -o w.npz --strict; exits 1
+run_on "$points" weights square.off - -o w.npz --stats --json; exits 0; says '"outside": 1'
+
+# What is refused, and what is left behind: nothing.
+run_on "$points" weights square.off -; refused 2 'weights wants an output'
+run_on "$points" weights square.off - -o square.off; refused 2 'square.off'
+run_on "$points" weights square.off - -o none/w.npz; refused 4 'none/w.npz: '
+run_on "$points" weights none.off - -o w2.npz; refused 3 'none.off: '
+run apply w.npz w.npz; refused 2 'apply wants an output'
+run apply w.npz w.npz -o w.npz; refused 2 'w.npz'
+holds "nothing else was written" test "$(echo *)" == 'square.off w.npz'
+
+if ! "$meshwalk" --version | grep -q '^  netCDF .*found' ||
+    "$meshwalk" --version | grep -q 'libnetcdf is not found'; then
+    left_out "libnetcdf is not found"
+    finish
+fi
+run_on "$points" weights square.off - -o w.nc; exits 0; prints ''; says_nothing
+run apply w.npz w.nc -o o.nc; refused 3 'w.npz: '
+# A file of weights has fields, too: the coordinates of its vertices, which are linear.
+run apply w.nc w.nc --field xc_a,yc_a -o o.nc --stats; exits 0
+says 'w.nc: remark: 2 of 4 points have no weights; their values are missing'
+says '^fields +2$'; says '^rows +2$'; says '^without weights +2$'
+run apply w.nc w.nc --field xc_a -o o.nc -q; exits 0; says_nothing
+run apply w.nc w.nc --field xc_a -o o.nc --strict; exits 1
+run apply w.nc w.nc --field nope -o o2.nc; refused 3 "w.nc: there is no variable 'nope'"
+run apply o.nc w.nc -o o2.nc; refused 3 'o.nc: has no dimension n_a'
+run apply w.nc none.nc -o o2.nc; refused 3 'none.nc: '
+run apply w.nc w.nc -o none/o2.nc; refused 4 'none/o2.nc: '
+head -c 3000 w.nc >cut.nc
+run apply cut.nc w.nc -o o2.nc; refused 3 'cut.nc: '
+holds "no output of a failure" test ! -e o2.nc
+finish
