@@ -10,9 +10,11 @@ export ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0"
 # grid FILE NODATA-CONDITION: a raster of 60 x 40 pixels; text that GDAL reads.
 grid() {
     perl -e 'my $c = $ARGV[0];
-        print "ncols 60\nnrows 40\nxllcorner 1000\nyllcorner 2000\ncellsize 2.5\nNODATA_value -9999\n";
+        print "ncols 60\nnrows 40\nxllcorner 1000\nyllcorner 2000\n";
+        print "cellsize 2.5\nNODATA_value -9999\n";
         for $j (0 .. 39) { for $i (0 .. 59) {
-            printf "%s ", eval($c) ? -9999 : sprintf "%.3f", 20 * sin($i / 7) + 10 * cos($j / 5) + $i * $j / 90
+            printf "%s ", eval($c) ? -9999 :
+                sprintf "%.3f", 20 * sin($i / 7) + 10 * cos($j / 5) + $i * $j / 90
         } print "\n" }' -- "$2" >"$1"
 }
 grid full.asc 0
@@ -26,7 +28,9 @@ exits 0; prints_line '^pixels +2400$'; prints_line '^left out +0$'; prints_line 
 # pixels FILE: column, row and height of each pixel that has one.
 pixels() {
     perl -ane 'next if $. < 7; for (0 .. $#F) {
-        printf "%.17g,%.17g,%s\n", 1000 + ($_ + .5) * 2.5, 2100 - ($. - 7 + .5) * 2.5, $F[$_] if $F[$_] != -9999 }' "$1"
+        next if $F[$_] == -9999;
+        my ($x, $y) = (1000 + ($_ + .5) * 2.5, 2100 - ($. - 7 + .5) * 2.5);
+        printf "%.17g,%.17g,%s\n", $x, $y, $F[$_] }' "$1"
 }
 # keeps_to DEM TOLERANCE PIXELS: that many pixels of the raster lie in out.ply, none missed by more.
 keeps_to() {
@@ -56,9 +60,11 @@ left=$(awk '$1 == "left" { print $3 }' "$logs/out")
 keeps_to holes.asc 2 $(($(pixels holes.asc | wc -l) - left))
 holds "few are left out" test "$left" -lt 20
 run raster -q out.ply -o back.img --driver ENVI --like holes.asc; exits 0
-holds "no pixel without a height lies in a triangle" perl -e 'local $/; open my $h, "<:raw", "back.img" or die;
-    my @v = unpack "f*", <$h>; open my $g, "<", "holes.asc"; my @w = split " ", (split /-9999\n/, <$g>, 2)[1];
-    die scalar @w unless @w == 2400; for (0 .. $#v) { exit 1 if $w[$_] == -9999 && $v[$_] != -9999 }'
+holds "no pixel without a height lies in a triangle" perl -e '
+    local $/; open my $h, "<:raw", "back.img" or die; my @v = unpack "f*", <$h>;
+    open my $g, "<", "holes.asc"; my @w = split " ", (split /-9999\n/, <$g>, 2)[1];
+    die scalar @w unless @w == 2400;
+    for (0 .. $#v) { exit 1 if $w[$_] == -9999 && $v[$_] != -9999 }'
 
 # Breaklines and a boundary.
 cat >lines.geojson <<'END'
@@ -75,8 +81,10 @@ holds "the breakline keeps its heights" test "$(cut -d, -f3 "$logs/out" | xargs)
 sed -i 's/1140,2020/1300,2020/' lines.geojson
 run triangulate --from full.asc --tolerance 2 --constraints lines.geojson -o bad.ply
 refused 3 'lines\.geojson: the point 1300, 2020 has no height, and full\.asc has none there'
-echo '{"type":"Polygon","coordinates":[[[1020,2020],[1100,2030],[1060,2090],[1020,2020]]]}' >part.geojson
-run triangulate --from full.asc --tolerance 2 --boundary part.geojson -o out.ply; exits 0; says_nothing
+echo '{"type":"Polygon","coordinates":[[[1020,2020],[1100,2030],[1060,2090],[1020,2020]]]}' \
+    >part.geojson
+run triangulate --from full.asc --tolerance 2 --boundary part.geojson -o out.ply; exits 0
+says_nothing
 keeps_to full.asc 2 "$(awk '$1 == "pixels" { print $2 }' "$logs/out")"
 
 # Coordinate systems, bands, and what is refused.
@@ -85,14 +93,20 @@ holds "the system is kept" grep -aq '^comment crs EPSG:32632' out.ply
 run raster -q out.ply -o utm.tif --resolution 2.5; exits 0
 run triangulate -q --from utm.tif --tolerance 1 -o back.ply; exits 0
 holds "the raster's system" grep -aq '^comment crs PROJCS.*UTM zone 32N' back.ply
-run triangulate --from utm.tif --tolerance 1 -o bad.ply --crs EPSG:2056; refused 3 'utm\.tif: is in another system than --crs says'
-run triangulate --from utm.tif --tolerance 1 -o bad.ply --band 2; refused 3 'utm\.tif: has 1 bands, so no band 2'
+run triangulate --from utm.tif --tolerance 1 -o bad.ply --crs EPSG:2056
+refused 3 'utm\.tif: is in another system than --crs says'
+run triangulate --from utm.tif --tolerance 1 -o bad.ply --band 2
+refused 3 'utm\.tif: has 1 bands, so no band 2'
 run triangulate --from absent.tif --tolerance 1 -o bad.ply; refused 3 'absent\.tif: GDAL says: '
 run triangulate --from full.asc -o bad.ply; refused 2 '--from wants --tolerance Z'
-run triangulate points.csv --tolerance 1 -o bad.ply; refused 2 '--tolerance and --band are about --from'
-run triangulate points.csv --from full.asc --tolerance 1 -o bad.ply; refused 2 '--from RASTER stands in the place of POINTS'
-run triangulate --from full.asc --tolerance 1 --kind min-weight -o bad.ply; refused 2 '--from is for --kind delaunay only'
-run triangulate --from full.asc --tolerance 1 --max-edge 3 -o bad.ply; refused 2 '--from and --max-edge exclude each other'
+run triangulate points.csv --tolerance 1 -o bad.ply
+refused 2 '--tolerance and --band are about --from'
+run triangulate points.csv --from full.asc --tolerance 1 -o bad.ply
+refused 2 '--from RASTER stands in the place of POINTS'
+run triangulate --from full.asc --tolerance 1 --kind min-weight -o bad.ply
+refused 2 '--from is for --kind delaunay only'
+run triangulate --from full.asc --tolerance 1 --max-edge 3 -o bad.ply
+refused 2 '--from and --max-edge exclude each other'
 grid empty.asc 1
 run triangulate --from empty.asc --tolerance 1 -o bad.ply; exits 3
 grid line.asc '$j != 7'
