@@ -12,9 +12,10 @@ _meshwalk_options() {
         check) echo "--fix --tolerance --numbers --format --as --centre --lonlat --weld --json $common" ;;
         triangulate) echo "--constraints --boundary --keep --split --strict --max-edge --kind --weight --hidden --limit --format --columns --class --layer --where --crs --points-crs --constraints-crs --json $common" ;;
         locate) echo "--details --base --polygons --attribute --polygon-layer $query $stream $common" ;;
-        sample) echo "--field --outside --missing --nodata --status $query $stream $common" ;;
+        sample) echo "--field --outside --missing --nodata --status --time --values --time-column --wide --recover $query $stream $common" ;;
         weights) echo "$query --strict --stats --json --layer --where $common" ;;
         apply) echo "--field --missing --strict --stats --json $common" ;;
+        contours) echo "--interval --levels --base --field --nodata --crs $common" ;;
         profile) echo "--field --nodata --attribute --layer --columns --crs --lines-crs --strict $common" ;;
         raster)
             echo "--resolution --like --extent --field --derive --nodata --outside --max-edge --vertex-nodata --type"
@@ -29,6 +30,7 @@ _meshwalk_options() {
             echo "--max-distance --certain --start --samples --iterations --race --weld --any --columns $stream $common"
             ;;
         walk) echo "--from --to --walk --animate --max-distance --samples --iterations --as --centre --lonlat --weld $common" ;;
+        convert) echo "--format --crs $common" ;;
         bench) echo "--queries --sizes --enclose --data --engines --tasks --rounds --walk --seeds --no-times --format --plot $common" ;;
     esac
 }
@@ -40,7 +42,7 @@ _meshwalk_names() {
             if [[ $1 == bench ]]; then
                 echo 'table tsv json'
             else
-                echo 'auto off ply ply-ascii node obj stl netcdf csv vtk'
+                echo 'auto off ply ply-ascii node obj stl netcdf csv vtk vtu fort.14 gr3 2dm msh'
             fi
             ;;
         --layout) echo 'ugrid schism fvcom adcirc anuga fesom icon mpas tuflowfv' ;;
@@ -137,7 +139,7 @@ _meshwalk() {
         before=${COMP_WORDS[COMP_CWORD - 2]}
     fi
     if ((COMP_CWORD == 1)); then
-        names='info check triangulate locate sample weights apply profile raster edit star probe walk bench --help --version'
+        names='info check triangulate locate sample weights apply profile contours raster edit star probe walk convert bench --help --version'
         mapfile -t COMPREPLY < <(compgen -W "$names" -- "$word")
         return
     fi

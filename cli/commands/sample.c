@@ -3,6 +3,7 @@
 #include "cli/frame/message.h"
 #include "cli/input/mesh_field.h"
 #include "cli/output/csv_row.h"
+#include "cli/series/series_sample.h"
 #include "cli/stream/point_query.h"
 
 #include <math.h>
@@ -17,6 +18,7 @@ typedef struct sample_settings {
     const char *field, *nodata;
     int outside, missing;
     bool status;
+    series_settings series;
 } sample_settings;
 
 static const char *outside_name(int i)
@@ -55,6 +57,19 @@ static const option sample_options[] = {
     {"status", 0, OPTION_FLAG, offsetof(sample_settings, status), NULL,
      "add the column status: inside, edge, vertex, outside, hole, near or bad; or missing, where a "
      "corner has no value",
+     NULL},
+    {"time", 0, OPTION_TEXT, offsetof(sample_settings, series.time), "STEPS",
+     "values over time: all, FIRST..LAST or N (steps, from 0), or nearest:T. A row for each step "
+     "and point, with the column time; --field is a list then (default: all fields over time)",
+     NULL},
+    {"values", 0, OPTION_TEXT, offsetof(sample_settings, series.values), "FILE",
+     "the file with the values over time (default: MESH)", NULL},
+    {"time-column", 0, OPTION_TEXT, offsetof(sample_settings, series.time_column), "NAME",
+     "the column of POINTS with the time of each: its value is interpolated between steps", NULL},
+    {"wide", 0, OPTION_FLAG, offsetof(sample_settings, series.wide), NULL,
+     "with --time: one row for each point, a column for each field and step", NULL},
+    {"recover", 0, OPTION_FLAG, offsetof(sample_settings, series.recover), NULL,
+     "over time: make values at faces continuous; at a vertex the mean of its faces, by area",
      NULL},
     {0},
 };
@@ -141,9 +156,36 @@ static bool sample_row(const point_query *q, const void *self, const double poin
     return !isnan(value);
 }
 
+/* Values over time. Returns the exit code. */
+static int sample_series(const sample_settings *s, const char *const *operands)
+{
+    series_settings series = s->series;
+    const char *wrong = s->outside   ? "outside"
+                        : s->missing ? "missing"
+                        : s->nodata  ? "nodata"
+                                     : NULL;
+    if (wrong || s->query.stream.stats) {
+        complain("option '--%s' is not for values over time", wrong ? wrong : "stats");
+        return END_USAGE;
+    }
+    if (series.wide && series.time_column) {
+        complain("--wide is for --time, not for points with times of their own");
+        return END_USAGE;
+    }
+    series.fields = s->field;
+    series.status = s->status;
+    return series_sample(&s->query, &series, operands);
+}
+
 static int sample_run(const void *settings, const char *const *operands)
 {
     const sample_settings *s = settings;
+    const series_settings *over = &s->series;
+    if (over->time || over->values || over->time_column) return sample_series(s, operands);
+    if (over->wide || over->recover) {
+        complain("option '--%s' is for values over time: --time", over->wide ? "wide" : "recover");
+        return END_USAGE;
+    }
     const char *field = s->field ? s->field : "z";
     point_query q;
     const char *const answers[] = {field, s->status ? "status" : NULL, NULL};

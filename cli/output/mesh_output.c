@@ -5,6 +5,7 @@
 #include "cli/frame/signals.h"
 #include "cli/output/prj_output.h"
 
+#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
@@ -17,26 +18,13 @@ static const char *mesh_format_name(int i)
 
 const choices mesh_formats = {"format", mesh_format_name, NULL};
 
-/* Is the ending the name of a format, or .ele, which belongs to the format node, or one of netcdf?
- */
-static bool ending_is_known(const char *path)
-{
-    const char *ending = strrchr(path, '.');
-    if (!ending) return false;
-    const char *name;
-    for (size_t i = 0; (name = mw_mesh_format_name(i)); i++)
-        if (strcasecmp(ending + 1, name) == 0) return true;
-    return strcasecmp(ending, ".ele") == 0 || strcasecmp(ending, ".nc") == 0 ||
-           strcasecmp(ending, ".nc4") == 0;
-}
-
 int mesh_output_check(const char *command_name, const char *output, int format)
 {
     if (!output)
         complain("%s: -o MESH is missing: where should the mesh go?", command_name);
     else if (files_is_standard(output) && format == FORMAT_BY_ENDING)
         complain("%s: a mesh on standard output wants --format", command_name);
-    else if (format == FORMAT_BY_ENDING && !ending_is_known(output))
+    else if (format == FORMAT_BY_ENDING && !mw_mesh_format_of_path(output))
         complain("%s: no mesh format has this ending; name one with --format (off, ply, ...)",
                  output);
     else
@@ -64,24 +52,121 @@ static bool mesh_output_holds_crs(const char *output, int format)
     return false;
 }
 
-static bool format_holds_fields(const char *format)
+/* What a format has a place for. `field` and `triangle_field` are the only ones that it keeps;
+ * NULL: it keeps all if `fields`, `triangle_fields` are set. */
+typedef struct format_places {
+    const char *format, *field, *triangle_field, *second_triangle_field;
+    bool fields, triangle_fields, marks;
+} format_places;
+
+static const format_places *format_find_places(const char *format)
 {
-    static const char *const names[] = {"ply",    "ply-ascii", "node", "ele",
-                                        "netcdf", "nc",        "vtk",  "csv"};
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
-        if (strcasecmp(format, names[i]) == 0) return true;
+    static const format_places places[] = {
+        {.format = "ply", .fields = true},
+        {.format = "ply-ascii", .fields = true},
+        {.format = "node", .fields = true},
+        {.format = "netcdf", .fields = true, .triangle_fields = true},
+        {.format = "csv", .fields = true},
+        {.format = "vtk", .fields = true},
+        {.format = "vtu", .fields = true, .triangle_fields = true},
+        {.format = "fort.14", .field = "depth", .fields = true, .marks = true},
+        {.format = "gr3", .field = "depth", .fields = true, .marks = true},
+        {.format = "2dm",
+         .field = "depth",
+         .triangle_field = "material",
+         .second_triangle_field = "physical",
+         .fields = true,
+         .triangle_fields = true},
+        {.format = "msh",
+         .triangle_field = "physical",
+         .second_triangle_field = "material",
+         .triangle_fields = true,
+         .marks = true},
+        {0},
+    };
+    const format_places *p = places;
+    while (p->format && strcasecmp(p->format, format) != 0) p++;
+    return p;
+}
+
+static bool names_hold(char *const *names, size_t count, const char *name)
+{
+    for (size_t i = 0; i < count; i++)
+        if (strcmp(names[i], name) == 0) return true;
     return false;
+}
+
+/* Warn of names that are lost: all but `kept`, NULL for none. */
+static void warn_of_lost(const char *output, const char *format, const char *what,
+                         char *const *names, size_t count, const char *kept, const char *better)
+{
+    text lost = {0};
+    size_t n = 0;
+    for (size_t i = 0; i < count; i++) {
+        if (kept && strcmp(names[i], kept) == 0) continue;
+        if (n < 8) text_printf(&lost, "%s%s", n ? ", " : "", names[i]);
+        n++;
+    }
+    if (n > 8) text_printf(&lost, " and %zu more", n - 8);
+    if (n > 0 && !lost.failed)
+        complain("%s: warning: the format %s has no place for %s: %.*s %s not written; %s", output,
+                 format, what, (int)lost.size, lost.bytes, n > 1 ? "are" : "is", better);
+    text_release(&lost);
+}
+
+static void warn_of_fields(const char *output, const char *format, const format_places *p,
+                           const mw_mesh_file *file)
+{
+    /* 2dm has one place, for heights or else for the depth */
+    const char *kept = strcasecmp(format, "2dm") == 0 && file->has_z ? NULL : p->field;
+    if (!p->fields || p->field)
+        warn_of_lost(output, format, "fields", file->field_names, file->field_count, kept,
+                     "ply, node and vtu have one");
+    if (p->fields && p->field && file->has_z && strcasecmp(format, "2dm") != 0 &&
+        names_hold(file->field_names, file->field_count, p->field))
+        complain("%s: warning: the format %s has a place for heights or for the depth: the depth "
+                 "is written, the heights are not",
+                 output, format);
+    const char *first = p->triangle_field;
+    if (first && !names_hold(file->triangle_field_names, file->triangle_field_count, first))
+        first = p->second_triangle_field;
+    if (!p->triangle_fields || first)
+        warn_of_lost(output, format, "these values of triangles", file->triangle_field_names,
+                     file->triangle_field_count, first, "vtu has one");
+}
+
+/* Boundaries of fort.14 whose vertices have further values, by the types of barriers. */
+static bool mark_is_barrier(const char *mark)
+{
+    const char *word = strstr(mark, "type ");
+    long type = word ? strtol(word + 5, NULL, 10) : 0;
+    return strncmp(mark, "open", 4) != 0 && type > 0 && type < 30 && type % 10 >= 3 &&
+           type % 10 <= 5;
+}
+
+static void warn_of_marks(const char *output, const char *format, const format_places *p,
+                          const mw_mesh_file *file)
+{
+    bool land = p->marks && p->field; /* fort.14 and gr3 */
+    if (!p->marks)
+        warn_of_lost(output, format, "marked edges", file->mark_names, file->mark_count, NULL,
+                     "fort.14, gr3 and msh have one");
+    for (size_t m = 0; m < file->mark_count && land; m++) {
+        if (!mark_is_barrier(file->mark_names[m])) continue;
+        complain("%s: warning: barriers are not written, as their heights are not known: '%s'%s",
+                 output, file->mark_names[m],
+                 m + 1 < file->mark_count ? " and perhaps others" : "");
+        return;
+    }
 }
 
 void mesh_output_warn(const char *output, int format, const mw_mesh_file *file)
 {
     const char *name =
-        format == FORMAT_BY_ENDING ? strrchr(output, '.') + 1 : mesh_format_name(format);
-    if (file->field_count == 0 || format_holds_fields(name)) return;
-    complain("%s: warning: the format %s has no place for fields: %s%s%s not written; ply and node "
-             "have one",
-             output, name, file->field_names[0], file->field_count > 1 ? " and others" : "",
-             file->field_count > 1 ? " are" : " is");
+        format == FORMAT_BY_ENDING ? mw_mesh_format_of_path(output) : mesh_format_name(format);
+    const format_places *p = format_find_places(name);
+    warn_of_fields(output, name, p, file);
+    warn_of_marks(output, name, p, file);
 }
 
 int mesh_output_write(const char *output, int format, const mw_mesh_file *file, bool temporary,

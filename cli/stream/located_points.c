@@ -2,7 +2,9 @@
 #include "cli/frame/files.h"
 #include "cli/frame/message.h"
 #include "cli/frame/progress.h"
+#include "cli/output/csv_row.h"
 #include "cli/stream/query_crs.h"
+#include "cli/stream/query_header.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -12,6 +14,25 @@ void located_points_release(located_points *p)
     if (p->moved != p->points) free(p->moved);
     free(p->points);
     free(p->located);
+    free(p->row_end);
+    text_release(&p->header);
+    text_release(&p->rows);
+}
+
+size_t located_points_begin_row(const located_points *p, size_t i, text *out)
+{
+    const size_t from = i ? p->row_end[i - 1] : 0;
+    if (p->only_answers)
+        csv_row_numbers(out, p->points + i * p->width, 2);
+    else
+        text_bytes(out, p->rows.bytes + from, p->row_end[i] - from);
+    return out->size;
+}
+
+void located_points_end_row(const located_points *p, size_t begin, text *out)
+{
+    if (!p->only_answers) csv_row_adapt(out, begin, p->separator, p->decimal);
+    csv_row_end(out);
 }
 
 size_t located_points_lost(const located_points *p)
@@ -26,8 +47,39 @@ static bool located_points_grow(located_points *p)
     const size_t room = p->count + p->count / 2 + QUERY_BLOCK_SIZE;
     double *points = realloc(p->points, room * p->width * sizeof *points);
     if (points) p->points = points;
-    if (points) p->room = room;
-    return points != NULL;
+    size_t *ends = points && p->answers ? realloc(p->row_end, room * sizeof *ends) : NULL;
+    if (ends) p->row_end = ends;
+    const bool grown = points && (ends || !p->answers);
+    if (grown) p->room = room;
+    return grown;
+}
+
+/* Keep the rows of a block. */
+static int located_points_keep(located_points *p, const query_source *source, size_t count)
+{
+    for (size_t i = 0; i < count && p->answers; i++) {
+        size_t length = 0;
+        const char *row = p->only_answers ? "" : query_source_row(source, i, &length);
+        text_bytes(&p->rows, row, length);
+        p->row_end[p->count + i] = p->rows.size;
+    }
+    return p->rows.failed ? fail_memory() : 0;
+}
+
+/* The first row that is written, once the first block has told what the table is. */
+static int located_points_head(located_points *p, const query_source *source,
+                               const query_columns *columns, const size_t *index)
+{
+    mw_point_table table;
+    if (!p->answers) return 0;
+    query_source_table(source, &table);
+    p->separator = table.separator;
+    p->decimal = table.decimal;
+    if (p->only_answers)
+        query_header_write_answers(&p->header, columns, 2, p->answers);
+    else
+        query_header_write(&p->header, &table, columns, index, p->answers);
+    return p->header.failed ? fail_memory() : 0;
 }
 
 static int located_points_load(located_points *p, query_source *source)
@@ -36,6 +88,7 @@ static int located_points_load(located_points *p, query_source *source)
         if (!located_points_grow(p)) return fail_memory();
         int end =
             query_source_read(source, p->points + p->count * p->width, QUERY_BLOCK_SIZE, &count);
+        if (end == 0) end = located_points_keep(p, source, count);
         if (end) return end;
         progress_points(p->count, query_source_fraction(source));
     }
@@ -96,13 +149,15 @@ int located_points_read(located_points *p, const point_query *q, const char *pat
     size_t index[MAX_QUERY_COLUMNS];
     query_source *source = NULL;
     query_crs crs = {0};
-    *p = (located_points){.width = columns.count};
+    p->width = columns.count;
+    p->only_answers = settings->only_answers;
     columns.prefer = query_crs_prefers(&crs_settings);
     progress_phase("reading", path);
     int end = query_source_open(&source, path, &settings->source, &columns, index);
     if (end == 0) p->lonlat = query_source_is_lonlat(source);
     if (end == 0) end = query_crs_open(&crs, &crs_settings, path, source);
     if (end == 0) end = located_points_load(p, source);
+    if (end == 0) end = located_points_head(p, source, &columns, index);
     if (end == 0) end = located_points_move(p, &crs, q);
     if (end == 0) end = located_points_locate(p, q);
     if (end == 0) end = located_points_remark(p, q, path, &crs);

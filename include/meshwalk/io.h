@@ -64,7 +64,7 @@ typedef struct mw_mesh_file {
      * "comment crs ...", netCDF in a grid mapping, other files in a .prj file beside them. */
     char *crs;
     /** Per triangle the face of the file that it is a part of, from 0 in the order of the file;
-     * NULL: each face is a triangle, and triangle i is face i. Ignored by mw_write_mesh(). */
+     * NULL: each face is a triangle, and triangle i is face i. */
     uint32_t *faces;
     size_t face_count;
     int first_number; /**< what the file counts its vertices and faces from: 0 or 1 */
@@ -219,8 +219,20 @@ MW_API int mw_constraints_known(const char *path);
  * not read - "csv": a table for other programs, one row per corner of a triangle, with the columns
  *   triangle,corner,vertex,x,y,z and the fields; not read as a mesh
  *
+ * - "vtu": VTK in XML, with appended doubles; fields as point data, triangle fields as cell data
+ * - "fort.14", "gr3": ADCIRC, SCHISM. The depth is the field "depth", else the height turned round,
+ *   else 0; marked edges become boundaries: open ones if the mark begins with "open", else land of
+ *   the type behind "type" in the mark, or 0. Barriers, whose vertices have further values, are
+ *   left out
+ * - "2dm": SMS. The height is z, else the field "depth" turned round; the material is the triangle
+ *   field "material", else "physical", else 1
+ * - "msh": Gmsh 2.2 as text. Physical groups as above, else 0; marked edges are lines in groups
+ *
+ * gr3, 2dm and msh write quadrilaterals, and vtu all polygons, that were cut into triangles as they
+ * were (`faces`).
+ *
  * PLY and netCDF keep the coordinate system, others ignore it. Values per triangle go into netCDF
- * only, edges and their marks into none. Vertices,
+ * and vtu, in part into 2dm and msh, edges and their marks into fort.14, gr3 and msh. Vertices,
  * triangles, z and fields keep their order and every bit, except the sign of a NaN and the
  * vertices of STL and csv, which have corners only. Names of fields become single words.
  *
@@ -243,6 +255,10 @@ MW_API mw_status mw_write_mesh(const char *path, const mw_mesh_file *file, const
                                const mw_file_options *options, mw_error *error);
 /** The name of format i of mw_write_mesh(), i from 0; NULL beyond the last. */
 MW_API const char *mw_mesh_format_name(size_t i);
+/** Tell the format that mw_write_mesh() chooses by the ending of a name.
+ * @param path  name of the file, which need not exist
+ * @return name of the format, a constant; NULL if the ending tells none. Thread-safe. */
+MW_API const char *mw_mesh_format_of_path(const char *path);
 
 /** The names of the layouts that meshes in netCDF files can have, from 0; NULL after the last.
  * Thread-safe. */

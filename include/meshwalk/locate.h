@@ -282,7 +282,8 @@ typedef struct mw_query_options {
  * A search has up to three stages: initialisation (turning round the first vertex), walk, and final
  * location (the exact walk that ends a cheap one). The border walk alternates between walk and
  * border. Each stage except the border counts the triangle that it starts in; triangles_visited
- * counts each entry once. Layers (MW_START_LAYERS) count like the mesh. Tests in a bucket
+ * counts each entry once. Layers (MW_START_LAYERS) count like the mesh; the distances that choose
+ * the vertex at which a search goes down are not counted. Tests in a bucket
  * (MW_START_TRIANGLE_BUCKETS) count as orient_init. Counts do not depend on threads. If queries
  * start at the previous one (last, sorted, auto), counts depend on lanes.
  */

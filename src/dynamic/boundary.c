@@ -131,7 +131,7 @@ static size_t find_delaunay_apex(const mw_dynamic_tiling *dynamic, const mw_boun
             /* det < 0: next is in the circle */
             double bound, det = mw__lifted_incircle(&to, &apex, &next, &bound);
             if (MW_UNLIKELY(!(fabs(det) > bound)))
-                det = -mw__incircle_exact(from, p[to.vertex], p[apex.vertex], p[next.vertex]);
+                det = -mw__incircle_sign(from, p[to.vertex], p[apex.vertex], p[next.vertex]);
             if (det >= 0) continue;
         }
         apex = next;

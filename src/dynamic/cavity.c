@@ -97,7 +97,7 @@ static __attribute__((noinline)) bool in_circle_exact(const mw_dynamic_tiling *d
 {
     const mw_point *p = dynamic->tiling->point;
     const mw_lifted_vertex *lifted = dynamic->lifted;
-    return mw__incircle_exact(p[lifted[a].vertex], p[lifted[b].vertex], p[lifted[c].vertex], q) > 0;
+    return mw__incircle_sign(p[lifted[a].vertex], p[lifted[b].vertex], p[lifted[c].vertex], q) > 0;
 }
 
 /* `which` ? yes : no. By arithmetic, since a branch would be mispredicted. */

@@ -1,39 +1,6 @@
 #include "predicates/expansion.h"
 
-/* a + b = the returned double + *tail [Knuth]. */
-static MW_INLINE double expansion_two_sum(double a, double b, double *tail)
-{
-    double sum = a + b, b_part = sum - a, a_part = sum - b_part;
-    *tail = (a - a_part) + (b - b_part);
-    return sum;
-}
-
-/* The same where |a| >= |b| or a is 0 [Dekker]. */
-static MW_INLINE double fast_two_sum(double a, double b, double *tail)
-{
-    double sum = a + b;
-    *tail = b - (sum - a);
-    return sum;
-}
-
-/* a = high + low, each of at most 26 bits, so that products of halves are exact [Dekker]. */
-static MW_INLINE void double_split(double a, double *high, double *low)
-{
-    double c = 0x1.0000002p27 * a; /* 2^27 + 1 */
-    *high = c - (c - a);
-    *low = a - *high;
-}
-
-/* a * b = the returned double + *tail [Dekker, Veltkamp]. */
-static MW_INLINE double expansion_two_product(double a, double b, double *tail)
-{
-    double product = a * b, a_high, a_low, b_high, b_low;
-    double_split(a, &a_high, &a_low);
-    double_split(b, &b_high, &b_low);
-    double rest = ((product - a_high * b_high) - a_low * b_high) - a_high * b_low;
-    *tail = a_low * b_low - rest;
-    return product;
-}
+#include "predicates/error_free.h"
 
 /* Is the product of a and b 0 because a or b is, or far from where its tail would be lost? */
 static MW_INLINE bool product_is_safe(double a, double b, double product)
@@ -46,12 +13,12 @@ bool mw__double_cross(const double d[4], double *det)
 {
     double left_tail, right_tail, high_tail, low_tail, sum_tail;
     if (fabs(d[0]) + fabs(d[1]) + fabs(d[2]) + fabs(d[3]) > 0x1p900) return false;
-    double left = expansion_two_product(d[0], d[1], &left_tail),
-           right = expansion_two_product(d[2], d[3], &right_tail);
+    double left = mw__two_product(d[0], d[1], &left_tail),
+           right = mw__two_product(d[2], d[3], &right_tail);
     if (!product_is_safe(d[0], d[1], left) || !product_is_safe(d[2], d[3], right)) return false;
-    double high = expansion_two_sum(left, -right, &high_tail),
-           low = expansion_two_sum(left_tail, -right_tail, &low_tail);
-    double sum = expansion_two_sum(high, low, &sum_tail);
+    double high = mw__two_sum(left, -right, &high_tail),
+           low = mw__two_sum(left_tail, -right_tail, &low_tail);
+    double sum = mw__two_sum(high, low, &sum_tail);
     *det = sum + 0.0; /* no -0 */
     return fabs(high_tail) + fabs(low_tail) <= 0x1p-52 * fabs(sum);
 }
@@ -59,13 +26,13 @@ bool mw__double_cross(const double d[4], double *det)
 bool mw__difference_is_exact(double a, double b, double *difference)
 {
     double tail;
-    *difference = expansion_two_sum(a, -b, &tail);
+    *difference = mw__two_sum(a, -b, &tail);
     return tail == 0;
 }
 
 mw_expansion mw__expansion_difference(mw_arena *arena, double a, double b)
 {
-    double *h = arena->next, tail, sum = expansion_two_sum(a, -b, &tail);
+    double *h = arena->next, tail, sum = mw__two_sum(a, -b, &tail);
     int n = 0;
     if (tail != 0) h[n++] = tail;
     if (sum != 0) h[n++] = sum;
@@ -82,7 +49,7 @@ static int expansion_add(const double *e, int m, const double *f, int n, double 
     while (i < m || j < n) {
         bool take_e = j == n || (i < m && fabs(e[i]) < fabs(f[j]));
         double part = take_e ? e[i++] : sign * f[j++];
-        sum = expansion_two_sum(sum, part, &tail);
+        sum = mw__two_sum(sum, part, &tail);
         if (tail != 0) h[k++] = tail;
     }
     if (sum != 0) h[k++] = sum;
@@ -93,13 +60,13 @@ static int expansion_add(const double *e, int m, const double *f, int n, double 
 static int expansion_scale(const double *e, int m, double b, double *h)
 {
     int k = 0;
-    double tail, sum = expansion_two_product(e[0], b, &tail);
+    double tail, sum = mw__two_product(e[0], b, &tail);
     if (tail != 0) h[k++] = tail;
     for (int i = 1; i < m; i++) {
-        double low, high = expansion_two_product(e[i], b, &low);
-        sum = expansion_two_sum(sum, low, &tail);
+        double low, high = mw__two_product(e[i], b, &low);
+        sum = mw__two_sum(sum, low, &tail);
         if (tail != 0) h[k++] = tail;
-        sum = fast_two_sum(high, sum, &tail);
+        sum = mw__fast_two_sum(high, sum, &tail);
         if (tail != 0) h[k++] = tail;
     }
     h[k++] = sum;

@@ -1,6 +1,7 @@
 /* incircle.c - the exact stage of incircle: the determinant of the rows x, y, x^2 + y^2 of a - d, b
  * - d, c - d. */
 #include "predicates/big.h"
+#include "predicates/error_free.h"
 #include "predicates/expansion.h"
 
 __extension__ typedef __int128 incircle_wide;
@@ -70,6 +71,69 @@ static mw_expansion expansion_term(mw_arena *arena, const row *p, const row *q, 
     return mw__expansion_multiply(arena, lift, minor);
 }
 
+/* A number of twice the bits of a double: the sum of two. */
+typedef struct incircle_pair {
+    double high, low;
+} incircle_pair;
+
+/* a b + c d */
+static incircle_pair pair_of_products(double a, double b, double c, double d)
+{
+    double ab_tail, cd_tail, tail, ab = mw__two_product(a, b, &ab_tail),
+                                   cd = mw__two_product(c, d, &cd_tail);
+    incircle_pair r;
+    double sum = mw__two_sum(ab, cd, &tail);
+    r.high = mw__two_sum(sum, (ab_tail + cd_tail) + tail, &r.low);
+    return r;
+}
+
+static incircle_pair pair_multiply(incircle_pair a, incircle_pair b)
+{
+    incircle_pair r;
+    double tail, product = mw__two_product(a.high, b.high, &tail);
+    r.high = mw__two_sum(product, (a.high * b.low + a.low * b.high) + tail, &r.low);
+    return r;
+}
+
+static incircle_pair pair_add(incircle_pair a, incircle_pair b)
+{
+    incircle_pair r;
+    double tail, sum = mw__two_sum(a.high, b.high, &tail);
+    r.high = mw__two_sum(sum, (a.low + b.low) + tail, &r.low);
+    return r;
+}
+
+/* In pairs, where differences are exact: most of what a filter leaves open, but for points that are
+ * on one circle indeed. With u = 2^-53, and P for a permanent: lifts and minors are off by less
+ * than 4 u^2 P each, since tails are at most u of their products and rounded once or twice; a term
+ * by that of either factor times the other, and by 8 u^2 of its own, less than 20 u^2 P in all; the
+ * two sums by 4 u^2 P each. So the sign is sure beyond 28 u^2 P, and 128 u^2 is more than that with
+ * the rounding of P itself. What underflows is off by 2^-1070 times a lift or a minor, at most
+ * 2^-970; 128 u^2 P is more. */
+#define PAIRS_ERROR 0x1p-99
+#define PAIRS_LEAST 0x1p-700
+static bool incircle_with_pairs(const row p[3], double *det)
+{
+    double x[3], y[3], lifts = 0, permanent = 0;
+    incircle_pair lift[3], sum = {0, 0};
+    for (int i = 0; i < 3; i++) {
+        if (p[i].x.n > 1 || p[i].y.n > 1) return false;
+        x[i] = p[i].x.n ? p[i].x.part[0] : 0;
+        y[i] = p[i].y.n ? p[i].y.part[0] : 0;
+        lifts += x[i] * x[i] + y[i] * y[i];
+    }
+    if (!(lifts < MW_INCIRCLE_LIFTS)) return false;
+    for (int i = 0; i < 3; i++) lift[i] = pair_of_products(x[i], x[i], y[i], y[i]);
+    for (int i = 0; i < 3; i++) {
+        int j = (i + 1) % 3, k = (i + 2) % 3;
+        incircle_pair minor = pair_of_products(x[j], y[k], -x[k], y[j]);
+        sum = pair_add(sum, pair_multiply(lift[i], minor));
+        permanent += lift[i].high * (fabs(x[j] * y[k]) + fabs(x[k] * y[j]));
+    }
+    *det = sum.high;
+    return permanent > PAIRS_LEAST && fabs(sum.high) > PAIRS_ERROR * permanent;
+}
+
 /* v: a, b, c, d, two coordinates each. */
 static double incircle_with_expansions(const double v[8])
 {
@@ -125,6 +189,21 @@ double mw__incircle_exact(mw_point a, mw_point b, mw_point c, mw_point d)
     if (mw__scale_within(v, 8, LOW, scaled, &shift))
         return incircle_scaled_back(incircle_with_expansions(scaled), 4 * shift);
     return mw__all_finite(v, 8) ? incircle_with_integers(v) : 0;
+}
+
+double mw__incircle_sign(mw_point a, mw_point b, mw_point c, mw_point d)
+{
+    const double v[8] = {a.x, a.y, b.x, b.y, c.x, c.y, d.x, d.y};
+    double room[12], det;
+    mw_arena arena = {room};
+    row p[3];
+    if (MW_UNLIKELY(!mw__within(v, 8, LOW, HIGH))) return mw__incircle_exact(a, b, c, d);
+    for (int i = 0; i < 3; i++) {
+        p[i].x = mw__expansion_difference(&arena, v[2 * i], v[6]);
+        p[i].y = mw__expansion_difference(&arena, v[2 * i + 1], v[7]);
+    }
+    if (incircle_on_grid(p, &det) || incircle_with_pairs(p, &det)) return det;
+    return mw__incircle_exact(a, b, c, d);
 }
 
 double mw_incircle(const double a[2], const double b[2], const double c[2], const double d[2])

@@ -38,6 +38,8 @@ double mw__dot2d_exact(mw_point a, mw_point b, mw_point c);
  * fraction's magnitude is from 1/2 to 1, or 0. Slow. */
 double mw__orient2d_fraction(mw_point a, mw_point b, mw_point c, int *exponent);
 double mw__incircle_exact(mw_point a, mw_point b, mw_point c, mw_point d);
+/* The same, of which only the sign is right: sooner known. */
+double mw__incircle_sign(mw_point a, mw_point b, mw_point c, mw_point d);
 double mw__orient3d_exact(const double a[3], const double b[3], const double c[3],
                           const double d[3]);
 
@@ -117,7 +119,7 @@ static MW_INLINE double mw__incircle_rounded(mw_point a, mw_point b, mw_point c,
 static MW_INLINE double mw__incircle(mw_point a, mw_point b, mw_point c, mw_point d)
 {
     double bound, det = mw__incircle_rounded(a, b, c, d, &bound);
-    return MW_LIKELY(fabs(det) > bound) ? det : mw__incircle_exact(a, b, c, d);
+    return MW_LIKELY(fabs(det) > bound) ? det : mw__incircle_sign(a, b, c, d);
 }
 
 /* Bound for orient3d in terms of its permanent. A minor is off by (4u + 4u^2 + ...) P, as for

@@ -71,6 +71,7 @@ static void test_kinds(void **state)
     expect("insert 1 2 3 temp",
            EDIT(.kind = MW_EDIT_INSERT, .x = 1, .y = 2, .value = 3, .field = 0));
     expect("remove 17", EDIT(.kind = MW_EDIT_REMOVE, .vertex = 17));
+    expect("remove 0", EDIT(.kind = MW_EDIT_REMOVE, .vertex = 0));
     expect("move 4294967294 0 -0.0", EDIT(.kind = MW_EDIT_MOVE, .vertex = 4294967294u, .y = -0.0));
     expect("flip 3 9", EDIT(.kind = MW_EDIT_FLIP, .vertex = 3, .other = 9));
     expect("constrain 3 9", EDIT(.kind = MW_EDIT_CONSTRAIN, .vertex = 3, .other = 9));

@@ -263,8 +263,8 @@ static void test_read_edits(void **state)
 static void test_write(void **state)
 {
     (void)state;
-    static const char *const paths[] = {"a.off", "a.ply", "a.node", "a.obj",
-                                        "a.stl", "a.csv", "a.vtk"};
+    static const char *const paths[] = {"a.off", "a.ply", "a.node", "a.obj", "a.stl", "a.csv",
+                                        "a.vtk", "a.vtu", "a.14",   "a.gr3", "a.2dm", "a.msh"};
     for (size_t i = 0; i < sizeof paths / sizeof *paths; i++) {
         fail_each(write_mesh, paths[i]);
         files_clear();

@@ -106,6 +106,16 @@ static mw_mesh_file write_and_read(const char *path, const char *format, const m
     return mesh_file_read(path);
 }
 
+static void expect_same_corners(const mw_mesh_file *a, const mw_mesh_file *b, const char *name)
+{
+    if (a->point_count != b->point_count || a->triangle_count != b->triangle_count)
+        fail_msg("%s: %zu vertices, %zu triangles", name, b->point_count, b->triangle_count);
+    for (size_t i = 0; i < 2 * a->point_count; i++)
+        if (!same(a->points[3 * (i / 2) + i % 2], b->points[3 * (i / 2) + i % 2]))
+            fail_msg("%s: coordinate %zu", name, i);
+    assert_memory_equal(a->triangles, b->triangles, 3 * a->triangle_count * sizeof *a->triangles);
+}
+
 static void test_every_format(void **state)
 {
     (void)state;
@@ -136,6 +146,63 @@ static void test_every_format(void **state)
             files_clear();
         }
     free(s);
+}
+
+/* A triangle, a quadrilateral and a pentagon, with boundaries, a barrier among them. */
+static const char grid_vtk_text[] =
+    "# vtk DataFile Version 3.0\na\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 8 double\n"
+    "0 0 0 .1 0 0 1 1 0 0 1 0 2 0 0 2 2 0 1 3 0 0 3 0\nCELLS 3 15\n4 0 1 2 3\n3 1 4 2\n"
+    "5 3 2 5 6 7\nCELL_TYPES 3\n9 5 7\nPOINT_DATA 8\nSCALARS depth double\nLOOKUP_TABLE default\n"
+    "-1 2 3 1e-3 5 6 0.1 7\nCELL_DATA 3\nSCALARS physical int\nLOOKUP_TABLE default\n7 8 9\n";
+
+static void test_grids(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *path;
+        size_t faces;
+        bool depth, physical, marks;
+    } cases[] = {{"a.vtu", 3, true, true, false},
+                 {"a.14", 6, true, false, true},
+                 {"a.gr3", 5, true, false, true},
+                 {"a.2dm", 5, false, false, false},
+                 {"a.msh", 5, false, true, true}};
+    char *names[] = {"open 1", "land 1 type 20", "land 2 type 24"};
+    mw_marked_edge edges[] = {{{0, 1}, 0}, {{1, 4}, 0}, {{4, 5}, 1}, {{6, 3}, 2}, {{3, 0}, 1}};
+    mw_mesh_file mesh = mesh_file_read_text("a.vtk", grid_vtk_text);
+    mesh.mark_names = names;
+    mesh.mark_count = 3;
+    mesh.edges = edges;
+    mesh.edge_count = 5;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        mw_mesh_file back = write_and_read(cases[i].path, NULL, &mesh);
+        expect_same_corners(&mesh, &back, cases[i].path);
+        assert_int_equal(back.face_count, cases[i].faces);
+        assert_int_equal(back.field_count, cases[i].depth);
+        for (size_t v = 0; v < 8 && cases[i].depth; v++)
+            assert_true(back.fields[0][v] == mesh.fields[0][v]);
+        assert_int_equal(back.has_z, i == 3);
+        for (size_t v = 0; v < 8 && i == 3; v++)
+            assert_true(back.points[3 * v + 2] == -mesh.fields[0][v]);
+        if (cases[i].physical || i == 3)
+            assert_memory_equal(back.triangle_fields[0], mesh.triangle_fields[0],
+                                6 * sizeof(double));
+        bool fort14 = i == 1 || i == 2;
+        assert_int_equal(back.edge_count, fort14 ? 4 : cases[i].marks ? 5 : 0);
+        if (fort14) { /* without the barrier; chains that do not hang together are two */
+            assert_int_equal(back.mark_count, 3);
+            assert_string_equal(back.mark_names[0], "open 1");
+            assert_string_equal(back.mark_names[2], "land 2 type 20");
+            assert_true(back.edges[1].vertex[1] == 4 && back.edges[3].vertex[0] == 3);
+        }
+        if (i == 4) assert_string_equal(back.mark_names[back.edges[3].mark], "land 2 type 24");
+        mw_mesh_file_release(&back);
+        files_clear();
+    }
+    mesh.mark_names = NULL;
+    mesh.edges = NULL;
+    mesh.mark_count = mesh.edge_count = 0;
+    mw_mesh_file_release(&mesh);
 }
 
 /* STL has no vertices: they come back in the order of the corners, merged where they are equal. */
@@ -343,15 +410,11 @@ static void test_pair_or_nothing(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_every_format),
-        cmocka_unit_test(test_stl),
-        cmocka_unit_test(test_stl_normals),
-        cmocka_unit_test(test_csv),
-        cmocka_unit_test(test_vtk),
-        cmocka_unit_test(test_empty),
-        cmocka_unit_test(test_refused),
-        cmocka_unit_test(test_field_names),
-        cmocka_unit_test(test_pair_or_nothing),
+        cmocka_unit_test(test_every_format), cmocka_unit_test(test_grids),
+        cmocka_unit_test(test_stl),          cmocka_unit_test(test_stl_normals),
+        cmocka_unit_test(test_csv),          cmocka_unit_test(test_vtk),
+        cmocka_unit_test(test_empty),        cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_field_names),  cmocka_unit_test(test_pair_or_nothing),
     };
     return cmocka_run_group_tests(tests, files_enter, files_leave);
 }

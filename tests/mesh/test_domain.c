@@ -488,13 +488,50 @@ static void test_hole_numbers(void **state)
     arrays_free(&a);
 }
 
+/* Stored areas of thin triangles: in integers of 31 bits, where doubles round the products. */
+__extension__ typedef __int128 wide_area;
+
+static void test_areas_of_thin_triangles(void **state)
+{
+    (void)state;
+    uint64_t random = 7;
+    for (int round = 0; round < 3000; round++) {
+        int64_t p[6];
+        for (int i = 0; i < 4; i++) p[i] = (int64_t)(mw__random(&random) >> 33) - (1 << 30);
+        double along = random_unit(&random);
+        for (int i = 0; i < 2; i++)
+            p[4 + i] =
+                p[i] + (int64_t)(along * (double)(p[2 + i] - p[i])) + mw__random_below(&random, 3);
+        wide_area exact =
+            (wide_area)(p[2] - p[0]) * (p[5] - p[1]) - (wide_area)(p[3] - p[1]) * (p[4] - p[0]);
+        if (exact <= 0) continue;
+        double want = (double)exact;
+        arrays a = arrays_make(3, 1);
+        for (int i = 0; i < 3; i++) arrays_point(&a, (double)p[2 * i], (double)p[2 * i + 1]);
+        arrays_triangle(&a, 0, 1, 2);
+        mw_mesh *mesh;
+        mw_tiling tiling = tile(&a, &mesh);
+        assert_int_equal(mw__tiling_areas(&tiling, NULL), MW_OK);
+        if (!(fabs(tiling.area[0] - want) <= (MW_AREA_ERROR + 0x1p-52) * want))
+            fail_msg("round %d: the area %.17g is %.17g", round, want, tiling.area[0]);
+        mw__tiling_release(&tiling);
+        mw_mesh_destroy(mesh);
+        arrays_free(&a);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_borrowed),     cmocka_unit_test(test_nothing_to_tile),
-        cmocka_unit_test(test_hole_numbers), cmocka_unit_test(test_small),
-        cmocka_unit_test(test_extreme),      cmocka_unit_test(test_large),
-        cmocka_unit_test(test_slivers),      cmocka_unit_test(test_bundle),
+        cmocka_unit_test(test_areas_of_thin_triangles),
+        cmocka_unit_test(test_borrowed),
+        cmocka_unit_test(test_nothing_to_tile),
+        cmocka_unit_test(test_hole_numbers),
+        cmocka_unit_test(test_small),
+        cmocka_unit_test(test_extreme),
+        cmocka_unit_test(test_large),
+        cmocka_unit_test(test_slivers),
+        cmocka_unit_test(test_bundle),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -294,6 +294,23 @@ static void a_ring_given_twice_encloses_nothing(void **state)
     scene_check();
 }
 
+/* A bow tie whose segments cross in a vertex of another polygon. */
+static void a_crossing_in_a_vertex_is_noticed(void **state)
+{
+    (void)state;
+    scene_begin(1);
+    scene_box(2, -4, 1, 1, 0);
+    scene_box(2, 2, 4, 1, 1);
+    uint32_t first = scene.points;
+    scene_point(0, 0), scene_point(4, 4), scene_point(4, 0), scene_point(0, 4);
+    scene_ring(first, 2);
+    scene_query_near();
+    scene_query_random(50, -1, 5);
+    scene_check();
+    mw_constraints rings = scene_rings();
+    assert_true(location_oracle_crosses(&rings, 2));
+}
+
 /* Coordinates at the ends of the doubles. */
 static void extreme_coordinates_are_exact(void **state)
 {
@@ -404,6 +421,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lattice_rings_are_exact),
+        cmocka_unit_test(a_crossing_in_a_vertex_is_noticed),
         cmocka_unit_test(crossing_stars_are_exact),
         cmocka_unit_test(parcels_share_borders),
         cmocka_unit_test(nested_rings_are_listed),

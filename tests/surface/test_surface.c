@@ -945,7 +945,6 @@ static const struct {
     {"bad/crlf_header.ply", 8, 12, 0, 0, 1, 2, 0, 0, 0},
     {"bad/busted.stl.gz", 1941, 3878, 0, 0, 1, 2, 0, 0, 0},
     {"bad/soup.stl", 300, 100, 300, 100, 100, 100, 0, 0, 0},
-    {"bad/wallhole.obj", 92, 66, 92, 13, 13, 13, 0, 0, 0},
     {"bad/hourglass_ico.obj", 23, 40, 0, 0, 1, 3, 0, 1, 0},
     {"bad/moebius.obj", 280, 448, 112, 1, 1, 0, 0, 0, 4},
     {"bad/blobby_shuffled.off.gz", 2027, 4050, 0, 0, 1, 2, 0, 0, 3069},

@@ -214,6 +214,45 @@ static void test_stride(void **state)
 }
 
 /* Triangles that follow each other lie near each other, whatever the order of the points. */
+/* Multiplied by a power of two the points have the same triangles, in the same order, and that
+ * takes no more steps: also where every product leaves the doubles. Where that would cost bits of
+ * small coordinates, the triangulation is right all the same. */
+static void test_scales(void **state)
+{
+    (void)state;
+    enum { N = 3000 };
+    static const int exponents[] = {-1070, -1000, -500, -160, 100, 260, 900, 980};
+    uint64_t random = 41;
+    mw_point point[N], scaled[N];
+    mw_mesh *mesh, *same;
+    mw_delaunay_report report, again;
+    for (uint32_t i = 0; i < N; i++) { /* integers, so that the least exponent costs no bit */
+        point[i].x = mw__random_below(&random, 1 << 20);
+        point[i].y = mw__random_below(&random, 1 << 20);
+    }
+    assert_int_equal(mw_delaunay(&point->x, N, 0, NULL, NULL, &report, &mesh, NULL), MW_OK);
+    for (size_t e = 0; e < sizeof exponents / sizeof *exponents; e++) {
+        for (uint32_t i = 0; i < N; i++)
+            scaled[i] =
+                (mw_point){ldexp(point[i].x, exponents[e]), ldexp(point[i].y, exponents[e])};
+        assert_int_equal(mw_delaunay(&scaled->x, N, 0, NULL, NULL, &again, &same, NULL), MW_OK);
+        assert_int_equal(again.triangles_visited, report.triangles_visited);
+        assert_int_equal(mw_mesh_triangle_count(same), mw_mesh_triangle_count(mesh));
+        for (uint32_t t = 0; t < mw_mesh_triangle_count(mesh); t++) {
+            uint32_t v[3], w[3];
+            mw_mesh_triangle(mesh, t, v);
+            mw_mesh_triangle(same, t, w);
+            assert_memory_equal(v, w, sizeof v);
+        }
+        mw_mesh_destroy(same);
+    }
+    mw_mesh_destroy(mesh);
+    for (uint32_t i = 0; i < 40; i++) /* from 2^-500 to 2^990 */
+        scaled[i] = (mw_point){ldexp(point[i].x, (int)(i % 40) * 37 - 500),
+                               ldexp(point[i].y, (int)(i % 7) * 200 - 500)};
+    triangulate(scaled, 40);
+}
+
 static void test_order_of_triangles(void **state)
 {
     (void)state;
@@ -267,6 +306,7 @@ int main(void)
         cmocka_unit_test(test_refused_points),
         cmocka_unit_test(test_refused_calls),
         cmocka_unit_test(test_stride),
+        cmocka_unit_test(test_scales),
         cmocka_unit_test(test_order_of_triangles),
         cmocka_unit_test(test_memory_failures),
     };

@@ -1,6 +1,7 @@
 #include "io/formats/mesh_formats.h"
 
 #include "io/grid/grid_readers.h"
+#include "io/grid/grid_writers.h"
 #include "io/layouts/netcdf_mesh.h"
 #include "io/mesh/mesh_readers.h"
 #include "io/mesh/mesh_writers.h"
@@ -123,12 +124,27 @@ static const mw_mesh_format formats[] = {
      .first_bytes = begins_vtk,
      .read = mw__read_vtk,
      .write = mw__write_vtk},
-    {.name = "vtu", .endings = ".vtu\0", .first_bytes = begins_vtu, .read = mw__read_vtu},
-    {.name = "fort.14", .endings = ".14\0.grd\0", .read = mw__read_fort14},
-    {.name = "gr3", .endings = ".gr3\0", .read = mw__read_fort14},
+    {.name = "vtu",
+     .endings = ".vtu\0",
+     .first_bytes = begins_vtu,
+     .read = mw__read_vtu,
+     .write = mw__write_vtu},
+    {.name = "fort.14",
+     .endings = ".14\0.grd\0",
+     .read = mw__read_fort14,
+     .write = mw__write_fort14},
+    {.name = "gr3", .endings = ".gr3\0", .read = mw__read_fort14, .write = mw__write_gr3},
     {.name = "ll", .endings = ".ll\0", .read = mw__read_hgrid_ll},
-    {.name = "2dm", .endings = ".2dm\0", .first_word = is_2dm, .read = mw__read_2dm},
-    {.name = "msh", .endings = ".msh\0", .first_word = is_msh, .read = mw__read_msh},
+    {.name = "2dm",
+     .endings = ".2dm\0",
+     .first_word = is_2dm,
+     .read = mw__read_2dm,
+     .write = mw__write_2dm},
+    {.name = "msh",
+     .endings = ".msh\0",
+     .first_word = is_msh,
+     .read = mw__read_msh,
+     .write = mw__write_msh},
     {.name = "selafin",
      .endings = ".slf\0.selafin\0.ser\0",
      .first_bytes = begins_selafin,
@@ -150,6 +166,12 @@ const char *mw_mesh_format_name(size_t i)
     for (size_t k = 0; k < FORMAT_COUNT; k++)
         if (formats[k].write && i-- == 0) return formats[k].name;
     return NULL;
+}
+
+const char *mw_mesh_format_of_path(const char *path)
+{
+    const mw_mesh_format *format = path ? mw__mesh_format_by_path(path) : NULL;
+    return format && format->write ? format->name : NULL;
 }
 
 const mw_mesh_format *mw__mesh_format_by_path(const char *path)

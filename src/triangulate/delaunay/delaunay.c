@@ -20,6 +20,7 @@ enum {
 
 typedef struct delaunay {
     const mw_point *given;
+    mw_point *scaled; /* NULL, or what takes the place of those given */
     mw_delaunay_setup setup;
     mw_job *job;
     mw_extent extent;
@@ -29,6 +30,7 @@ typedef struct delaunay {
 
 static void delaunay_release(delaunay *d)
 {
+    free(d->scaled);
     free(d->arrays.order);
     free(d->arrays.sequence);
     free(d->arrays.point);
@@ -134,6 +136,45 @@ static mw_status delaunay_measure(delaunay *d, mw_error *error)
     return MW_OK;
 }
 
+/* The least magnitude of a coordinate that is not 0. */
+static double points_least(const mw_point *points, uint32_t n)
+{
+    double least = INFINITY;
+    for (uint32_t i = 0; i < n; i++) {
+        double x = fabs(points[i].x), y = fabs(points[i].y);
+        if (x > 0 && x < least) least = x;
+        if (y > 0 && y < least) least = y;
+    }
+    return least;
+}
+
+/* Where products of four coordinates would leave the doubles no filter decides. Multiplied by a
+ * power of two, so that the largest coordinate is about 1, points have the same triangulation, if
+ * none loses a bit. False when out of memory. */
+static bool delaunay_scale(delaunay *d)
+{
+    const double *low = d->extent.low, *high = d->extent.high;
+    double most = fmax(fmax(fabs(low[0]), fabs(high[0])), fmax(fabs(low[1]), fabs(high[1])));
+    if (!(most > 0) || (most > 0x1p-150 && most < 0x1p200)) return true;
+    uint32_t n = d->arrays.n;
+    int shift = -ilogb(most);
+    if (shift < 0 && points_least(d->given, n) < ldexp(1, -900 - shift)) return true;
+    double half = ldexp(1, shift / 2), rest = ldexp(1, shift - shift / 2); /* 2^1074 is no double */
+    d->scaled = mw__alloc_lines(n, sizeof *d->scaled);
+    if (!d->scaled) return false;
+    for (uint32_t i = 0; i < n; i++)
+        d->scaled[i] = (mw_point){d->given[i].x * half * rest, d->given[i].y * half * rest};
+    d->given = d->scaled;
+    for (int k = 0; k < 2; k++) {
+        d->extent.low[k] = d->extent.low[k] * half * rest;
+        d->extent.high[k] = d->extent.high[k] * half * rest;
+    }
+    d->arrays.width = d->extent.high[0] - d->extent.low[0];
+    d->arrays.height = d->extent.high[1] - d->extent.low[1];
+    d->arrays.unit = d->arrays.unit * half * rest;
+    return true;
+}
+
 /* Nothing has grown: no three of the points are the corners of a triangle. */
 static mw_status delaunay_fail_flat(const delaunay *d, mw_error *error)
 {
@@ -195,6 +236,7 @@ static mw_status delaunay_prepare(delaunay *d, mw_error *error)
         return mw__fail(error, MW_ERROR_LIMIT, "too many points: %u", g->n);
     mw_status status = delaunay_measure(d, error);
     if (status != MW_OK) return status;
+    if (!delaunay_scale(d)) return mw__fail_memory(error);
     g->order = mw__alloc_lines(g->n, sizeof *g->order);
     g->point = mw__alloc_lines(g->n, sizeof *g->point);
     g->sequence = mw__alloc_lines(g->n, sizeof *g->sequence);

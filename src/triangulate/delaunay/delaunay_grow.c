@@ -57,7 +57,7 @@ static __attribute__((noinline)) bool growth_in_circle_exact(const mw_growth *g,
 {
     const mw_point *p = g->point;
     if (a != g->infinity && b != g->infinity && c != g->infinity)
-        return mw__incircle_exact(p[a], p[b], p[c], q) > 0;
+        return mw__incircle_sign(p[a], p[b], p[c], q) > 0;
     uint32_t from = a == g->infinity ? b : b == g->infinity ? c : a;
     uint32_t to = a == g->infinity ? c : b == g->infinity ? a : b;
     double side = mw__orient2d(p[from], p[to], q);

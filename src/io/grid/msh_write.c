@@ -1,0 +1,83 @@
+/* Writing MSH of Gmsh, version 2.2 as text: marked edges are lines in physical groups with the
+ * names of the marks, faces are triangles and quadrilaterals in the physical group that the
+ * triangle field "physical" (or "material") tells. */
+#include "io/grid/grid_writers.h"
+
+#include <math.h>
+
+/* number type 2 group entity */
+static void msh_write_tags(mw_output *output, size_t number, int type, int64_t group)
+{
+    mw__output_integer(output, number);
+    mw_output_printf(output, " %d 2 ", type);
+    for (int i = 0; i < 2; i++) {
+        mw__output_signed(output, group);
+        mw__output_char(output, ' ');
+    }
+}
+
+static void msh_write_edges(mw_output *output, const mw_mesh_file *file)
+{
+    for (size_t e = 0; e < file->edge_count && !mw_output_failed(output); e++) {
+        const mw_marked_edge *edge = &file->edges[e];
+        msh_write_tags(output, e + 1, 1, (int64_t)edge->mark + 1);
+        mw__output_integer(output, (uint64_t)edge->vertex[0] + 1);
+        mw__output_char(output, ' ');
+        mw__output_integer(output, (uint64_t)edge->vertex[1] + 1);
+        mw__output_char(output, '\n');
+    }
+}
+
+static void msh_write_faces(mw_output *output, const mw_mesh_file *file)
+{
+    const double *groups = mw__triangle_values(file, "physical");
+    size_t face = file->edge_count, count;
+    if (!groups) groups = mw__triangle_values(file, "material");
+    for (size_t t = 0; t < file->triangle_count && !mw_output_failed(output); t += count) {
+        count = mw__face_triangles(file, t, 4);
+        double group = groups && fabs(groups[t]) < 0x1p31 ? groups[t] : 0;
+        msh_write_tags(output, ++face, count == 2 ? 3 : 2, (int64_t)group);
+        for (size_t k = 0; k < count + 2; k++) {
+            mw__output_integer(output, (uint64_t)mw__face_corner(file, t, k) + 1);
+            mw__output_char(output, k < count + 1 ? ' ' : '\n');
+        }
+    }
+}
+
+static void msh_write_names(mw_output *output, const mw_mesh_file *file)
+{
+    if (file->mark_count == 0) return;
+    mw_output_printf(output, "$PhysicalNames\n%zu\n", file->mark_count);
+    for (size_t m = 0; m < file->mark_count; m++) {
+        mw_output_printf(output, "1 %zu \"", m + 1);
+        for (const char *c = file->mark_names[m]; *c; c++)
+            mw__output_char(output, *c == '"' || (unsigned char)*c < ' ' ? '\'' : *c);
+        mw__output_text(output, "\"\n");
+    }
+    mw__output_text(output, "$EndPhysicalNames\n");
+}
+
+static void msh_write(mw_output *output, const mw_mesh_file *file)
+{
+    mw__output_text(output, "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n");
+    msh_write_names(output, file);
+    mw_output_printf(output, "$Nodes\n%zu\n", file->point_count);
+    for (size_t v = 0; v < file->point_count && !mw_output_failed(output); v++) {
+        mw__output_integer(output, v + 1);
+        for (size_t k = 0; k < 3; k++) {
+            mw__output_char(output, ' ');
+            mw_output_double(output, file->points[3 * v + k]);
+        }
+        mw__output_char(output, '\n');
+    }
+    mw_output_printf(output, "$EndNodes\n$Elements\n%zu\n",
+                     file->edge_count + mw__face_count(file, 4));
+    msh_write_edges(output, file);
+    msh_write_faces(output, file);
+    mw__output_text(output, "$EndElements\n");
+}
+
+mw_status mw__write_msh(const char *path, const mw_mesh_file *file, mw_job *job, mw_error *error)
+{
+    return mw__write_file(path, file, msh_write, job, error);
+}

@@ -1,0 +1,70 @@
+#!/usr/bin/env bash
+# convert: meshes from one format to another, what is lost on the way, exit codes.
+# shellcheck source=driver.sh disable=SC2154
+. "$(dirname "$0")/driver.sh"
+
+printf 'a mesh\n2 5\n%s\n' '1 0 0 0.5
+2 2 0 1
+3 2 2 -1
+4 0 2 0.001
+5 4 0 7
+1 4 1 2 3 4
+2 3 2 5 3
+1
+2
+2
+1
+2
+1
+2
+2 24
+5
+3' >a.gr3
+
+# There and back again.
+run convert -q a.gr3 b.gr3; exits 0
+head -13 a.gr3 | tail -11 >wanted
+holds "vertices, faces and boundaries are the same" diff wanted <(tail -n +3 b.gr3 | head -11 |
+    sed 's/ = .*//')
+for to in vtu 2dm; do
+    run convert -q a.gr3 "b.$to"; exits 0
+    run convert -q "b.$to" c.gr3; exits 0
+    holds "$to keeps vertices, their depth, and faces" diff <(head -7 wanted) \
+        <(tail -n +3 c.gr3 | head -7)
+done
+run convert a.gr3 b.vtu; exits 0
+says 'has no place for marked edges: open 1, land 1 type 24 are not written; fort.14, gr3 and msh'
+run convert a.gr3 b.14; exits 0
+says "barriers are not written, as their heights are not known: 'land 1 type 24'"
+holds "ADCIRC has triangles only" test "$(sed -n 2p b.14)" = '3 5'
+run convert -q a.gr3 -o b.off; exits 0; says_nothing
+run convert a.gr3 b.off; exits 0
+says 'the format off has no place for fields: depth is not written; ply, node and vtu have one'
+run convert a.gr3 b.2dm; exits 0
+holds "2dm has heights, which are depths turned round" grep -q '^ND 5 4 0 -7$' b.2dm
+holds "and quadrilaterals" grep -q '^E4Q 1 1 2 3 4 1$' b.2dm
+run convert b.2dm b.msh; exits 0; says_nothing
+holds "materials are physical groups" grep -q '^1 3 2 1 1 1 2 3 4$' b.msh
+run_on "$(cat b.msh)" convert --format fort.14 - -; exits 0
+says 'the format fort.14 has no place for these values of triangles: physical is not written'
+prints_line '^5 4 0 7$'
+
+# The coordinate system stays: inside PLY, else in a file beside.
+cp a.gr3 hgrid.ll
+run convert -q hgrid.ll b.ply; exits 0
+holds "PLY holds the system" grep -qa 'comment crs EPSG:4326' b.ply
+run convert --crs EPSG:32610 -q b.2dm d.msh; exits 0
+holds "a system on request" grep -q 'EPSG:32610\|UTM zone 10N\|UTM_zone_10N\|UTM Zone 10' d.prj
+
+# What cannot be done leaves nothing behind.
+run convert a.gr3; exits 2
+run convert a.gr3 x.nothing; exits 2; says 'no mesh format has this ending'
+run convert a.gr3 -; exits 2; says 'wants --format'
+run convert a.gr3 a.gr3; exits 2; says 'is input and output'
+run convert -o x.off a.gr3 y.off; exits 2; says "two outputs, 'y.off' and -o x.off"
+run convert none.gr3 x.off; exits 3; says 'none.gr3'
+printf 'bad\n1 3\n' >bad.gr3
+run convert bad.gr3 x.off; exits 3; says 'bad.gr3:2: the file ends after 0 of 3 vertices'
+run convert a.gr3 nowhere/x.off; exits 4
+holds "nothing is left" test ! -e x.off -a ! -e y.off -a ! -e x.nothing
+finish

@@ -1,0 +1,73 @@
+#!/usr/bin/env bash
+# sample --time: values over time, as a row for each step, a column for each step, or at the times
+# of the points.
+# shellcheck source=driver.sh disable=SC2154
+. "$(dirname "$0")/driver.sh"
+if "$meshwalk" --version | grep -q 'libnetcdf is not found'; then
+    left_out "libnetcdf is not found"
+    finish
+fi
+
+# UGRID, classic netCDF: the unit square cut into two triangles, zeta = 10 time + x + y at the
+# vertices at 0, 1 and 3 hours, u at the faces: 1 3, then 2 4, then 5 9.
+base64 -d <<'END' | gunzip >flow.nc
+H4sIAAAAAAACA31SzU7CQBCmFKRRTIgxxGNjjPGCKZw8CQkE41ETz7Vpt3YT2DXdhYDPwcHH8DF4Bk8ePfoI7tAZSpvAppNvZ/bb
+b366w9HYqmTr2FgNTPMpM2jDXsiIUTwOQthXjdV1kjKW3QNe0xjonAylmDOhuRSqgtzWcNzp3t65Lw/PjyOz84BnrAF3FpmGhUbr
+yJhrrq8hvjzM+YXaPpgOMB9xm9TDlKkEz2jvTGQYQJUUxz7rM8G1yjQgbk3zXK9GzoHYLD8nbJb0D+bCOYKmmYWd7Myc+qN5lutp
+J3KWKldxETK35/W8jtc137bGC6P3CdxYbO9Uy/9I6SDVPhcR20y/tpO3hhpfO/VTPXDWCGM/lRNG2qfA8bV8lxP5hv/pjFw/Mk0J
+lXWe59m8CZi3H0qZRlwEmimqc+FuVNowIx9JQrBQ8znXy7ynONc0Zq/pUfT/irhv7eORPyj7V4jXiDcl/x6xjzgo+lsdp6g/aCGe
+I17uqccphK3S+7O/V08//0E+QenMAwAA
+END
+printf '%s\n' id,x,y,t a,0.75,0.25,0.5 b,0.25,0.75,2 c,5,5,1 d,1,1,3 e,0,0,4 >points.csv
+
+run sample flow.nc points.csv --time all; exits 0
+prints $'id,x,y,t,time,zeta,u
+a,0.75,0.25,0.5,0,1,1\nb,0.25,0.75,2,0,1,3\nc,5,5,1,0,,\nd,1,1,3,0,2,1\ne,0,0,4,0,0,1
+a,0.75,0.25,0.5,1,11,2\nb,0.25,0.75,2,1,11,4\nc,5,5,1,1,,\nd,1,1,3,1,12,2\ne,0,0,4,1,10,2
+a,0.75,0.25,0.5,3,31,5\nb,0.25,0.75,2,3,31,9\nc,5,5,1,3,,\nd,1,1,3,3,32,5\ne,0,0,4,3,30,5'
+says '^meshwalk: flow.nc: remark: 3 of 3 steps; times are in hours since 2020-01-01$'
+cp "$logs/out" all.csv
+run sample flow.nc points.csv --time 0..2 --threads 2 -q; exits 0; says_nothing
+prints "$(<all.csv)"
+run sample square.off points.csv --values flow.nc -q; refused 3 'square.off'
+run sample flow.nc points.csv --values flow.nc -q; exits 0; prints "$(<all.csv)"
+
+run sample flow.nc points.csv --time 1..2 --wide --field u,zeta --status -q; exits 0
+prints $'id,x,y,t,u@1,zeta@1,u@3,zeta@3,status
+a,0.75,0.25,0.5,2,11,5,31,inside\nb,0.25,0.75,2,4,11,9,31,inside\nc,5,5,1,,,,,outside
+d,1,1,3,2,12,5,32,vertex\ne,0,0,4,2,10,5,30,vertex'
+run sample flow.nc points.csv --time nearest:1.9 --only-answers --field zeta -q; exits 0
+prints $'x,y,time,zeta\n0.75,0.25,1,11\n0.25,0.75,1,11\n5,5,1,\n1,1,1,12\n0,0,1,10'
+# Vertices 0 and 2 have both faces, the others one.
+run sample flow.nc points.csv --time 0 --field u --recover -q; exits 0
+prints $'id,x,y,t,time,u
+a,0.75,0.25,0.5,0,1.5\nb,0.25,0.75,2,0,2.5\nc,5,5,1,0,\nd,1,1,3,0,2\ne,0,0,4,0,2'
+
+# Each point at its own time; none before the first or after the last step.
+run sample flow.nc points.csv --time-column t -q; exits 0
+prints $'id,x,y,t,zeta,u
+a,0.75,0.25,0.5,6,1.5\nb,0.25,0.75,2,21,6.5\nc,5,5,1,,\nd,1,1,3,32,5\ne,0,0,4,,'
+run sample flow.nc points.csv --time-column t --time 1..2 -q; exits 0
+prints $'id,x,y,t,zeta,u
+a,0.75,0.25,0.5,,\nb,0.25,0.75,2,21,6.5\nc,5,5,1,,\nd,1,1,3,32,5\ne,0,0,4,,'
+printf '%s\n' 'id;x;y;t' 'a;0,75;0,25;0,5' >comma.csv
+run sample flow.nc comma.csv --time 0..1 -q; exits 0
+prints $'id;x;y;t;time;zeta;u\na;0,75;0,25;0,5;0;1;1\na;0,75;0,25;0,5;1;11;2'
+run sample flow.nc points.csv --time 0 --strict -q; exits 1
+
+# What is refused.
+run sample flow.nc points.csv --time 7; refused 3 'flow.nc: has 3 steps, from 0: there is no step 7'
+for time in x 2..1 1.. nearest: nearest:nan -1; do
+    run sample flow.nc points.csv "--time=$time"; refused 2 "'--time' wants all, FIRST..LAST or N"
+done
+run sample flow.nc points.csv --time all --field zeta,w
+refused 3 "flow.nc: has no field 'w' over time; --field may be of: zeta u"
+run sample flow.nc points.csv --time all --outside nearest
+refused 2 "'--outside' is not for values"
+run sample flow.nc points.csv --time-column t --wide; refused 2 '--wide is for --time'
+run sample flow.nc points.csv --recover; refused 2 "'--recover' is for values over time"
+run sample flow.nc points.csv --time-column hour -q; refused 2 'which of its 4 columns are x,y,hour'
+printf '%s\n' 'OFF' '3 1 0' '0 0 0' '1 0 0' '0 1 0' '3 0 1 2' >three.off
+run sample three.off points.csv --values flow.nc; refused 3 'flow.nc'
+run sample flow.nc points.csv --time all -o flow.nc; refused 2 'flow.nc'
+finish
