@@ -10,7 +10,7 @@ _meshwalk_options() {
     case $1 in
         info) echo "--layer --as --centre --lonlat --weld --json $common" ;;
         check) echo "--fix --tolerance --numbers --format --as --centre --lonlat --weld --json $common" ;;
-        triangulate) echo "--constraints --boundary --keep --split --strict --max-edge --kind --weight --hidden --limit --format --columns --class --layer --where --crs --points-crs --constraints-crs --json $common" ;;
+        triangulate) echo "--constraints --boundary --keep --split --strict --max-edge --from --tolerance --band --kind --weight --hidden --limit --format --columns --class --layer --where --crs --points-crs --constraints-crs --json $common" ;;
         locate) echo "--details --base --polygons --attribute --polygon-layer $query $stream $common" ;;
         sample) echo "--field --outside --missing --nodata --status --time --values --time-column --wide --recover $query $stream $common" ;;
         weights) echo "$query --strict --stats --json --layer --where $common" ;;
