@@ -5,6 +5,7 @@
 #include "cli/gdal/gdal_directory.h"
 
 #include <inttypes.h>
+#include <limits.h>
 #include <math.h>
 #include <meshwalk/meshwalk.h>
 #include <stdio.h>
@@ -73,6 +74,7 @@ struct gdal_rows {
     uint64_t written, committed;
     bool warned;
     bool points_needed; /* the format holds no rows without one */
+    size_t line_count;  /* points of the line of the row that is written */
 };
 
 /* --- rows ------------------------------------------------------------------------------------- */
@@ -281,8 +283,11 @@ static int rows_create_layer(gdal_rows *r)
     r->set = gdal->GDALCreate(gdal->GDALGetDriverByName(driver), r->place.temporary, 0, 0, 0,
                               GDT_Unknown, NULL);
     if (r->set)
-        r->layer = gdal->GDALDatasetCreateLayer(
-            r->set, name, crs, r->form.dimensions == 3 ? wkbPoint25D : wkbPoint, options);
+        r->layer = gdal->GDALDatasetCreateLayer(r->set, name, crs,
+                                                r->form.lines             ? wkbLineString
+                                                : r->form.dimensions == 3 ? wkbPoint25D
+                                                                          : wkbPoint,
+                                                options);
     if (crs) gdal->OSRRelease(crs);
     if (!r->layer) return rows_fail(r, "it cannot be written");
     int end = 0;
@@ -365,6 +370,18 @@ static int feature_set_point(gdal_rows *r, OGRFeatureH feature, const double *p)
     return 0;
 }
 
+static int feature_set_line(gdal_rows *r, OGRFeatureH feature, const double *points)
+{
+    const gdal_functions *gdal = r->gdal;
+    OGRGeometryH line = gdal->OGR_G_CreateGeometry(wkbLineString);
+    rows_warn_of_lonlat(r, points);
+    /* from the end, so that it grows once */
+    for (size_t i = r->line_count; i-- > 0;)
+        gdal->OGR_G_SetPoint_2D(line, (int)i, points[2 * i], points[2 * i + 1]);
+    gdal->OGR_F_SetGeometryDirectly(feature, line);
+    return 0;
+}
+
 static int rows_write_feature(gdal_rows *r, const double *point)
 {
     const gdal_functions *gdal = r->gdal;
@@ -372,7 +389,9 @@ static int rows_write_feature(gdal_rows *r, const double *point)
     int end = feature ? 0 : fail_memory();
     for (size_t i = r->form.dropped; end == 0 && i < r->count; i++)
         end = feature_set_field(r, feature, &r->columns[i], &r->cells[i]);
-    if (end == 0) end = feature_set_point(r, feature, point);
+    if (end == 0)
+        end = r->form.lines ? feature_set_line(r, feature, point)
+                            : feature_set_point(r, feature, point);
     if (end == 0) {
         gdal->CPLErrorReset();
         if (gdal->OGR_L_CreateFeature(r->layer, feature) != OGRERR_NONE)
@@ -409,6 +428,17 @@ int gdal_rows_write(gdal_rows *r, const char *bytes, size_t size, const double *
     }
     if (r->written - r->committed >= TRANSACTION) rows_commit_transaction(r);
     return code;
+}
+
+int gdal_rows_write_line(gdal_rows *r, const char *bytes, size_t size, const double *points,
+                         size_t count)
+{
+    if (count > INT_MAX) {
+        complain("%s: a line has more than %d points", r->place.path, INT_MAX);
+        return END_RESOURCE;
+    }
+    r->line_count = count;
+    return gdal_rows_write(r, bytes, size, points, 0);
 }
 
 /* Files beside an older Shapefile would be taken for some of the new one. */
@@ -480,6 +510,13 @@ int gdal_rows_write(gdal_rows *rows, const char *bytes, size_t size, const doubl
     (void)points;
     (void)stride;
     return END_USAGE;
+}
+
+int gdal_rows_write_line(gdal_rows *rows, const char *bytes, size_t size, const double *points,
+                         size_t count)
+{
+    (void)count;
+    return gdal_rows_write(rows, bytes, size, points, 0);
 }
 
 int gdal_rows_close(gdal_rows *rows, bool commit)

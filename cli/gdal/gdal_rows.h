@@ -23,6 +23,7 @@ typedef struct gdal_rows_form {
     const char *answers; /* the kinds of the last columns: 't' text, 'i' integer, 'r' real */
     const char *crs;     /* of the points, see gdal_crs.h; NULL: not known */
     bool quiet;          /* no remarks */
+    bool lines;          /* the rows have a line each, for gdal_rows_write_line */
 } gdal_rows_form;
 
 typedef struct gdal_rows gdal_rows;
@@ -37,6 +38,11 @@ int gdal_rows_learn(gdal_rows *rows, const char *bytes, size_t size);
  * becomes a feature without a geometry. Returns 0, or an exit code after a complaint. */
 int gdal_rows_write(gdal_rows *rows, const char *bytes, size_t size, const double *points,
                     size_t stride);
+
+/* Write one row, with a line of `count` points, x and y each. Returns 0, or an exit code after a
+ * complaint. */
+int gdal_rows_write_line(gdal_rows *rows, const char *bytes, size_t size, const double *points,
+                         size_t count);
 
 /* Finish the file, or remove it if not `commit`. Returns 0, or an exit code after a complaint.
  * NULL is allowed. */

@@ -14,7 +14,7 @@ int row_output_check(const char *path)
     return gdal_rows_known(path) ? gdal_rows_check(path) : files_check_text_output(path);
 }
 
-static int row_output_begin(row_output *o, const text *header, const char *kinds)
+static int row_output_begin(row_output *o, const text *header, const char *kinds, bool lines)
 {
     mw_error error;
     gdal_rows_form form = {.header = header->bytes,
@@ -24,7 +24,8 @@ static int row_output_begin(row_output *o, const text *header, const char *kinds
                            .dimensions = 2,
                            .answers = kinds,
                            .crs = o->crs,
-                           .quiet = o->quiet};
+                           .quiet = o->quiet,
+                           .lines = lines};
     if (gdal_rows_known(o->path)) return gdal_rows_open(&o->rows, o->path, &form);
     int end = prj_output_check(o->path, o->crs, o->quiet);
     if (end) return end;
@@ -41,7 +42,14 @@ int row_output_open(row_output *o, const char *path, const text *header, const c
     o->room = ROWS_AT_A_TIME;
     o->points = malloc(2 * o->room * sizeof *o->points);
     if (!o->points || header->failed) return fail_memory();
-    return row_output_begin(o, header, kinds);
+    return row_output_begin(o, header, kinds, false);
+}
+
+int row_output_open_lines(row_output *o, const char *path, const text *header, const char *kinds,
+                          const char *crs, bool quiet)
+{
+    *o = (row_output){.path = path, .crs = crs, .quiet = quiet};
+    return header->failed ? fail_memory() : row_output_begin(o, header, kinds, true);
 }
 
 static int row_output_flush(row_output *o)
@@ -62,6 +70,14 @@ int row_output_row(row_output *o, const double point[2])
 {
     memcpy(o->points + 2 * o->count++, point, 2 * sizeof *point);
     return o->count < o->room ? 0 : row_output_flush(o);
+}
+
+int row_output_line(row_output *o, const double *points, size_t count)
+{
+    if (o->text.failed) return fail_memory();
+    int end = gdal_rows_write_line(o->rows, o->text.bytes, o->text.size, points, count);
+    text_clear(&o->text);
+    return end;
 }
 
 int row_output_close(row_output *o, bool commit)

@@ -1,5 +1,5 @@
-/* row_output.h - rows that a command makes, each with a point: a table (CSV), or the features of a
- * vector file, by the ending of its name. */
+/* row_output.h - rows that a command makes, each with a point or a line: a table (CSV), or the
+ * features of a vector file, by the ending of its name. */
 #ifndef MW_CLI_LINES_ROW_OUTPUT_H
 #define MW_CLI_LINES_ROW_OUTPUT_H
 
@@ -30,9 +30,15 @@ int row_output_check(const char *path);
  * Close it in both cases. */
 int row_output_open(row_output *o, const char *path, const text *header, const char *kinds,
                     const char *crs, bool quiet);
+/* The same for rows with a line each, of a vector file only. */
+int row_output_open_lines(row_output *o, const char *path, const text *header, const char *kinds,
+                          const char *crs, bool quiet);
 
 /* Append a row, which the caller has written to o->text with its end. */
 int row_output_row(row_output *o, const double point[2]);
+
+/* Write the row that stands in o->text, with a line of `count` points, x and y each. */
+int row_output_line(row_output *o, const double *points, size_t count);
 
 /* Finish the output, or remove it if not `commit`. */
 int row_output_close(row_output *o, bool commit);

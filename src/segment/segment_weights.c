@@ -53,6 +53,19 @@ static bool weights_between(const double *a, const double *b, double t, const do
     return true;
 }
 
+/* The point of an edge by its weights: the same from both sides, and not rounded off an edge along
+ * an axis. */
+static void weights_place(const double *p, const double *q, double of_p, double of_q, double at[2])
+{
+    bool forward = p[0] != q[0] ? p[0] < q[0] : p[1] < q[1];
+    const double *low = forward ? p : q, *high = forward ? q : p;
+    for (int i = 0; i < 2; i++) {
+        double across = high[i] - low[i];
+        at[i] = isfinite(across) ? low[i] + across * (forward ? of_q : of_p)
+                                 : of_p * p[i] + of_q * q[i];
+    }
+}
+
 void mw_segment_weights(const mw_mesh *mesh, const double a[2], const double b[2],
                         const mw_segment_piece *piece, int end, double weight[3], double point[2])
 {
@@ -68,8 +81,7 @@ void mw_segment_weights(const mw_mesh *mesh, const double a[2], const double b[2
         place = corner[at - MW_AT_VERTEX];
     } else if (at < MW_AT_VERTEX && weights_between(a, b, end ? piece->to : piece->from, corner[at],
                                                     corner[q], &weight[at], &weight[q])) {
-        for (int i = 0; i < 2; i++)
-            on_edge[i] = weight[at] * corner[at][i] + weight[q] * corner[q][i];
+        weights_place(corner[at], corner[q], weight[at], weight[q], on_edge);
         place = on_edge;
     } else {
         mw_location location =

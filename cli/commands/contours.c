@@ -1,0 +1,270 @@
+/* contours - the lines of equal height of a mesh. */
+#include "cli/commands/commands.h"
+#include "cli/frame/files.h"
+#include "cli/frame/message.h"
+#include "cli/frame/progress.h"
+#include "cli/gdal/gdal_crs.h"
+#include "cli/gdal/mesh_crs.h"
+#include "cli/input/mesh_field.h"
+#include "cli/lines/contour_lines.h"
+#include "cli/lines/row_output.h"
+#include "cli/output/csv_row.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define CONTOURS_MOST_LEVELS 1000000
+
+typedef struct contours_settings {
+    common_settings common;
+    const char *interval, *levels, *base, *field, *nodata, *crs;
+} contours_settings;
+
+static const option contours_options[] = {
+    {"interval", 0, OPTION_TEXT, offsetof(contours_settings, interval), "D",
+     "a level at every multiple of D", NULL},
+    {"levels", 0, OPTION_TEXT, offsetof(contours_settings, levels), "LIST",
+     "these levels, separated by commas: 0,2.5,10", NULL},
+    {"base", 0, OPTION_TEXT, offsetof(contours_settings, base), "B",
+     "with --interval: count the multiples from B (default: 0)", NULL},
+    {"field", 0, OPTION_TEXT, offsetof(contours_settings, field), "NAME",
+     "the value: z or a field of MESH (default: z)", NULL},
+    {"nodata", 0, OPTION_TEXT, offsetof(contours_settings, nodata), "V",
+     "vertices with the value V have none, as those with NaN; none: all others have one (default: "
+     "-99999)",
+     NULL},
+    {"crs", 0, OPTION_TEXT, offsetof(contours_settings, crs), "CRS",
+     "the coordinate system of MESH, as EPSG:2056 (default: what its file tells)", NULL},
+    {0},
+};
+
+/* --- levels --- */
+
+typedef struct contour_levels {
+    double *values;
+    size_t count;
+} contour_levels;
+
+static int levels_fail(const char *name, const char *given)
+{
+    complain("option '--%s' wants %s, not '%.60s'", name,
+             strcmp(name, "levels") == 0 ? "numbers separated by commas" : "a number", given);
+    return END_USAGE;
+}
+
+static int levels_compare(const void *a, const void *b)
+{
+    const double *x = a, *y = b;
+    return (*x > *y) - (*x < *y);
+}
+
+/* Take the list of --levels; each once, ascending. */
+static int levels_parse(contour_levels *l, const char *list)
+{
+    size_t room = 1;
+    for (const char *c = list; *c; c++) room += *c == ',';
+    l->values = malloc(room * sizeof *l->values);
+    if (!l->values) return fail_memory();
+    for (const char *p = list;; p++) {
+        char *end;
+        double value = strtod(p, &end);
+        if (end == p || !isfinite(value) || (*end && *end != ','))
+            return levels_fail("levels", list);
+        l->values[l->count++] = value + 0.0;
+        p = end;
+        if (!*p) break;
+    }
+    qsort(l->values, l->count, sizeof *l->values, levels_compare);
+    size_t kept = 1;
+    for (size_t i = 1; i < l->count; i++)
+        if (l->values[i] != l->values[kept - 1]) l->values[kept++] = l->values[i];
+    l->count = kept;
+    return 0;
+}
+
+/* A number of an option, and how many decimals it is written with; -1: with an exponent. */
+static int levels_number(const char *name, const char *given, double *value, int *decimals)
+{
+    char *end;
+    const char *point = strchr(given, '.');
+    *value = strtod(given, &end);
+    if (end == given || *end || !isfinite(*value)) return levels_fail(name, given);
+    *decimals = strpbrk(given, "eExX") ? -1 : point ? (int)strlen(point + 1) : 0;
+    return 0;
+}
+
+/* A level with as many decimals as its interval: 3 * 0.1 is 0.3. */
+static double levels_round(double value, int decimals)
+{
+    char digits[400];
+    if (decimals < 0 || decimals > 15 || fabs(value) > 1e15) return value + 0.0;
+    snprintf(digits, sizeof digits, "%.*f", decimals, value);
+    return strtod(digits, NULL) + 0.0;
+}
+
+/* All multiples of the interval between the least and the largest value. */
+static int levels_make(contour_levels *l, const contours_settings *s, const double *values,
+                       size_t count)
+{
+    double interval, base = 0, low = INFINITY, high = -INFINITY;
+    int decimals, of_base = 0;
+    int end = levels_number("interval", s->interval, &interval, &decimals);
+    if (end == 0 && s->base) end = levels_number("base", s->base, &base, &of_base);
+    if (end) return end;
+    if (!(interval > 0)) return levels_fail("interval", s->interval);
+    if (of_base > decimals || of_base < 0) decimals = decimals < 0 ? -1 : of_base;
+    for (size_t i = 0; i < count; i++) {
+        low = values[i] < low ? values[i] : low;
+        high = values[i] > high ? values[i] : high;
+    }
+    double first = floor((low - base) / interval), last = ceil((high - base) / interval);
+    if (low > high) last = first - 1; /* no vertex has a value */
+    if (last - first > CONTOURS_MOST_LEVELS) {
+        complain("--interval %s makes more than %d levels between %g and %g", s->interval,
+                 CONTOURS_MOST_LEVELS, low, high);
+        return END_RESOURCE;
+    }
+    size_t room = last >= first ? (size_t)(last - first) + 1 : 0;
+    l->values = malloc((room + 1) * sizeof *l->values);
+    if (!l->values) return fail_memory();
+    for (double k = first; k <= last && l->count < room; k++) {
+        double level = levels_round(base + k * interval, decimals);
+        if (l->count == 0 || level > l->values[l->count - 1]) l->values[l->count++] = level;
+    }
+    return 0;
+}
+
+/* --- lines --- */
+
+typedef struct contours_writer {
+    row_output out;
+    bool table;
+    uint64_t lines;
+} contours_writer;
+
+static int contours_write_line(void *self, const contour_line *line)
+{
+    contours_writer *w = self;
+    text *out = &w->out.text;
+    uint64_t number = w->lines++;
+    int end = 0;
+    for (size_t i = 0; end == 0 && i < (w->table ? line->count : 1); i++) {
+        text_printf(out, "%llu", (unsigned long long)number);
+        csv_row_double(out, true, line->level);
+        csv_row_word(out, line->closed ? "1" : "0");
+        if (w->table) csv_row_double(out, true, line->points[2 * i]);
+        if (w->table) csv_row_double(out, true, line->points[2 * i + 1]);
+        csv_row_end(out);
+        end = w->table ? row_output_row(&w->out, line->points + 2 * i)
+                       : row_output_line(&w->out, line->points, line->count);
+    }
+    return end;
+}
+
+static int contours_write(const contours_settings *s, const mw_mesh *mesh, const double *values,
+                          const contour_levels *levels, const char *path, const char *crs)
+{
+    contours_writer w = {.table = !gdal_rows_known(s->common.output)};
+    text header = {0};
+    text_string(&header, w.table ? "line,elevation,closed,x,y\n" : "line,elevation,closed\n");
+    int end =
+        w.table
+            ? row_output_open(&w.out, s->common.output, &header, "irirr", crs, s->common.quiet)
+            : row_output_open_lines(&w.out, s->common.output, &header, "iri", crs, s->common.quiet);
+    progress_phase("tracing", path);
+    if (end == 0)
+        end = contour_lines_trace(mesh, values, levels->values, levels->count, contours_write_line,
+                                  &w);
+    int closed = row_output_close(&w.out, end == 0);
+    text_release(&header);
+    if (end == 0) end = closed;
+    if (end == 0 && w.lines == 0 && !s->common.quiet)
+        complain("%s: remark: no line of these levels crosses the mesh", path);
+    return end;
+}
+
+static int contours_of_mesh(const contours_settings *s, const mw_mesh *mesh, const char *path,
+                            const char *crs, contour_levels *levels)
+{
+    const double *values = mw_mesh_field(mesh, s->field ? s->field : "z");
+    int end = 0;
+    if (s->interval) end = levels_make(levels, s, values, mw_mesh_vertex_count(mesh));
+    return end ? end : contours_write(s, mesh, values, levels, path, crs);
+}
+
+static int contours_check(const contours_settings *s, const char *const *operands)
+{
+    double value;
+    int decimals, end = 0;
+    if (!s->interval == !s->levels) {
+        complain(s->interval ? "--interval and --levels: only one of them"
+                             : "which levels? --interval D or --levels LIST tells");
+        return END_USAGE;
+    }
+    if (s->base && !s->interval) {
+        complain("option '--base' is for --interval");
+        return END_USAGE;
+    }
+    if (s->interval) end = levels_number("interval", s->interval, &value, &decimals);
+    if (end == 0 && s->interval && !(value > 0)) end = levels_fail("interval", s->interval);
+    if (end == 0) end = files_check_output(s->common.output, operands, 1);
+    if (end == 0) end = row_output_check(s->common.output);
+    return end ? end : crs_check_option("crs", s->crs);
+}
+
+static int contours_read(const contours_settings *s, const char *path, mesh_field_choice *field,
+                         mw_mesh **mesh, char **crs)
+{
+    mw_mesh_file file;
+    mw_error error;
+    int end = files_read_mesh(path, &file);
+    if (end) return end;
+    mw_arrays arrays = mw_mesh_file_arrays(&file);
+    mw_mesh_options options = {.threads = s->common.threads, .progress = progress_of_call()};
+    end = mesh_crs_settle(path, s->crs, file.crs, s->common.quiet, crs);
+    progress_phase("preparing", path);
+    if (end == 0 && mw_mesh_create(&arrays, &options, mesh, &error) != MW_OK)
+        end = fail_mesh(path, &error);
+    if (end == 0) end = mesh_field_load(*mesh, path, &file, field);
+    mw_mesh_file_release(&file);
+    return end;
+}
+
+static int contours_run(const void *settings, const char *const *operands)
+{
+    const contours_settings *s = settings;
+    mesh_field_choice field = {.field = s->field ? s->field : "z", .quiet = s->common.quiet};
+    contour_levels levels = {0};
+    mw_mesh *mesh = NULL;
+    char *crs = NULL;
+    int end = contours_check(s, operands);
+    if (end == 0) end = nodata_parse("nodata", s->nodata, &field.nodata);
+    if (end == 0 && s->levels) end = levels_parse(&levels, s->levels);
+    if (end == 0) end = contours_read(s, operands[0], &field, &mesh, &crs);
+    if (end == 0) end = contours_of_mesh(s, mesh, operands[0], crs, &levels);
+    free(levels.values);
+    free(crs);
+    mw_mesh_destroy(mesh);
+    return end;
+}
+
+static const option *const tables[] = {contours_options, common_options, NULL};
+
+const command contours_command = {
+    .name = "contours",
+    .operands = "MESH",
+    .operand_count = 1,
+    .summary = "the lines of equal height of a mesh",
+    .description =
+        "Writes lines of a vector file, by the ending of the output, with the attributes line, "
+        "elevation and closed; or a row for each point of each line: line,elevation,closed,x,y. "
+        "Every line is closed or goes from border to border. A vertex at the level counts as above "
+        "it, so flat triangles at the level lie above it, and the line runs along them. Higher "
+        "ground lies to the left of a line.",
+    .options = tables,
+    .essential = "interval levels base field output",
+    .settings_size = sizeof(contours_settings),
+    .run = contours_run,
+};

@@ -1,0 +1,220 @@
+#include "cli/lines/contour_lines.h"
+#include "cli/frame/message.h"
+#include "cli/frame/progress.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct contour_tracer {
+    const mw_mesh *mesh;
+    const double *values, *levels;
+    size_t level_count;
+    size_t *first;      /* [level + 1]: of the triangles below */
+    uint32_t *triangle; /* those that each level crosses */
+    uint8_t *pending;   /* [triangle]: crossed by the present level, and not passed yet */
+    double level;       /* the present one */
+    double *points;     /* of the present line */
+    size_t count, room;
+    int turn; /* > 0: higher values lie to the left of the line; 0: not known yet */
+    contour_sink *sink;
+    void *self;
+} contour_tracer;
+
+/* How many levels are at most so high. */
+static size_t tracer_levels_up_to(const contour_tracer *c, double value)
+{
+    size_t low = 0, high = c->level_count;
+    while (low < high) {
+        size_t middle = low + (high - low) / 2;
+        if (c->levels[middle] <= value)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+/* The levels that cross a triangle: from *from up to, not including, the result. */
+static size_t tracer_range(const contour_tracer *c, uint32_t t, size_t *from)
+{
+    uint32_t v[3];
+    mw_mesh_triangle(c->mesh, t, v);
+    double z[3] = {c->values[v[0]], c->values[v[1]], c->values[v[2]]};
+    *from = 0;
+    if (isnan(z[0]) || isnan(z[1]) || isnan(z[2])) return 0;
+    *from = tracer_levels_up_to(c, fmin(fmin(z[0], z[1]), z[2]));
+    return tracer_levels_up_to(c, fmax(fmax(z[0], z[1]), z[2]));
+}
+
+/* Sort the triangles by the levels that cross them. */
+static int tracer_collect(contour_tracer *c)
+{
+    uint32_t count = mw_mesh_triangle_count(c->mesh);
+    size_t from, all = 0;
+    c->first = calloc(c->level_count + 2, sizeof *c->first);
+    c->pending = calloc((size_t)count + 1, 1);
+    if (!c->first || !c->pending) return fail_memory();
+    for (uint32_t t = 0; t < count; t++)
+        for (size_t to = tracer_range(c, t, &from); from < to; from++) c->first[from + 2]++;
+    for (size_t i = 2; i < c->level_count + 2; i++) c->first[i] += c->first[i - 1];
+    all = c->first[c->level_count + 1];
+    c->triangle = malloc((all + 1) * sizeof *c->triangle);
+    if (!c->triangle) return fail_memory();
+    for (uint32_t t = 0; t < count; t++)
+        for (size_t to = tracer_range(c, t, &from); from < to; from++)
+            c->triangle[c->first[from + 1]++] = t;
+    return 0;
+}
+
+/* --- one line --- */
+
+static bool tracer_is_above(const contour_tracer *c, uint32_t vertex)
+{
+    return c->values[vertex] >= c->level;
+}
+
+/* Does the level cross local edge k? */
+static bool tracer_crosses(const contour_tracer *c, const uint32_t v[3], unsigned k)
+{
+    return tracer_is_above(c, v[k]) != tracer_is_above(c, v[(k + 1) % 3]);
+}
+
+/* The triangle beyond an edge; MW_NONE on a border, and where a value is missing. */
+static uint32_t tracer_beyond(const contour_tracer *c, uint32_t t, unsigned k, unsigned *edge)
+{
+    uint32_t beyond = mw_mesh_neighbour(c->mesh, t, k, edge), v[3];
+    if (beyond == MW_NONE) return MW_NONE;
+    mw_mesh_triangle(c->mesh, beyond, v);
+    bool missing = isnan(c->values[v[0]]) || isnan(c->values[v[1]]) || isnan(c->values[v[2]]);
+    return missing ? MW_NONE : beyond;
+}
+
+static bool tracer_add_point(contour_tracer *c, const double p[2])
+{
+    if (c->count > 0 && p[0] == c->points[2 * c->count - 2] && p[1] == c->points[2 * c->count - 1])
+        return true;
+    if (c->count == c->room) {
+        size_t room = 2 * c->room + 1024;
+        double *points = realloc(c->points, 2 * room * sizeof *points);
+        if (!points) return false;
+        c->points = points;
+        c->room = room;
+    }
+    memcpy(c->points + 2 * c->count++, p, 2 * sizeof *p);
+    return true;
+}
+
+/* Where the level crosses an edge: the same point from both sides. */
+static bool tracer_add_crossing(contour_tracer *c, const uint32_t v[3], unsigned k)
+{
+    uint32_t low = v[k], high = v[(k + 1) % 3];
+    if (tracer_is_above(c, low)) {
+        low = high;
+        high = v[k];
+    }
+    double a[2], b[2], p[2], below = c->values[low], above = c->values[high];
+    mw_mesh_vertex(c->mesh, low, a);
+    mw_mesh_vertex(c->mesh, high, b);
+    double t = (c->level / 2 - below / 2) / (above / 2 - below / 2);
+    for (int i = 0; i < 2; i++) {
+        double across = b[i] - a[i]; /* not rounded off an edge along an axis */
+        p[i] = isfinite(across) ? a[i] + across * t : a[i] * (1 - t) + b[i] * t;
+        if (above == c->level) p[i] = b[i];
+    }
+    return tracer_add_point(c, p);
+}
+
+/* On which side the higher values are, as far as this triangle tells. The level cuts off the vertex
+ * between the edge of entry and that of exit. */
+static void tracer_note_side(contour_tracer *c, const uint32_t v[3], unsigned entry, unsigned exit)
+{
+    double p[3][2];
+    if (c->turn) return;
+    for (int k = 0; k < 3; k++) mw_mesh_vertex(c->mesh, v[k], p[k]);
+    double area = mw_orient2d(p[0], p[1], p[2]);
+    bool next = exit == (entry + 1) % 3;
+    bool left = next ? area < 0 : area > 0; /* of the vertex that is cut off */
+    if (area != 0) c->turn = left == tracer_is_above(c, v[next ? exit : entry]) ? 1 : -1;
+}
+
+static void tracer_reverse(contour_tracer *c)
+{
+    for (size_t i = 0, j = c->count; i + 1 < j; i++) {
+        double p[2];
+        j--;
+        memcpy(p, c->points + 2 * i, sizeof p);
+        memcpy(c->points + 2 * i, c->points + 2 * j, sizeof p);
+        memcpy(c->points + 2 * j, p, sizeof p);
+    }
+}
+
+static int tracer_finish_line(contour_tracer *c, bool closed)
+{
+    double begin[2] = {c->points[0], c->points[1]};
+    if (closed && c->count > 1 && !tracer_add_point(c, begin)) return fail_memory();
+    if (c->count < 2) return 0;
+    if (c->turn < 0) tracer_reverse(c);
+    return c->sink(c->self, &(contour_line){c->level, closed, c->points, c->count});
+}
+
+/* Follow the line that enters triangle t over edge `entry`, to the border or back to t. */
+static int tracer_follow(contour_tracer *c, uint32_t t, unsigned entry, bool closed)
+{
+    uint32_t v[3];
+    c->count = 0;
+    c->turn = 0;
+    mw_mesh_triangle(c->mesh, t, v);
+    if (!tracer_add_crossing(c, v, entry)) return fail_memory();
+    while (t != MW_NONE && c->pending[t]) {
+        c->pending[t] = 0;
+        mw_mesh_triangle(c->mesh, t, v);
+        unsigned exit = tracer_crosses(c, v, (entry + 1) % 3) ? (entry + 1) % 3 : (entry + 2) % 3;
+        tracer_note_side(c, v, entry, exit);
+        if (!tracer_add_crossing(c, v, exit)) return fail_memory();
+        t = tracer_beyond(c, t, exit, &entry);
+    }
+    return tracer_finish_line(c, closed);
+}
+
+/* --- one level --- */
+
+/* All lines of the level that begin at a border, then all that are closed. */
+static int tracer_trace_level(contour_tracer *c, const uint32_t *triangles, size_t count)
+{
+    int end = 0;
+    uint32_t v[3];
+    unsigned edge;
+    for (size_t i = 0; i < count; i++) c->pending[triangles[i]] = 1;
+    for (int closed = 0; closed < 2; closed++)
+        for (size_t i = 0; end == 0 && i < count; i++) {
+            uint32_t t = triangles[i];
+            mw_mesh_triangle(c->mesh, t, v);
+            for (unsigned k = 0; end == 0 && k < 3 && c->pending[t]; k++)
+                if (tracer_crosses(c, v, k) && (closed || tracer_beyond(c, t, k, &edge) == MW_NONE))
+                    end = tracer_follow(c, t, k, closed);
+        }
+    return end;
+}
+
+int contour_lines_trace(const mw_mesh *mesh, const double *values, const double *levels,
+                        size_t level_count, contour_sink *sink, void *self)
+{
+    contour_tracer c = {.mesh = mesh,
+                        .values = values,
+                        .levels = levels,
+                        .level_count = level_count,
+                        .sink = sink,
+                        .self = self};
+    int end = tracer_collect(&c);
+    for (size_t i = 0; end == 0 && i < level_count; i++) {
+        c.level = levels[i];
+        end = tracer_trace_level(&c, c.triangle + c.first[i], c.first[i + 1] - c.first[i]);
+        progress_lines(i + 1, (double)(i + 1) / (double)level_count);
+    }
+    free(c.first);
+    free(c.triangle);
+    free(c.pending);
+    free(c.points);
+    return end;
+}

@@ -1,0 +1,147 @@
+#!/usr/bin/env bash
+# contours: closed or from border to border, at integer heights with flats too; levels; formats.
+# shellcheck source=driver.sh disable=SC2154
+. "$(dirname "$0")/driver.sh"
+# As in cli_vectors.sh: the leak checker may crash over the threads of GDAL.
+export ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0"
+
+cat >gap.off <<'END'
+OFF
+6 3 0
+0 0 10
+4 0 20
+4 4 30
+0 4 20
+8 0 40
+8 4 50
+3 0 1 2
+3 0 2 3
+3 4 5 2
+END
+run contours gap.off --levels 40,15,20,15; exits 0; says_nothing
+prints 'line,elevation,closed,x,y
+0,15,0,0,2
+0,15,0,1,1
+0,15,0,2,0
+1,20,0,0,4
+1,20,0,2,2
+1,20,0,4,0
+2,40,0,6,4
+2,40,0,8,0'
+cp "$logs/out" expected
+run contours --threads 1 gap.off --levels 15,20,40; exits 0; prints "$(<expected)"
+run contours gap.off --interval 0.1 --base 0.05; exits 0
+prints_line '^[0-9]+,10[.]35,0,'
+prints_line '^[0-9]+,49[.]95,0,'
+holds 'levels are short' test -z "$(cut -d, -f2 "$logs/out" | grep -E '.{10}')"
+run contours gap.off --levels 100; exits 0; prints 'line,elevation,closed,x,y'
+says 'no line of these levels crosses the mesh'
+run contours -q gap.off --levels 10; exits 0; prints 'line,elevation,closed,x,y'
+
+# A flat roof at the level: the line runs along it, on the lower side. A peak at the level: no line.
+printf '%s\n' OFF '9 8 0' '0 0 0' '2 0 0' '4 0 0' '0 2 0' '2 2 3' '4 2 3' '0 4 0' '2 4 0' \
+    '4 4 0' '3 0 1 4' '3 0 4 3' '3 1 2 5' '3 1 5 4' '3 3 4 7' '3 3 7 6' '3 4 5 8' '3 4 8 7' \
+    >roof.off
+run contours roof.off --levels 3; exits 0
+prints 'line,elevation,closed,x,y
+0,3,0,4,2
+0,3,0,2,2
+0,3,0,4,2'
+run contours roof.off --levels 0; exits 0; prints 'line,elevation,closed,x,y'
+
+# Any heights: integers of few values on a grid, with and without vertices that have none. The test
+# counts the edges that each level crosses, where no vertex is at a level.
+grid() { # grid N VALUES SEED MISSING
+    awk -v n="$1" -v values="$2" -v seed="$3" -v missing="$4" 'BEGIN {
+        srand(seed)
+        print "OFF"; print (n + 1) ^ 2, 2 * n * n, 0
+        for (y = 0; y <= n; y++) for (x = 0; x <= n; x++)
+            print x, y, rand() < missing ? "nan" : int(values * rand())
+        for (y = 0; y < n; y++) for (x = 0; x < n; x++) {
+            a = y * (n + 1) + x; b = a + 1; c = b + n + 1; d = c - 1
+            if (rand() < 0.5) { print 3, a, b, c; print 3, c, d, a }
+            else { print 3, a, b, d; print 3, b, c, d }
+        }
+    }'
+}
+# Every line has two points or more, none twice in a row, and is closed or ends at the border.
+sound() { # sound N MISSING
+    awk -F, -v n="$1" -v missing="$2" '
+        function border(p, xy) { split(p, xy, ";")
+            return missing || xy[1] == 0 || xy[2] == 0 || xy[1] == n || xy[2] == n }
+        function check() { if (line == "") return
+            if (count < 2) print "line", line, "is a point"
+            if (closed ? first != last : !border(first) || !border(last))
+                print "line", line, "is open" }
+        NR == 1 { next }
+        $1 != line { check(); line = $1; closed = $3; first = $4 ";" $5; count = 0; last = "" }
+        { p = $4 ";" $5; if (p == last) print "line", line, "rests at", p; last = p; count++ }
+        END { check() }' "$logs/out"
+}
+crossings() { # the edges of grid.off that the levels 0.5, 1.5, ... cross
+    awk 'NR == 2 { n = $1; m = $2 } NR > 2 && NR <= n + 2 { z[NR - 3] = $3 }
+        NR > n + 2 { for (k = 2; k <= 4; k++) { a = $k; b = $(k == 4 ? 2 : k + 1)
+            if (a > b) { c = a; a = b; b = c }
+            if ((a, b) in seen) continue
+            seen[a, b]; sum += z[a] > z[b] ? z[a] - z[b] : z[b] - z[a] } }
+        END { print sum }' grid.off
+}
+for seed in 1 2 3 4 5; do
+    for values in 2 3 9; do
+        grid 14 $values $seed 0 >grid.off
+        run contours grid.off --interval 1; exits 0
+        holds "lines of values $values, seed $seed are sound" test -z "$(sound 14 0)"
+        run contours grid.off --interval 1 --base 0.5; exits 0
+        holds 'lines between the values are sound' test -z "$(sound 14 0)"
+        points=$(awk -F, 'NR > 1 { n++; if ($3 && $1 != line) n--; line = $1 } END { print n }' \
+            "$logs/out")
+        holds 'each crossed edge has one point' test "$points" == "$(crossings)"
+        cut -d, -f4,5 "$logs/out" >points.csv; cut -d, -f2 "$logs/out" >levels
+        run sample grid.off points.csv; exits 0
+        holds 'points have their level' test -z "$(cut -d, -f3 "$logs/out" | paste -d, - levels |
+            awk -F, 'NR > 1 && ($1 - $2 > 1e-12 || $2 - $1 > 1e-12)')"
+        # Higher ground lies to the left: of closed lines, the sum of the areas of a level says
+        # whether hills or pits are more; a step to the left of the first segment is higher.
+        run contours grid.off --levels 0.5
+        awk -F, 'NR > 1 { if ($1 == line) { dx = $4 - x; dy = $5 - y
+            print (x + $4) / 2 - dy / 1000 "," (y + $5) / 2 + dx / 1000 }
+            line = $1; x = $4; y = $5 }' OFMT=%.15g CONVFMT=%.15g "$logs/out" >left.csv
+        run_on "$(echo x,y; cat left.csv)"$'\n' sample grid.off -; exits 0
+        holds 'higher ground lies to the left' test -z \
+            "$(awk -F, 'NR > 1 && $3 != "" && $3 <= 0.5' "$logs/out" | head -n 1)"
+        grid 14 $values $seed 0.05 >grid.off
+        run contours grid.off --interval 1; exits 0
+        holds 'lines beside missing values are sound' test -z "$(sound 14 1)"
+    done
+done
+
+# Vector files.
+if "$meshwalk" --version | grep -q 'GDAL .*found'; then
+    grid 14 9 1 0 >grid.off
+    run contours grid.off --interval 2 -o expected.csv; exits 0
+    lines=$(tail -n 1 expected.csv | cut -d, -f1)
+    for ending in gpkg shp fgb geojson; do
+        run contours -q grid.off --interval 2 -o lines.$ending; exits 0; says_nothing
+        # What was written is read again: the profile along a contour is level.
+        run profile -q gap.off lines.$ending; exits 0
+        holds "lines.$ending has as many lines" test "$(tail -n 1 "$logs/out" | cut -d, -f1)" -ge \
+            "$lines"
+    done
+else
+    left_out 'GDAL is not found'
+fi
+
+# What is refused.
+run contours gap.off; refused 2 'which levels\?'
+run contours gap.off --interval 1 --levels 2; refused 2 'only one of them'
+run contours gap.off --levels 1,x; refused 2 "'--levels' wants numbers"
+run contours gap.off --levels ''; refused 2 ''
+for wrong in 0 -1 nan x 1x; do
+    run contours gap.off --interval $wrong; refused 2 "'--interval' wants a number"
+done
+run contours gap.off --levels 1 --base 2; refused 2 "'--base' is for --interval"
+run contours gap.off --interval 1e-9; refused 4 'more than 1000000 levels'
+run contours gap.off --levels 1 --field depth; refused 3 "has no field 'depth'"
+run contours absent.off --levels 1; refused 3 'absent.off'
+run contours gap.off --levels 1 -o gap.off; refused 2 'gap.off'
+finish
