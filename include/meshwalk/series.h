@@ -74,7 +74,9 @@ typedef struct mw_series_options {
  * for each index of that dimension. Values are unpacked (scale_factor, add_offset).
  * Selafin: every variable. ADCIRC's text: fort.63 has the field "zeta", fort.64 "u-vel" and
  * "v-vel", fort.73 "pressure", fort.74 "windx" and "windy", maxele.63 "zeta_max", maxvel.63
- * "vel_max"; the mesh is in fort.14. These two kinds are read once for their times, and again from
+ * "vel_max"; the mesh is in fort.14. SMS .dat, text and binary: one dataset, of the vertices of a
+ * .2dm, or of its faces if the name of the file holds "_els"; a vector is "NAME_x" and "NAME_y".
+ * These kinds are read once for their times, and again from
  * their beginning where a step is asked for that comes before the last one; one step of all fields
  * is kept.
  *

@@ -90,6 +90,72 @@ static void test_adcirc(void **state)
     mw_series_close(series);
 }
 
+static const char sms_text[] =
+    "DATASET\nOBJTYPE \"mesh2d\"\nRT_JULIAN 2433282.500000\nBEGSCL\nND 3\nNC 2\nNAME \"a depth\"\n"
+    "TIMEUNITS se\nTS 0 0.5\n1\n2\n3\nTS 1 60\n1\n0\n4\n5 6\nENDDS\n";
+
+static void test_sms(void **state)
+{
+    (void)state;
+    files_write_text("a.dat", sms_text);
+    mw_series *series = open_series("a.dat", 3);
+    const mw_series_info *info = mw_series_describe(series);
+    assert_int_equal(info->step_count, 2);
+    assert_string_equal(info->fields[0].name, "a depth");
+    assert_string_equal(info->time_unit, "seconds since 1950-01-01 00:00:00");
+    expect_step(series, 0, 1, (const double[]){4, 5, 6});
+    expect_step(series, 0, 0, (const double[]){1, 2, 3});
+    mw_series_close(series);
+    files_write_text("v_els_.dat", "DATASET\nBEGVEC\nND 3\nNC 2\nNAME \"v\"\nTS 0 1\n1 2\n3 4\n");
+    series = open_series("v_els_.dat", 0);
+    info = mw_series_describe(series);
+    assert_int_equal(info->field_count, 2);
+    assert_int_equal(info->fields[1].location, MW_SERIES_FACE);
+    assert_string_equal(info->fields[1].name, "v_y");
+    assert_string_equal(info->time_unit, "hours");
+    expect_step(series, 1, 0, (const double[]){2, 4});
+    mw_series_close(series);
+}
+
+static void test_sms_bytes(void **state)
+{
+    (void)state;
+    char file[512];
+    size_t size = 0;
+    const int32_t head[] = {3000, 100, 3, 110, 4, 120, 1, 130, 170, 3, 180, 2, 250, 1, 190};
+    memcpy(file, head, size = sizeof head);
+    memset(file + size, ' ', 40);
+    memcpy(file + size, "Dep", 3);
+    size += 40;
+    for (int step = 0; step < 2; step++) {
+        const int32_t card = 200;
+        const float numbers[] = {(float)step, 1, 2, 3 + (float)step};
+        memcpy(file + size, &card, 4);
+        file[size + 4] = (char)step; /* activity follows at the second time */
+        memcpy(file + size + 5, numbers, 4);
+        size += 9;
+        for (int k = 0; k < 2 * step; k++) file[size++] = 1;
+        memcpy(file + size, numbers + 1, 12);
+        size += 12;
+    }
+    memcpy(file + size, &(int32_t){210}, 4);
+    size += 4;
+    files_write("b.dat", (bytes){file, size});
+    mw_series *series = open_series("b.dat", 3);
+    assert_int_equal(mw_series_describe(series)->step_count, 2);
+    assert_string_equal(mw_series_describe(series)->fields[0].name, "Dep");
+    assert_string_equal(mw_series_describe(series)->time_unit, "minutes");
+    expect_step(series, 0, 1, (const double[]){1, 2, 4});
+    mw_series_close(series);
+    for (size_t cut = 0; cut < size; cut++) {
+        mw_error error;
+        files_write("b.dat", (bytes){file, cut});
+        mw_status status = mw_series_open("b.dat", NULL, &series, &error);
+        assert_true(status == MW_ERROR_INPUT || mw_series_describe(series)->step_count > 0);
+        mw_series_close(series);
+    }
+}
+
 static void test_malformed(void **state)
 {
     (void)state;
@@ -107,6 +173,10 @@ static void test_malformed(void **state)
         {"fort.63", "a\n3 3 1 1 1\n5 0 0 1\n5 0 0 1\n", "time 5 is not behind the one before", 4},
         {"fort.63", "a\n3 3 1 1 1\nnan 0 0 1\n", "time nan is not behind", 3},
         {"fort.63", "a\n3 3 1 1 1\n5 0 4 1\n", "4 vertices of 3", 3},
+        {"a.dat", "DATASET\nBEGSCL\nND 4\nTS 0 1\n", "values of 4 vertices; the mesh has 3", 4},
+        {"a.dat", "DATASET\nND 3\nTS 0 1\n", "0 values at 3 vertices", 3},
+        {"a.dat", "DATASET\nBEGSCL\nND 3\nTS 0 1\n1 2\n", "the file ends before the value", 5},
+        {"a.dat", "DATASET\nBEGSCL\nND 3\nTS 0 1\n1 2 3\nBEGSCL\n", "a second dataset", 6},
         {"notes.txt", "a\n", "not values over time in a known format", -1},
     };
     const mw_series_options options = {.vertex_count = 3};
@@ -176,6 +246,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_selafin),   cmocka_unit_test(test_adcirc),
+        cmocka_unit_test(test_sms),       cmocka_unit_test(test_sms_bytes),
         cmocka_unit_test(test_malformed), cmocka_unit_test(test_cut),
         cmocka_unit_test(test_shared),
     };

@@ -10,7 +10,7 @@
 #include <string.h>
 
 static const mw_series_kind *const kinds[] = {&mw__netcdf_series, &mw__selafin_series,
-                                              &mw__adcirc_series};
+                                              &mw__adcirc_series, &mw__sms_series};
 enum { KIND_COUNT = sizeof kinds / sizeof *kinds };
 
 struct mw_series {
@@ -32,7 +32,7 @@ static mw_status series_open_source(mw_source *source, const mw_series_options *
     if (part->kind) return part->kind->open(source, options, part, error);
     return mw__fail(error, MW_ERROR_INPUT,
                     "%.240s: not values over time in a known format (netCDF, Selafin, fort.63 and "
-                    "others of ADCIRC)",
+                    "others of ADCIRC, .dat of SMS)",
                     mw__source_name(source));
 }
 
