@@ -140,7 +140,7 @@ static bool locator_lay_guide(const mw_locator *locator, mw_job *job, mw_index *
  * the mesh. One that is long counts for MOST. */
 static double guide_walk_length(const mw_locator *locator, const mw_index *guide)
 {
-    enum { TILES_PER_WALK = 256, WALKS = 256, MOST = 1024 };
+    enum { TILES_PER_WALK = 256, WALKS = 256, MOST = 1 << 14 };
     const mw_tiling *tiling = &locator->tiling;
     const mw_kernels *kernels = mw__walk_kernels(locator->auto_walk, tiling);
     uint32_t n = tiling->tri_count, walks = n / TILES_PER_WALK < WALKS ? n / TILES_PER_WALK : WALKS;

@@ -12,6 +12,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* --- meshes of about n vertices --------------------------------------------------------------- */
 
@@ -115,6 +116,41 @@ static void expect_counts(const mw_counters *c, int queries, double most)
     assert_int_equal(c->cycles, 0);
 }
 
+static void expect_same(const mw_location *at, const mw_location *want, const char *how)
+{
+    if (at->triangle != want->triangle || at->where != want->where || at->local != want->local ||
+        memcmp(at->weight, want->weight, sizeof at->weight) != 0)
+        fail_msg("%s: triangle %u, not %u", how, at->triangle, want->triangle);
+}
+
+/* The answers are those of a walk that knows no chains: in a batch, with hints that are far off, in
+ * a stream whose queries are near one another, and not. */
+static void expect_answers(const mw_locator *locator, const double *q, uint32_t n, uint64_t *random)
+{
+    mw_location *want = malloc(n * sizeof *want), *at = malloc(n * sizeof *at);
+    uint32_t *hints = malloc(n * sizeof *hints);
+    mw_query_options other = {.walk = MW_WALK_STRAIGHT, .start = MW_START_SORTED}, hinted = {0};
+    mw_cursor cursor = {0};
+    assert_true(want && at && hints);
+    assert_int_equal(mw_locate_batch(locator, q, n, 2, &other, want, NULL, NULL), MW_OK);
+    assert_int_equal(mw_locate_batch(locator, q, n, 2, NULL, at, NULL, NULL), MW_OK);
+    for (uint32_t i = 0; i < n; i++) expect_same(&at[i], &want[i], "batch");
+    for (uint32_t i = 0; i < n; i++)
+        hints[i] = mw__random_below(random, mw_mesh_triangle_count(locator->mesh));
+    hinted.hints = hints;
+    assert_int_equal(mw_locate_batch(locator, q, n, 2, &hinted, at, NULL, NULL), MW_OK);
+    for (uint32_t i = 0; i < n; i++) expect_same(&at[i], &want[i], "hints");
+    for (uint32_t i = 0; i < n; i++) {
+        mw_location one = mw_locate(locator, &cursor, q[2 * i], q[2 * i + 1]);
+        expect_same(&one, &want[i], "stream");
+        one = mw_locate(locator, &cursor, q[2 * i], q[2 * i + 1]);
+        expect_same(&one, &want[i], "again");
+    }
+    free(want);
+    free(at);
+    free(hints);
+}
+
 static void expect_few_steps(make_arrays *make, uint32_t n, uint64_t *random)
 {
     enum { QUERIES = 400 };
@@ -138,6 +174,7 @@ static void expect_few_steps(make_arrays *make, uint32_t n, uint64_t *random)
     mw_location at[QUERIES];
     assert_int_equal(mw_locate_batch(locator, q, QUERIES, 2, &options, at, &c, NULL), MW_OK);
     expect_counts(&c, QUERIES, most);
+    expect_answers(locator, q, QUERIES, random);
     free(q);
     mw_locator_destroy(locator);
     mw_mesh_destroy(mesh);

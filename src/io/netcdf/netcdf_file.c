@@ -29,6 +29,7 @@ struct mw_netcdf {
     netcdf_dimension *dimensions;
     size_t dimension_count;
     uint64_t size; /* of the file, in bytes */
+    int format;    /* as libnetcdf numbers them */
 };
 
 bool mw__netcdf_begins(const char *head, size_t size)
@@ -106,6 +107,7 @@ static mw_status netcdf_file_inquire(mw_netcdf *file, mw_error *error)
 {
     int dimensions = 0, variables = 0;
     int code = file->nc.nc_inq(file->id, &dimensions, &variables, NULL, NULL);
+    if (!code) code = file->nc.nc_inq_format(file->id, &file->format);
     if (code) return netcdf_file_refuse(file, NULL, code, error);
     file->dimension_count = (size_t)dimensions;
     file->variable_count = (size_t)variables;
@@ -198,6 +200,12 @@ void mw__netcdf_close(mw_netcdf *file)
 uint64_t mw__netcdf_file_size(const mw_netcdf *file)
 {
     return file->size;
+}
+
+bool mw__netcdf_is_classic(const mw_netcdf *file)
+{
+    enum { FIRST_NETCDF_4 = 3, LAST_NETCDF_4 = 4 };
+    return file->format < FIRST_NETCDF_4 || file->format > LAST_NETCDF_4;
 }
 
 const char *mw__netcdf_name(const mw_netcdf *file)
