@@ -111,7 +111,12 @@ static int vector_read(const char *path, const line_file_settings *settings,
     }
     values->list = settings->attribute;
     if (vector_has_attributes(path, settings)) options.gdal.values = values;
-    return constraint_file_read(path, options, c);
+    int end = constraint_file_read(path, options, c);
+    if (end == 0 && !options.gdal.values && !constraint_file_is_poly(c) && !common->quiet)
+        complain("%s: remark: its attributes are not read; GDAL reads them from a file that is not "
+                 "compressed",
+                 path);
+    return end;
 }
 
 /* --- lines -------------------------------------------------------------------------------- */
@@ -157,7 +162,7 @@ static int lines_take(line_file *l, const char *path, const mw_constraint_file *
     for (size_t i = 0; i < c->segment_count; i++) {
         const double *a = c->points + 3 * (size_t)c->segments[2 * i],
                      *b = c->points + 3 * (size_t)c->segments[2 * i + 1];
-        if (!isfinite(a[0] + a[1]) || !isfinite(b[0] + b[1])) {
+        if (!isfinite(a[0]) || !isfinite(a[1]) || !isfinite(b[0]) || !isfinite(b[1])) {
             complain("%s: %s %" PRIu32 ": a point of the line has no finite x and y", path,
                      c->record_name, c->record[i]);
             return END_INPUT;
@@ -204,7 +209,7 @@ int line_file_read(line_file *l, const char *path, const line_file_settings *set
     c.has_z = 0; /* heights of lines do not count */
     if (end == 0 && !as_is && (c.crs || mesh_crs))
         end = vertex_crs_move_constraints(common, path, &c, mesh, mesh_crs);
-    if (end == 0) end = lines_take(l, path, &c);
+    if (end == 0) end = lines_take(l, files_is_standard(path) ? "standard input" : path, &c);
     mw_constraint_file_release(&c);
     return end;
 }
