@@ -6,6 +6,7 @@
 #include "bench/paper/bench_paper.h"
 #include "bench/peers/bench_peers.h"
 #include "bench/peers/engine_list.h"
+#include "bench/segments/bench_segments.h"
 #include "bench/worst/bench_worst.h"
 #include "cli/frame/message.h"
 #include "cli/frame/spelling.h"
@@ -18,9 +19,10 @@ static const struct {
     int (*run)(const bench_settings *s, const char *table);
     bool compares; /* engines, in rounds: --engines, --tasks and --rounds are for it */
 } measurements[] = {
-    {"paper", bench_paper, false}, {"near-vertices", bench_near_vertices, false},
-    {"peers", bench_peers, true},  {"scale", bench_scale, true},
-    {"edit", bench_edit, true},    {"worst", bench_worst, true},
+    {"paper", bench_paper, false},      {"near-vertices", bench_near_vertices, false},
+    {"peers", bench_peers, true},       {"scale", bench_scale, true},
+    {"edit", bench_edit, true},         {"worst", bench_worst, true},
+    {"segments", bench_segments, true},
 };
 #define MEASUREMENTS (sizeof measurements / sizeof *measurements)
 

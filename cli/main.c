@@ -41,7 +41,7 @@ static int main_print_help(void)
     help_wrap(
         &t,
         "Meshes: Triangle .node/.ele, OFF, OBJ, PLY, STL, fort.14, .gr3, .2dm, Selafin, Gmsh .msh, "
-        "VTK, VTU, SU2, .npz. Points: text with columns, LAS. "
+        "VTK, VTU, SU2, .npz, netCDF (UGRID and ocean models). Points: text with columns, LAS. "
         "Constraints: GeoJSON, "
         "Triangle .poly. Each also gzipped; '-' is standard input or output.",
         0);

@@ -85,7 +85,7 @@ static draft read_draft(const char *path)
     mw_mesh_file file;
     if (strcmp(path, "-") == 0) return read_points(path);
     if (mw_read_mesh(path, NULL, &file, &error)) {
-        if (error.status == MW_ERROR_INPUT && strstr(error.message, "no mesh in a format known"))
+        if (error.status == MW_ERROR_INPUT && strstr(error.message, "not a mesh in a known format"))
             return read_points(path);
         fail_with(&error);
     }

@@ -64,6 +64,8 @@ const command bench_command = {
                    "(default: "
                    "50000, at most half of the vertices). SET is of uniform, clusters, gaussian, "
                    "arcs and rectangle.\n\n"
+                   "'meshwalk bench segments' measures the triangles along random segments, in "
+                   "batches and one by one.\n\n"
                    "'meshwalk bench worst [TRAP]' measures meshes on which location, or making a "
                    "mesh, may be slow: strips whose steps shrink, fans and hubs, extents near the "
                    "ends of the doubles, points on vertices and edges. It prints seconds to "

@@ -128,21 +128,16 @@ const command locate_command = {
     .optional_operands = 1, /* without MESH, but with --polygons */
     .summary = "find the triangle, or the polygons, that contain each point",
     .description =
-        "Writes every row of POINTS as it is, and behind it status,triangle,w0,w1,w2. The status "
-        "is inside, edge, vertex, outside, hole, near or bad; the triangle is its number in MESH, "
-        "from 0, "
-        "or -1; w0, w1, w2 are the weights of its corners, empty where there is no triangle. If "
-        "MESH "
-        "has other faces than triangles, the column face tells the face that the triangle is cut "
-        "from. A "
-        "point on "
-        "an edge or a corner belongs to the lowest-numbered triangle that contains it. '-' is "
-        "standard "
-        "input. With --polygons FILE instead of MESH the status is inside, border, outside or bad; "
-        "feature "
-        "is the lowest number of a feature of FILE, from 0, that contains the point or has it on "
-        "its border, "
-        "or -1; others are the numbers of the other ones, separated by blanks.",
+        "Writes every row of POINTS unchanged, followed by status,triangle,w0,w1,w2. The "
+        "status is inside, edge, vertex, outside, hole, near or bad; the triangle is its "
+        "number in MESH, from 0, or -1; w0, w1, w2 are the weights of its corners, empty if "
+        "there is no triangle. If MESH has other faces than triangles, the column face is the "
+        "number of the face that the triangle is cut from. A point on an edge or a corner "
+        "belongs to the lowest-numbered triangle that contains it. '-' is standard input. "
+        "With --polygons FILE instead of MESH the status is inside, border, outside or bad; "
+        "feature is the lowest number of a feature of FILE, from 0, that contains the point "
+        "or has it on its border, or -1; others are the numbers of the other features, "
+        "separated by blanks.",
     .options = tables,
     .essential = "columns details polygons only-answers output",
     .settings_size = sizeof(locate_settings),

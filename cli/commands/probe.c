@@ -260,22 +260,17 @@ const command probe_command = {
     .operands = "SURFACE QUERIES",
     .operand_count = 2,
     .summary = "find the triangle of a surface that each probe touches",
-    .description = "A row of QUERIES is x,y,z,mx,my,mz: where a probe is, and how it moves. It "
-                   "touches a triangle of SURFACE that "
-                   "the line through the point along the motion meets, on either side of the "
-                   "point, if the motion points at the "
-                   "triangle's front: the side from which its corners are seen counter-clockwise. "
-                   "Writes every row as it is, and "
-                   "behind it status,triangle,distance,w0,w1,w2. The status is hit; none, where "
-                   "surely nothing is touched; "
-                   "limit, where the walks found nothing, though there may be something; or bad, "
-                   "where the motion is zero or a "
-                   "number is not finite. The distance is negative behind the point; w0, w1, w2 "
-                   "are the weights of the triangle's "
-                   "corners. Of several triangles walks tell the first that they find, and with "
-                   "--certain the nearest is told. "
-                   "'-' "
-                   "is standard input.",
+    .description =
+        "A row of QUERIES is x,y,z,mx,my,mz: the point where a probe is, and its motion. The "
+        "probe touches a triangle of SURFACE that the line through the point along the motion "
+        "meets, on either side of the point, if the motion points at the triangle's front: "
+        "the side from which its corners are seen counter-clockwise. Writes every row "
+        "unchanged, followed by status,triangle,distance,w0,w1,w2. The status is hit; none, "
+        "if certainly nothing is touched; limit, if the walks found nothing, though there may "
+        "be something; or bad, if the motion is zero or a number is not finite. The distance "
+        "is negative behind the point; w0, w1, w2 are the weights of the triangle's corners. "
+        "Of several triangles, walks report the first that they find, and --certain the "
+        "nearest. '-' is standard input.",
     .options = tables,
     .essential = "certain max-distance columns only-answers output",
     .settings_size = sizeof(probe_settings),

@@ -217,10 +217,9 @@ const command sample_command = {
     .operands = "MESH POINTS",
     .operand_count = 2,
     .summary = "interpolate heights or other values at points",
-    .description =
-        "Writes every row of POINTS as it is, and behind it the value, z: it is interpolated "
-        "linearly in the "
-        "triangle that contains the point, and empty where there is none. '-' is standard input.",
+    .description = "Writes every row of POINTS unchanged, followed by the value, z. The value is "
+                   "interpolated linearly in the triangle that contains the point, and empty if no "
+                   "triangle does. '-' is standard input.",
     .options = tables,
     .essential = "columns field outside only-answers output",
     .settings_size = sizeof(sample_settings),

@@ -306,18 +306,15 @@ const command star_command = {
     .operands = "POLYHEDRON DIRECTIONS",
     .operand_count = 2,
     .summary = "find the facet that each ray from a centre meets",
-    .description = "Writes every row of DIRECTIONS as it is, and behind it "
-                   "status,triangle,w0,w1,w2. The triangle is "
-                   "the facet of POLYHEDRON that the ray from the centre through the point meets, "
-                   "from 0; status is inside, edge "
-                   "or vertex, or bad, with -1 for the triangle, where a point is the centre or is "
-                   "not finite; w0, w1, w2 are the "
-                   "weights of the facet's corners in the place where the ray meets it. A ray "
-                   "through an edge or a corner belongs "
-                   "to the lowest-numbered facet that it meets. The centre must see all facets of "
-                   "the closed POLYHEDRON from "
-                   "inside, "
-                   "as that of a sphere does. '-' is standard input.",
+    .description =
+        "Writes every row of DIRECTIONS unchanged, followed by status,triangle,w0,w1,w2. The "
+        "triangle is the facet of POLYHEDRON that the ray from the centre through the point "
+        "meets, from 0; status is inside, edge or vertex. If the point is the centre or is "
+        "not finite, the status is bad and the triangle -1. w0, w1, w2 are the weights of the "
+        "facet's corners at the place where the ray meets it. A ray through an edge or a "
+        "corner belongs to the lowest-numbered facet that it meets. POLYHEDRON must be "
+        "closed, and the centre must see the inside of each facet, as that of a sphere does. "
+        "'-' is standard input.",
     .options = tables,
     .essential = "centre lonlat columns only-answers output",
     .settings_size = sizeof(star_settings),

@@ -5,6 +5,7 @@
 #include "cli/frame/monotonic_clock.h"
 #include "cli/frame/progress.h"
 #include "cli/frame/report.h"
+#include "cli/gdal/gdal_crs.h"
 #include "cli/gdal/gdal_point_layer.h"
 #include "cli/constraints/constraint_file.h"
 #include "cli/vertices/missing_values.h"
@@ -13,11 +14,13 @@
 #include "cli/output/border_peel.h"
 #include "cli/output/mesh_output.h"
 #include "cli/output/side_outputs.h"
+#include "cli/raster/greedy_tin.h"
 
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 typedef struct triangulate_settings {
     common_settings common;
@@ -25,7 +28,9 @@ typedef struct triangulate_settings {
     const char *columns, *classes, *layer, *where, *constraints, *boundary, *weight, *hidden;
     int kind, format, keep;
     uint32_t limit;
-    double max_edge;
+    const char *from;
+    double max_edge, tolerance;
+    uint32_t band;
     bool json, split, strict;
 } triangulate_settings;
 
@@ -76,6 +81,13 @@ static const option triangulate_options[] = {
      "them (default: keep "
      "the convex hull)",
      NULL},
+    {"from", 0, OPTION_TEXT, offsetof(triangulate_settings, from), "RASTER",
+     "in place of POINTS, those pixels of a raster that are needed to keep to --tolerance", NULL},
+    {"tolerance", 0, OPTION_MAX_DISTANCE, offsetof(triangulate_settings, tolerance), "Z",
+     "with --from: how far the mesh may be above or below the raster, at the centre of any pixel",
+     NULL},
+    {"band", 0, OPTION_COUNT, offsetof(triangulate_settings, band), "N",
+     "with --from: the band of RASTER, from 1 (default: 1)", NULL},
     {"kind", 0, OPTION_CHOICE, offsetof(triangulate_settings, kind), "NAME",
      "kind of triangulation (default: delaunay, which --constraints needs):", &kind_choices},
     {"weight", 0, OPTION_TEXT, offsetof(triangulate_settings, weight), "COLUMN",
@@ -133,12 +145,15 @@ typedef struct triangulate_work {
     double *weights; /* of --kind regular */
     uint8_t *hidden;
     border_peel peel;
+    dem dem; /* of --from */
+    greedy_tin_report greedy;
     double begin;
 } triangulate_work;
 
 static void triangulate_work_release(triangulate_work *w)
 {
     vertex_table_release(&w->vertices);
+    dem_release(&w->dem);
     mw_constraint_file_release(&w->constraints);
     mw_constrained_edges_release(&w->edges);
     free(w->duplicate_of);
@@ -346,6 +361,14 @@ static void triangulate_report_columns(report *r, const vertex_table *v)
     report_strings(r, "fields", v->file.field_names, v->file.field_count);
 }
 
+static void triangulate_report_raster(report *r, const triangulate_work *w)
+{
+    report_count(r, "inserted", w->greedy.inserted);
+    report_count(r, "pixels", w->greedy.pixels);
+    report_count(r, "left_out", w->greedy.left_out);
+    report_number(r, "largest_error", w->greedy.largest);
+}
+
 /* Print the report on standard output; on standard error if the mesh goes to standard output. */
 static int triangulate_print_report(const triangulate_settings *s, const triangulate_work *w)
 {
@@ -353,16 +376,18 @@ static int triangulate_print_report(const triangulate_settings *s, const triangu
     if (s->common.quiet) return 0;
     report_begin(&r, s->json);
     const mw_delaunay_report *made = s->constraints ? &w->constrained.delaunay : &w->kind.delaunay;
-    report_count(&r, "points", made->points);
+    report_count(&r, "points", s->from ? w->vertices.file.point_count : made->points);
     report_count(&r, "duplicates", made->duplicates);
     report_count(&r, "triangles", w->vertices.file.triangle_count);
     if (s->max_edge > 0) report_count(&r, "peeled", w->peel.triangles);
+    if (s->from) triangulate_report_raster(&r, w);
     triangulate_report_columns(&r, &w->vertices);
-    report_rounded(&r, "visited_per_point",
-                   made->points ? (double)made->triangles_visited / (double)made->points : 0);
+    if (!s->from)
+        report_rounded(&r, "visited_per_point",
+                       made->points ? (double)made->triangles_visited / (double)made->points : 0);
     if (s->constraints)
         triangulate_report_constrained(&r, w);
-    else
+    else if (!s->from)
         triangulate_report_kind(&r, s, &w->kind);
     report_rounded(&r, "seconds", monotonic_seconds() - w->begin);
     report_end(&r);
@@ -381,8 +406,17 @@ static int triangulate_check_combination(const triangulate_settings *s, const ch
 {
     if (s->boundary && s->keep)
         return triangulate_refuse("--boundary tells what to keep: --keep cannot");
-    if (!points && !s->constraints && !s->boundary)
-        return triangulate_refuse("wants POINTS, or --constraints FILE, or --boundary FILE");
+    if (!s->from && (s->tolerance > 0 || s->band))
+        return triangulate_refuse("--tolerance and --band are about --from");
+    if (s->from && points) return triangulate_refuse("--from RASTER stands in the place of POINTS");
+    if (s->from && s->tolerance == 0) return triangulate_refuse("--from wants --tolerance Z");
+    if (s->from && s->kind != MW_KIND_DELAUNAY)
+        return triangulate_refuse("--from is for --kind delaunay only");
+    if (s->from && s->max_edge > 0)
+        return triangulate_refuse("--from and --max-edge exclude each other");
+    if (!points && !s->from && !s->constraints && !s->boundary)
+        return triangulate_refuse(
+            "wants POINTS, or --from RASTER, or --constraints FILE, or --boundary FILE");
     if (!points && (s->columns || s->classes || s->layer || s->where || s->crs.points))
         return triangulate_refuse("--columns, --class, --layer, --where and --points-crs are "
                                   "about POINTS, which are missing");
@@ -406,8 +440,8 @@ static int triangulate_check_combination(const triangulate_settings *s, const ch
 /* Refuse wrong settings before the work begins. */
 static int triangulate_check_settings(const triangulate_settings *s, const char *points)
 {
-    const char *output = s->common.output, *files[] = {points, s->constraints, s->boundary},
-               *inputs[3];
+    const char *output = s->common.output,
+               *files[] = {points ? points : s->from, s->constraints, s->boundary}, *inputs[3];
     int count = 0, end = triangulate_check_combination(s, points);
     if (end == 0) end = vertex_crs_check(&s->crs);
     for (int i = 0; i < 3; i++)
@@ -462,12 +496,83 @@ static int triangulate_join_boundary(const triangulate_settings *s, const char *
     return end;
 }
 
+/* Take the first pixels of a raster as points. */
+static int triangulate_read_raster(const triangulate_settings *s, triangulate_work *w)
+{
+    vertex_table *v = &w->vertices;
+    int end = dem_read(&w->dem, s->from, s->band ? s->band : 1);
+    if (end == 0 && w->dem.crs && s->crs.mesh && !crs_same(w->dem.crs, s->crs.mesh)) {
+        complain("%s: is in another system than --crs says: gdalwarp brings it there", s->from);
+        end = END_INPUT;
+    }
+    if (end == 0) end = dem_begin(&w->dem, &v->file.points, &v->file.point_count);
+    if (end) return end;
+    v->file.has_z = v->point_heights = true;
+    v->points = v->file.point_count;
+    v->height_name = strdup("raster");
+    v->file.crs = w->dem.crs ? strdup(w->dem.crs) : NULL;
+    return v->height_name && (v->file.crs || !w->dem.crs) ? 0 : fail_memory();
+}
+
+/* Vertices of constraints that have no height get that of the raster. */
+static int triangulate_take_heights(const triangulate_settings *s, triangulate_work *w)
+{
+    const mw_mesh_file *file = &w->vertices.file;
+    for (size_t i = w->vertices.points; i < file->point_count; i++) {
+        double *p = file->points + 3 * i;
+        if (!w->constraints.has_z || isnan(p[2])) p[2] = dem_height(&w->dem, p[0], p[1]);
+        if (!isnan(p[2])) continue;
+        complain("%s: the point %g, %g has no height, and %s has none there", s->constraints, p[0],
+                 p[1], s->from);
+        return END_INPUT;
+    }
+    return 0;
+}
+
+/* Insert the pixels that are needed into the mesh that the vertices have. */
+static int triangulate_refine(const triangulate_settings *s, triangulate_work *w)
+{
+    mw_error error;
+    mw_mesh *mesh = NULL, *fine = NULL;
+    mw_mesh_file *file = &w->vertices.file;
+    const mw_arrays arrays = mw_mesh_file_arrays(file);
+    const greedy_tin_options options = {
+        .tolerance = s->tolerance,
+        .bounded = w->constrained.triangles_removed > 0,
+        .common = &s->common,
+    };
+    if (mw_mesh_create(&arrays, NULL, &mesh, &error) != MW_OK ||
+        mw_mesh_set_field(mesh, "z", file->points + 2, 3, &error) != MW_OK) {
+        mw_mesh_destroy(mesh);
+        return fail_mesh(s->from, &error);
+    }
+    int end = greedy_tin_make(&w->dem, mesh, &w->edges, &options, &fine, &w->greedy);
+    mw_mesh_destroy(mesh);
+    if (end == 0) {
+        char *crs = file->crs, *height = w->vertices.height_name;
+        file->crs = w->vertices.height_name = NULL;
+        vertex_table_release(&w->vertices);
+        end = vertex_table_of_mesh(&w->vertices, fine);
+        file->crs = crs;
+        w->vertices.height_name = height;
+    }
+    mw_mesh_destroy(fine);
+    if (end == 0 && w->greedy.left_out > 0 && !options.bounded && !s->common.quiet)
+        complain(
+            "%s: warning: %zu of its pixels have a height, but lie in no triangle: none beside "
+            "them make one",
+            s->from, w->greedy.left_out);
+    return end;
+}
+
 static int triangulate_read_input(const triangulate_settings *s, const char *points,
                                   triangulate_work *w)
 {
     const vertex_table_options how = {{s->columns, s->classes, s->layer, s->where},
                                       s->common.quiet};
-    int end = points ? vertex_table_read(&w->vertices, points, &how) : 0;
+    int end = s->from  ? triangulate_read_raster(s, w)
+              : points ? vertex_table_read(&w->vertices, points, &how)
+                       : 0;
     const constraint_file_options options = {.quiet = s->common.quiet, .strict = s->strict};
     if (end == 0 && s->constraints)
         end = constraint_file_read(s->constraints, options, &w->constraints);
@@ -477,23 +582,26 @@ static int triangulate_read_input(const triangulate_settings *s, const char *poi
         end = vertex_crs_join(&s->crs, &s->common, points, &w->vertices, s->constraints,
                               &w->constraints);
     if (end == 0 && s->boundary != s->constraints) end = triangulate_join_boundary(s, points, w);
-    return end || !s->constraints ? end : vertex_table_append(&w->vertices, &w->constraints);
+    if (end || !s->constraints) return end;
+    end = vertex_table_append(&w->vertices, &w->constraints);
+    return end || !s->from ? end : triangulate_take_heights(s, w);
 }
 
 static int triangulate_run(const void *settings, const char *const *operands)
 {
     const triangulate_settings *given = settings, settled = triangulate_settle(given),
                                *s = &settled;
-    const char *points = operands[0];
+    const char *points = operands[0] ? operands[0] : s->from;
     triangulate_work w = {.begin = monotonic_seconds()};
     bool temporary = false;
-    int end = triangulate_check_settings(given, points);
+    int end = triangulate_check_settings(given, operands[0]);
     if (end == 0) end = files_try_output(s->common.output, &temporary);
     if (end == 0) end = triangulate_read_input(s, points, &w);
     if (end == 0)
         end = s->constraints ? triangulate_with_constraints(s, points, &w)
                              : triangulate_points(s, points, &w);
-    if (end == 0) triangulate_warn_of_points(s, points, &w);
+    if (end == 0 && !s->from) triangulate_warn_of_points(s, points, &w);
+    if (end == 0 && s->from) end = triangulate_refine(s, &w);
     if (end == 0 && !s->common.quiet)
         mesh_output_warn(s->common.output, s->format, &w.vertices.file);
     if (end == 0)

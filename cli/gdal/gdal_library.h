@@ -43,6 +43,9 @@ bool gdal_library_built(void);
     F(GDALGetRasterNoDataValue)                                                                    \
     F(GDALRasterIO)                                                                                \
     F(GDALSetDescription)                                                                          \
+    F(GDALGetRasterOffset)                                                                         \
+    F(GDALGetRasterScale)                                                                          \
+    F(GDALGetRasterDataType)                                                                       \
     F(GDALDatasetCreateLayer)                                                                      \
     F(GDALDatasetStartTransaction)                                                                 \
     F(GDALDatasetCommitTransaction)                                                                \

@@ -259,7 +259,54 @@ int gdal_raster_describe(const char *path, gdal_raster_form *form, char **crs)
     return end;
 }
 
+/* Bring values to the unit of the band, and nodata to NaN. */
+static void band_settle(const gdal_functions *gdal, GDALRasterBandH band, double *values,
+                        size_t count)
+{
+    int has_nodata = 0, has_offset = 0, has_scale = 0;
+    double nodata = gdal->GDALGetRasterNoDataValue(band, &has_nodata),
+           offset = gdal->GDALGetRasterOffset(band, &has_offset),
+           scale = gdal->GDALGetRasterScale(band, &has_scale);
+    bool single = gdal->GDALGetRasterDataType(band) == GDT_Float32;
+    if (single) nodata = (double)(float)nodata;
+    for (size_t i = 0; i < count; i++) {
+        if ((has_nodata && values[i] == nodata) || !isfinite(values[i]))
+            values[i] = NAN;
+        else
+            values[i] = values[i] * (has_scale ? scale : 1) + (has_offset ? offset : 0);
+    }
+}
+
+int gdal_raster_read(const char *path, const gdal_raster_form *form, uint32_t band, double *values)
+{
+    const gdal_functions *gdal = gdal_library_load();
+    gdal->CPLErrorReset();
+    GDALDatasetH set = gdal->GDALOpenEx(
+        path, GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, NULL, NULL, NULL);
+    GDALRasterBandH source = set ? gdal->GDALGetRasterBand(set, (int)band + 1) : NULL;
+    CPLErr failure = CE_Failure;
+    if (source)
+        failure =
+            gdal->GDALRasterIO(source, GF_Read, 0, 0, (int)form->columns, (int)form->rows, values,
+                               (int)form->columns, (int)form->rows, GDT_Float64, 0, 0);
+    if (failure != CE_None)
+        complain("%s: GDAL says: %.1000s", path, gdal->CPLGetLastErrorMsg());
+    else
+        band_settle(gdal, source, values, (size_t)form->columns * form->rows);
+    if (set) gdal->GDALClose(set);
+    return failure == CE_None ? 0 : END_INPUT;
+}
+
 #else
+
+int gdal_raster_read(const char *path, const gdal_raster_form *form, uint32_t band, double *values)
+{
+    (void)path;
+    (void)form;
+    (void)band;
+    (void)values;
+    return END_INPUT;
+}
 
 int gdal_raster_check(const char *path, const char *driver)
 {

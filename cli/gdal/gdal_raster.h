@@ -49,4 +49,8 @@ uint32_t gdal_raster_size(raster_type type);
  * frees, or NULL: not known. *nodata is NaN if it has none. */
 int gdal_raster_describe(const char *path, gdal_raster_form *form, char **crs);
 
+/* Read a band, from 0, of a raster that has been described: columns * rows values, NaN where it has
+ * none, in units of the band. */
+int gdal_raster_read(const char *path, const gdal_raster_form *form, uint32_t band, double *values);
+
 #endif

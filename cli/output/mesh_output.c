@@ -18,6 +18,12 @@ static const char *mesh_format_name(int i)
 
 const choices mesh_formats = {"format", mesh_format_name, NULL};
 
+static bool mesh_output_is_packed(const char *output)
+{
+    size_t length = strlen(output);
+    return length > 3 && strcasecmp(output + length - 3, ".gz") == 0;
+}
+
 int mesh_output_check(const char *command_name, const char *output, int format)
 {
     if (!output)
@@ -27,6 +33,8 @@ int mesh_output_check(const char *command_name, const char *output, int format)
     else if (format == FORMAT_BY_ENDING && !mw_mesh_format_of_path(output))
         complain("%s: no mesh format has this ending; name one with --format (off, ply, ...)",
                  output);
+    else if (mesh_output_is_packed(output))
+        complain("%s: gzip is read, but not written; leave out .gz", output);
     else
         return 0;
     return END_USAGE;

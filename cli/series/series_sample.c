@@ -16,6 +16,7 @@
 typedef struct series_run {
     const point_query_settings *query_settings;
     const series_settings *settings;
+    const char *output; /* NULL: standard output */
     point_query query;
     uint32_t *face;
     size_t face_count;
@@ -162,6 +163,12 @@ static int run_write_wide(series_run *r)
     return end ? end : run_write_rows(r, NULL);
 }
 
+static bool run_is_netcdf(const series_run *r)
+{
+    const size_t length = r->output ? strlen(r->output) : 0;
+    return length > 3 && strcmp(r->output + length - 3, ".nc") == 0;
+}
+
 /* Each point at its own time. */
 static int run_write_track(series_run *r)
 {
@@ -172,10 +179,76 @@ static int run_write_track(series_run *r)
     return end ? end : run_write_rows(r, NULL);
 }
 
+/* --- netCDF ----------------------------------------------------------------------------------- */
+
+static int run_write_fields(series_run *r, mw_point_series *out)
+{
+    const bool track = r->settings->time_column;
+    int end = 0;
+    for (size_t s = r->choice.first; s <= (track ? r->choice.first : r->choice.last); s++)
+        for (size_t k = 0; k < r->choice.field_count; k++) {
+            if (end || mw_point_series_failed(out)) return end;
+            end = track ? series_values_follow(&r->values, k, r->points.points + 2, r->points.width,
+                                               r->results)
+                        : series_values_read(&r->values, k, s, r->results);
+            if (end == 0) mw_point_series_write(out, k, s - r->choice.first, r->results);
+        }
+    return end;
+}
+
+static int run_write_netcdf_of(series_run *r, const char **names, const char **units)
+{
+    mw_error error;
+    mw_point_series *out;
+    const bool track = r->settings->time_column;
+    const mw_series_info *info = r->choice.info;
+    for (size_t k = 0; k < r->choice.field_count; k++) {
+        names[k] = series_field(&r->choice, k)->name;
+        units[k] = series_field(&r->choice, k)->unit;
+    }
+    const mw_point_series_layout layout = {
+        .feature = track ? MW_POINT_TRAJECTORY : MW_POINT_TIME_SERIES,
+        .places = r->points.points,
+        .place_stride = r->points.width,
+        .point_count = r->points.count,
+        .degrees = r->points.lonlat,
+        .times = track ? r->points.points + 2 : info->times + r->choice.first,
+        .time_stride = track ? r->points.width : 1,
+        .time_count = run_steps(r),
+        .time_unit = info->time_unit,
+        .calendar = info->calendar,
+        .names = names,
+        .units = units,
+        .field_count = r->choice.field_count,
+        .located = r->points.located};
+    if (mw_point_series_open(r->output, &layout, &out, &error) != MW_OK)
+        return fail_writing(&error);
+    int end = run_write_fields(r, out);
+    if (mw_point_series_close(out, end == 0, &error) != MW_OK && end == 0)
+        end = fail_writing(&error);
+    return end;
+}
+
+/* By the conventions of CF: the series of stations, or a track. */
+static int run_write_netcdf(series_run *r)
+{
+    const char **names = calloc(r->choice.field_count, sizeof *names),
+               **units = calloc(r->choice.field_count, sizeof *units);
+    r->results = malloc(r->points.count * sizeof *r->results + 1);
+    int end = names && units && r->results ? run_write_netcdf_of(r, names, units) : fail_memory();
+    free(names);
+    free(units);
+    return end;
+}
+
+/* --- all -------------------------------------------------------------------------------------- */
+
 static int run_write(series_run *r)
 {
     mw_error error;
-    const char *output = r->query_settings->stream.common.output;
+    const char *output = r->output;
+    progress_phase("interpolating", r->choice.path);
+    if (run_is_netcdf(r)) return run_write_netcdf(r);
     const size_t values = run_width(r) * r->points.count;
     if (values > LARGEST_WIDE && run_is_wide(r)) {
         complain("a wide table of %zu values would not fit into memory; leave out --wide", values);
@@ -186,7 +259,6 @@ static int run_write(series_run *r)
     if (mw_output_open(output ? output : "-", &r->out, &error) != MW_OK)
         return fail_writing(&error);
     signals_set_temporary(mw_output_temporary(r->out));
-    progress_phase("interpolating", r->choice.path);
     mw_output_write(r->out, r->points.header.bytes, r->points.header.size);
     int end = r->settings->time_column ? run_write_track(r)
               : run_is_wide(r)         ? run_write_wide(r)
@@ -195,8 +267,6 @@ static int run_write(series_run *r)
     signals_set_temporary(NULL);
     return end;
 }
-
-/* --- all -------------------------------------------------------------------------------------- */
 
 static void run_remark_time(const series_run *r)
 {
@@ -223,13 +293,29 @@ static int run_prepare(series_run *r, const char *const *operands)
     return end ? end : located_points_read(&r->points, &r->query, operands[1], s->time_column);
 }
 
+/* Refuse an output that is an input, and tables in netCDF. */
+static int run_check_output(const series_run *r, const char *const *operands)
+{
+    const char *const inputs[] = {operands[0], operands[1], r->settings->values};
+    if (run_is_netcdf(r) && (r->settings->wide || r->settings->status)) {
+        complain("--%s is for tables; netCDF has %s", r->settings->wide ? "wide" : "status",
+                 r->settings->wide ? "all steps of a point anyway" : "the status anyway");
+        return END_USAGE;
+    }
+    return files_check_output(r->output, inputs, r->settings->values ? 3 : 2);
+}
+
 int series_sample(const point_query_settings *query, const series_settings *settings,
                   const char *const *operands)
 {
-    series_run r = {.query_settings = query, .settings = settings}, *self = &r;
+    point_query_settings plain = *query; /* no rows are written to an output that is netCDF */
+    series_run r = {.query_settings = &plain, .settings = settings}, *self = &r;
     int end = settings->time ? series_check_time(settings->time) : 0;
+    r.output = query->stream.common.output;
+    if (end == 0) end = run_check_output(&r, operands);
     if (end) return end;
-    end = point_query_open(&r.query, query, operands, false, run_load, &self);
+    if (run_is_netcdf(&r)) plain.stream.common.output = NULL;
+    end = point_query_open(&r.query, &plain, operands, false, run_load, &self);
     if (end == 0) end = run_prepare(&r, operands);
     const series_points at = {.mesh = r.query.mesh,
                               .face = r.face,

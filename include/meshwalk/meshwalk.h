@@ -20,5 +20,6 @@
 #include <meshwalk/io.h>
 #include <meshwalk/weights.h>
 #include <meshwalk/series.h>
+#include <meshwalk/point_series.h>
 
 #endif

@@ -72,6 +72,11 @@ typedef struct mw_series_options {
  * netCDF: every variable of numbers over the vertices or the faces of the mesh (layouts: see
  * mw_read_mesh()), with or without a time, and with at most one dimension more, is a field, or one
  * for each index of that dimension. Values are unpacked (scale_factor, add_offset).
+ * Selafin: every variable. ADCIRC's text: fort.63 has the field "zeta", fort.64 "u-vel" and
+ * "v-vel", fort.73 "pressure", fort.74 "windx" and "windy", maxele.63 "zeta_max", maxvel.63
+ * "vel_max"; the mesh is in fort.14. These two kinds are read once for their times, and again from
+ * their beginning where a step is asked for that comes before the last one; one step of all fields
+ * is kept.
  *
  * @param path     the file; it may be packed by gzip, which is then unpacked in memory
  * @param options  NULL = all zero

@@ -90,6 +90,26 @@ class Locator:
     ) -> tuple[int, int, float, tuple[float, float], tuple[float, float, float]]: ...
     def _describe(self) -> dict[str, Any]: ...
 
+class Operator:
+    def transpose(self, threads: int, progress: Progress | None, /) -> Operator: ...
+    def apply(
+        self,
+        values: Buffer,
+        narrow: bool,
+        out: Buffer,
+        left_out: bool,
+        zero: bool,
+        threads: int,
+        progress: Progress | None,
+        /,
+    ) -> None: ...
+    def copy(self, first: Buffer, column: Buffer, weight: Buffer, /) -> None: ...
+    def describe(self) -> tuple[int, int, int, int, int]: ...
+
+def operator_from_locations(
+    mesh: Mesh, locations: Buffer, threads: int, progress: Progress | None, /
+) -> Operator: ...
+
 _Mesh = TypeVar("_Mesh", bound=Mesh)
 _Locator = TypeVar("_Locator", bound=Locator)
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import os
 from typing import TYPE_CHECKING, Any
 
@@ -203,8 +202,10 @@ class Locations:
         Notes
         -----
         The dimensions are ``n_a`` (vertices), ``n_b`` (points) and ``n_s`` (weights); the variables
-        ``row`` (point, from 1), ``col`` (vertex, from 1) and ``S`` (weight). SciPy has to be
-        installed.
+        ``row`` (point, from 1), ``col`` (vertex, from 1) and ``S`` (weight), as ``start_index``
+        tells; ``mask_b`` is 0 for points without a triangle, ``frac_b`` the sum of the weights,
+        ``status_b`` the number in `Where`. In the plane ``xc_a`` and ``yc_a`` are the vertices.
+        SciPy has to be installed.
 
         Examples
         --------
@@ -221,12 +222,32 @@ class Locations:
             for name, size in (("n_a", matrix.shape[1]), ("n_b", matrix.shape[0])):
                 file.createDimension(name, size)
             file.createDimension("n_s", matrix.nnz)
-            for name, kind, values in (
-                ("row", "i4", matrix.row + 1),
-                ("col", "i4", matrix.col + 1),
-                ("S", "f8", matrix.data),
-            ):
-                file.createVariable(name, kind, ("n_s",))[:] = values
+            for name, number in (("row", matrix.row), ("col", matrix.col)):
+                variable = file.createVariable(name, "i4", ("n_s",))
+                variable[:] = number + 1
+                variable.start_index = np.int32(1)
+            file.createVariable("S", "f8", ("n_s",))[:] = matrix.data
+            for name, kind, dimension, values in self._esmf_sides(matrix):
+                file.createVariable(name, kind, (dimension,))[:] = values
+
+    def _esmf_sides(self, matrix: Any) -> list[tuple[str, str, str, Any]]:
+        """Tell of columns (a) and rows (b) what readers of ESMF's files want to know."""
+        used = np.zeros(matrix.shape[1])
+        used[matrix.col] = 1
+        sums = np.bincount(matrix.row, matrix.data, matrix.shape[0])
+        sides = [
+            ("mask_a", "i4", "n_a", np.ones(len(used), np.int32)),
+            ("area_a", "f8", "n_a", np.zeros(len(used))),
+            ("frac_a", "f8", "n_a", used),
+            ("mask_b", "i4", "n_b", (self.triangle.reshape(-1) >= 0).astype(np.int32)),
+            ("area_b", "f8", "n_b", np.zeros(len(sums))),
+            ("frac_b", "f8", "n_b", sums),
+            ("status_b", "i1", "n_b", self.where.reshape(-1).astype(np.int8)),
+        ]
+        points = self.mesh.points
+        if points.shape[1] == 2:
+            sides += [(name, "f8", "n_a", points[:, k]) for k, name in enumerate(("xc_a", "yc_a"))]
+        return sides
 
     def _field(self, name: str) -> NDArray[np.float64]:
         fields = self.mesh.fields
@@ -238,24 +259,12 @@ class Locations:
     def _interpolate_array(
         self, values: NDArray[Any], threads: int, progress: Progress | None
     ) -> NDArray[Any]:
-        narrow = values.dtype.kind == "f" and values.dtype.itemsize <= 4
-        kind = np.float32 if narrow else np.float64
-        inner = values.shape[1:]
-        # Fields in time, transposed, lie field by field, and do so still in the other order.
-        by_field = values.flags.f_contiguous and len(inner) > 1
-        flat = (len(values), math.prod(inner))
-        table = _arrays.columns(values.reshape(flat, order="F" if by_field else "C"), kind)
         records = np.ascontiguousarray(self.records).reshape(-1)
-        in_rows = _arrays.lies_in_rows(table)
-        out = np.empty((records.size, flat[1]) if in_rows else (flat[1], records.size), kind)
-        self.mesh._interpolate_table(table, narrow, records, out, threads, progress)
-        result = out if in_rows else out.T
-        if not by_field:
-            return result.reshape(self.shape + inner)
-        # The inner axes were counted from the first on.
-        result = result.reshape(self.shape + inner[::-1])
-        here = len(self.shape)
-        return result.transpose(*range(here), *reversed(range(here, result.ndim)))
+
+        def interpolate(table: NDArray[Any], narrow: bool, out: NDArray[Any]) -> None:
+            self.mesh._interpolate_table(table, narrow, records, out, threads, progress)
+
+        return _arrays.interpolated(values, self.shape, interpolate)
 
     def __getitem__(self, index: Any) -> Locations:
         chosen = self.records[index]

@@ -229,7 +229,7 @@ run bench paper D1 --data ring.off --queries 100; exits 0; says_nothing
 prints_line '^  mesh +mesh_border_edges +8$'
 prints_line '^  border +border_runs +[0-9.]+$'
 prints_line '^  over those of straight-filled$'
-run bench paper D1 --data p.xyz "${few[@]}"; refused 3 'p.xyz: this is no mesh'
+run bench paper D1 --data p.xyz "${few[@]}"; refused 3 'p.xyz: this is not a mesh'
 run bench paper D1 --data ring.off --enclose yes "${few[@]}"; refused 2 'meshes, which --enclose'
 printf 'OFF\n3 1 0\n0 0 0\n1 1 0\n2 2 0\n3 0 1 2\n' >flat.off
 run bench paper D1 --data flat.off "${few[@]}"; refused 3 'flat.off'
@@ -291,7 +291,7 @@ for at in 0 100; do
     prints_line '^  barycentric +WBW  exact time +[0-9.]+  0\.772 to 0\.786$'
 done
 run bench paper F1 --data ring.off "${few[@]}"; refused 3 'ring.off'
-run bench paper F1 --data p.xyz "${few[@]}"; refused 3 'p.xyz: this is no mesh'
+run bench paper F1 --data p.xyz "${few[@]}"; refused 3 'p.xyz: this is not a mesh'
 run bench paper F1 --sizes 42 --enclose yes "${few[@]}"; refused 2 'meshes, which --enclose'
 
 # Appendix G: probes of a surface. Nine quantities without times, and the triangles of the mesh.
@@ -333,7 +333,7 @@ holds "nothing is published for the other" test -z \
 run bench paper G1 --data pawn-like.off --queries 100; exits 0; says_nothing
 prints_line "^pawn-like.off, 152 vertices; published: the thesis' pawn$"
 prints_line '^  plane +time_exact_us +[0-9.]+ +2\.30 +[0-9.]+$'
-run bench paper G1 --data p.xyz "${few[@]}"; refused 3 'p.xyz: this is no mesh'
+run bench paper G1 --data p.xyz "${few[@]}"; refused 3 'p.xyz: this is not a mesh'
 run bench paper G1 --data flat.off "${few[@]}"; refused 3 'flat.off: the surface has no area'
 run bench paper G3 --sizes 154 --enclose yes "${few[@]}"; refused 2 'meshes, which --enclose'
 rm flat.off tetrahedron.off pawn-like.off ring19.off

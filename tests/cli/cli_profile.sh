@@ -36,6 +36,13 @@ prints "$(<expected)"
 run_on $'east;north\n1;2\n7;2\n7;2\n9;3\n' profile --columns east,north gap.off -; exits 0
 prints "$(<expected)"
 
+# What else a table tells of its points is not kept, and that is said.
+run_on $'name,x,y,m\na,1,2,0\nb,7,2,1\nc,9,3,2\n' profile gap.off -; exits 0
+prints "$(<expected)"
+says 'standard input: remark: .*columns name, m$'
+run_on $'5 1 2\n6 7 2\n7 9 3\n' profile --columns 2,3 gap.off -; exits 0; prints "$(<expected)"
+says 'columns 1$'
+
 # Through vertices, along edges and the border, touching a corner, outside, on one point.
 run_on $'x,y\n0,4\n4,0\n' profile gap.off -; exits 0
 prints "$header
@@ -105,13 +112,24 @@ else
     left_out 'GDAL is not found'
 fi
 
+# Attributes that are not read are told.
+if command -v gzip >/dev/null && "$meshwalk" --version | grep -q 'Jansson *[0-9]'; then
+    gzip -k roads.geojson
+    run profile --lines-crs same gap.off roads.geojson.gz; exits 0
+    prints_line '^2,0,5[.]656854249492381,4,4,30,-1,end$'
+    says 'roads.geojson.gz: remark: its attributes are not read'
+fi
+# As far apart as doubles are.
+run_on $'x,y\n-1.7e308,1.7e308\n1.7e308,1.7e308\n' profile gap.off -; exits 0
+prints_line '^0,0,inf,1.7e[+]308,1.7e[+]308,,-1,end$'
+
 # Segments of a .poly are lines.
 printf '3 2 0 0\n1 1 2\n2 3 2\n3 9 9\n2 0\n1 1 2\n2 2 3\n0\n' >lines.poly
 run profile -q gap.off lines.poly; exits 0; prints_line '^[0-9]+,0,1,2,2,20,0,edge$'
 
 # What is refused.
 run_on $'x,y\n1,1\n,2\n' profile gap.off -; refused 3 'a point of the line has no finite x and y'
-run_on $'x,y\n' profile gap.off -; refused 3 'there are no lines in it'
+run_on $'x,y\n' profile gap.off -; refused 3 'standard input: there are no lines in it'
 run_on $'x,y\n1,1\n2,2\n' profile --field depth gap.off -; refused 3 "has no field 'depth'"
 run_on $'x,y\n1,1\n2,2\n' profile --attribute name gap.off -
 refused 2 "'--attribute' is for vector"

@@ -55,6 +55,15 @@ run sample flow.nc comma.csv --time 0..1 -q; exits 0
 prints $'id;x;y;t;time;zeta;u\na;0,75;0,25;0,5;0;1;1\na;0,75;0,25;0,5;1;11;2'
 run sample flow.nc points.csv --time 0 --strict -q; exits 1
 
+# By CF, as netCDF; tests/io/test_point_series.c looks into it.
+run sample flow.nc points.csv --time all -o series.nc -q; exits 0; says_nothing
+run sample flow.nc points.csv --time-column t -o track.nc -q; exits 0; says_nothing
+holds "netCDF files" test "$(head -c 4 series.nc track.nc | grep -c HDF)" == 2
+run sample flow.nc points.csv --time all --status -o other.nc; refused 2 '--status is for tables'
+run sample flow.nc points.csv --time all --wide -o other.nc; refused 2 '--wide is for tables'
+run sample flow.nc points.csv --time all -q -o none/other.nc; refused 4 'none/other.nc: '
+holds "nothing is written then" test ! -e other.nc
+
 # What is refused.
 run sample flow.nc points.csv --time 7; refused 3 'flow.nc: has 3 steps, from 0: there is no step 7'
 for time in x 2..1 1.. nearest: nearest:nan -1; do

@@ -38,7 +38,7 @@ run triangulate p.xyz --json -o q.off; exits 0; holds "the report is JSON" is_js
 prints_line '"duplicates": 1'
 for name in m.xyzzy m m.ply.gz; do
     run triangulate absent.xyz -o "$name"
-    refused 2 "$name: .*--format"
+    refused 2 "$name: (.*--format|gzip is read, but not written)"
     absent "$name"
 done
 run triangulate p.xyz --format off -o m.xyzzy; exits 0

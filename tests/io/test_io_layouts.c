@@ -359,6 +359,10 @@ static void test_wrong(void **state)
 {
     (void)state;
     need_libnetcdf();
+    /* an attribute with a name of 4 GB: libnetcdf would ask for the memory */
+    files_write("a.nc", BYTES("CDF\1\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\14\0\0\0\1\xff\xff\xff\xf0"
+                              "aaaaaaaaaaaaaaaaaaaaaaaa"));
+    expect_refused(NULL, MW_ERROR_INPUT, "a.nc: at byte 52: the data end early");
     for (int wrong = 0; wrong < 5; wrong++) {
         static const char *const says[] = {
             "a.nc: variable element: 3000000000000 values are announced",

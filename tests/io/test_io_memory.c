@@ -7,6 +7,7 @@
 #include <cmocka.h>
 
 #include <stdbool.h>
+#include <meshwalk/series.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -229,6 +230,29 @@ static void test_read_grids(void **state)
     files_clear();
 }
 
+static mw_status read_series(const char *path, mw_error *error)
+{
+    mw_series *series;
+    double values[8];
+    mw_status status = mw_series_open(path, NULL, &series, error);
+    if (!status) status = mw_series_read(series, 0, 1, values, error);
+    if (!status) status = mw_series_read(series, 0, 0, values, error);
+    mw_series_close(series);
+    return status;
+}
+
+static void test_read_series(void **state)
+{
+    (void)state;
+    grid_bytes g = grid_selafin((grid_form){0});
+    files_write("a.slf", (bytes){g.bytes, g.size});
+    grid_release(&g);
+    fail_each(read_series, "a.slf");
+    files_write_text("fort.64", "a\n2 2 1 1 2\n1 1\n1 1 1\n2 2 2\n2 2\n1 1 1\n2 2 2\n");
+    fail_each(read_series, "fort.64");
+    files_clear();
+}
+
 static void test_read_points(void **state)
 {
     (void)state;
@@ -275,7 +299,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_read_meshes), cmocka_unit_test(test_read_grids),
-        cmocka_unit_test(test_read_points), cmocka_unit_test(test_read_edits),
-        cmocka_unit_test(test_write)};
+        cmocka_unit_test(test_read_series), cmocka_unit_test(test_read_points),
+        cmocka_unit_test(test_read_edits),  cmocka_unit_test(test_write)};
     return cmocka_run_group_tests(tests, files_enter, files_leave);
 }

@@ -186,7 +186,7 @@ static void test_several(void **state)
     write_model("b.nc", (model){"julian", {5, 6}, 2, false});
     expect_refused(&options, "b.nc: its times are");
     files_write_text("a.nc", "x y\n");
-    expect_refused(NULL, "a.nc: values over time are read from netCDF");
+    expect_refused(NULL, "a.nc: not values over time in a known format");
     files_clear();
 }
 

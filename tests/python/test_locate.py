@@ -261,3 +261,9 @@ def test_weights_in_a_file(square: meshwalk.Mesh, tmp_path: Path) -> None:
         assert file.variables["row"][:].tolist() == [1, 1, 1, 3]
         assert file.variables["col"][:].tolist() == [1, 2, 3, 3]
         assert file.variables["S"][:].tolist() == [0.25, 0.5, 0.25, 1]
+        assert file.variables["row"].start_index == file.variables["col"].start_index == 1
+        assert file.variables["mask_b"][:].tolist() == [1, 0, 1]
+        assert file.variables["frac_b"][:].tolist() == [1, 0, 1]
+        assert file.variables["frac_a"][:].tolist() == [1, 1, 1, 0]
+        assert file.variables["status_b"][:].tolist() == hit.where.tolist()
+        assert file.variables["yc_a"][:].tolist() == square.points[:, 1].tolist()

@@ -2,6 +2,7 @@
 
 #include "io/grid/grid_readers.h"
 #include "io/grid/grid_writers.h"
+#include "io/grid/selafin.h"
 #include "io/layouts/netcdf_mesh.h"
 #include "io/mesh/mesh_readers.h"
 #include "io/mesh/mesh_writers.h"
@@ -69,13 +70,6 @@ static bool begins_vtu(const char *head, size_t size)
     for (size_t i = 0; i + 8 <= size; i++)
         if (memcmp(head + i, mark, 8) == 0) return true;
     return false;
-}
-
-/* A record of 80 bytes that ends with its length, in either byte order. */
-static bool begins_selafin(const char *head, size_t size)
-{
-    return size >= 88 && memcmp(head, head + 84, 4) == 0 &&
-           (memcmp(head, "\0\0\0P", 4) == 0 || memcmp(head, "P\0\0\0", 4) == 0);
 }
 
 /* A zip file whose first entry is an array. */
@@ -147,7 +141,7 @@ static const mw_mesh_format formats[] = {
      .write = mw__write_msh},
     {.name = "selafin",
      .endings = ".slf\0.selafin\0.ser\0",
-     .first_bytes = begins_selafin,
+     .first_bytes = mw__is_selafin,
      .read = mw__read_selafin},
     {.name = "su2", .endings = ".su2\0", .first_word = is_su2, .read = mw__read_su2},
     {.name = "npz", .endings = ".npz\0", .first_bytes = begins_npz, .read = mw__read_npz},

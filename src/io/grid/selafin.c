@@ -8,6 +8,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+bool mw__is_selafin(const char *head, size_t size)
+{
+    return size >= 88 && memcmp(head, head + 84, 4) == 0 &&
+           (memcmp(head, "\0\0\0P", 4) == 0 || memcmp(head, "P\0\0\0", 4) == 0);
+}
+
 mw_status mw__selafin_record(mw_selafin *s, uint64_t wanted, const char *what, uint64_t *length,
                              mw_error *error)
 {

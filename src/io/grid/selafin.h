@@ -15,6 +15,9 @@ typedef struct mw_selafin {
     int64_t elements, vertices, corners;
 } mw_selafin;
 
+/* Does a file begin so: a record of 80 bytes that ends with its length, in either byte order? */
+bool mw__is_selafin(const char *head, size_t size);
+
 /* Read up to the numbers of elements and vertices. Release it in any case. */
 mw_status mw__selafin_start(mw_selafin *s, mw_source *source, mw_error *error);
 void mw__selafin_release(mw_selafin *s);

@@ -134,19 +134,20 @@ static mw_status layout_named(const mw_netcdf *file, const named_layout *named, 
     return status;
 }
 
-/* A table of `first` by `second` numbers: which dimension is that of the faces? Faces have few
- * corners, and all layouts but UGRID's say in their order what they are. */
+/* Which dimension of a table is that of the faces? UGRID puts it first unless attributes say
+ * otherwise; but some write the corners first without saying so, and faces have few corners. */
 static bool layout_corner_first(const mw_layout *layout, const mw_netcdf_variable *table)
 {
-    enum { COMMON_CORNERS = 4 };
+    enum { COMMON_CORNERS = 4, MANY_CORNERS = 12 };
     if (layout->face_dimension >= 0 && table->dimensions[0] != table->dimensions[1]) {
         if (table->dimensions[0] == layout->face_dimension) return false;
         if (table->dimensions[1] == layout->face_dimension) return true;
     }
-    if (strcmp(layout->name, "fvcom") == 0 || strcmp(layout->name, "fesom") == 0)
-        return table->lengths[0] == 3;
+    bool as_fortran = strcmp(layout->name, "fvcom") == 0 || strcmp(layout->name, "fesom") == 0 ||
+                      (strcmp(layout->name, "icon") == 0 && layout->corners);
+    if (as_fortran) return table->lengths[0] == 3;
     return table->lengths[0] <= COMMON_CORNERS && table->lengths[0] >= 3 &&
-           table->lengths[1] > table->lengths[0];
+           table->lengths[1] > MANY_CORNERS;
 }
 
 static mw_status layout_check_table(const mw_netcdf *file, mw_layout *layout, mw_error *error)

@@ -1,4 +1,5 @@
 #include "io/layouts/netcdf_mesh.h"
+#include "io/netcdf/classic_header.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -28,15 +29,30 @@ static mw_status netcdf_source_contents(mw_source *source, char **contents, size
     return MW_OK;
 }
 
+static mw_status netcdf_source_check(const char *name, const char *contents, size_t size,
+                                     mw_error *error)
+{
+    mw_source memory;
+    mw_status status = mw__source_memory(&memory, name, contents, size, error);
+    if (status) return status;
+    status = mw__classic_header_check(&memory, error);
+    mw__source_close(&memory);
+    return status;
+}
+
 mw_status mw__netcdf_open_source(mw_source *source, mw_netcdf **out, void **memory, mw_error *error)
 {
     *out = NULL;
     *memory = NULL;
-    if (mw__source_is_plain_file(source)) return mw__netcdf_open(source->path, out, error);
+    if (mw__source_is_plain_file(source)) {
+        mw_status checked = mw__classic_header_check(source, error);
+        return checked ? checked : mw__netcdf_open(source->path, out, error);
+    }
     char *contents;
     size_t size;
     source->binary = true;
     mw_status status = netcdf_source_contents(source, &contents, &size, error);
+    if (!status) status = netcdf_source_check(mw__source_name(source), contents, size, error);
     if (!status)
         status = mw__netcdf_open_memory(mw__source_name(source), contents, size, out, error);
     if (status) {

@@ -29,6 +29,8 @@ struct mw_netcdf {
     netcdf_dimension *dimensions;
     size_t dimension_count;
     uint64_t size; /* of the file, in bytes */
+    int format;    /* as libnetcdf numbers them */
+    bool in_memory;
 };
 
 bool mw__netcdf_begins(const char *head, size_t size)
@@ -61,9 +63,9 @@ mw_status mw__netcdf_fail(const mw_netcdf *file, const mw_netcdf_variable *varia
 static mw_status netcdf_file_refuse(const mw_netcdf *file, const mw_netcdf_variable *variable,
                                     int code, mw_error *error)
 {
-    static const int refusals[] = {ENOENT, EACCES, EPERM, EISDIR, EMFILE, ENFILE};
+    static const int refusals[] = {ENOENT, EACCES, EISDIR, EMFILE, ENFILE};
     if (code == NETCDF_NO_MEMORY || code == ENOMEM) return mw__fail_memory(error);
-    for (size_t i = 0; i < sizeof refusals / sizeof *refusals; i++)
+    for (size_t i = 0; i < sizeof refusals / sizeof *refusals && !file->in_memory; i++)
         if (code == refusals[i]) return mw__fail_system(file->name, code, error);
     if (code > 0) return mw__netcdf_fail(file, variable, error, "damaged, or not all of the file");
     return mw__netcdf_fail(file, variable, error, "%s", file->nc.nc_strerror(code));
@@ -106,6 +108,7 @@ static mw_status netcdf_file_inquire(mw_netcdf *file, mw_error *error)
 {
     int dimensions = 0, variables = 0;
     int code = file->nc.nc_inq(file->id, &dimensions, &variables, NULL, NULL);
+    if (!code) code = file->nc.nc_inq_format(file->id, &file->format);
     if (code) return netcdf_file_refuse(file, NULL, code, error);
     file->dimension_count = (size_t)dimensions;
     file->variable_count = (size_t)variables;
@@ -178,6 +181,7 @@ mw_status mw__netcdf_open_memory(const char *name, void *bytes, size_t size, mw_
     mw_status status = netcdf_file_start(name, out, error);
     if (status) return status;
     (*out)->size = size;
+    (*out)->in_memory = true;
     mw__netcdf_lock(&(*out)->nc);
     int code = (*out)->nc.nc_open_mem("memory", NETCDF_READ, size, bytes, &(*out)->id);
     return netcdf_file_finish(out, code, error);
@@ -198,6 +202,12 @@ void mw__netcdf_close(mw_netcdf *file)
 uint64_t mw__netcdf_file_size(const mw_netcdf *file)
 {
     return file->size;
+}
+
+bool mw__netcdf_is_classic(const mw_netcdf *file)
+{
+    enum { FIRST_NETCDF_4 = 3, LAST_NETCDF_4 = 4 };
+    return file->format < FIRST_NETCDF_4 || file->format > LAST_NETCDF_4;
 }
 
 const char *mw__netcdf_name(const mw_netcdf *file)

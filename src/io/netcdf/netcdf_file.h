@@ -57,6 +57,9 @@ const char *mw__netcdf_name(const mw_netcdf *file);
 /* Bytes of the file. */
 uint64_t mw__netcdf_file_size(const mw_netcdf *file);
 
+/* Is it one of the classic formats, and not netCDF-4? */
+bool mw__netcdf_is_classic(const mw_netcdf *file);
+
 /* What is in the root group. Variables in the order of the file. */
 size_t mw__netcdf_variable_count(const mw_netcdf *file);
 const mw_netcdf_variable *mw__netcdf_variable_at(const mw_netcdf *file, size_t i);

@@ -35,6 +35,7 @@ enum {
     F(nc_abort, int, (int))                                                                        \
     F(nc_set_fill, int, (int, int, int *))                                                         \
     F(nc_inq, int, (int, int *, int *, int *, int *))                                              \
+    F(nc_inq_format, int, (int, int *))                                                            \
     F(nc_inq_dim, int, (int, int, char *, size_t *))                                               \
     F(nc_inq_var, int, (int, int, char *, int *, int *, int *, int *))                             \
     F(nc_inq_vardimid, int, (int, int, int *))                                                     \

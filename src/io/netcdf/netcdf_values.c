@@ -50,13 +50,12 @@ void mw__netcdf_unpack(const mw_netcdf_packing *packing, double *values, size_t 
 mw_status mw__netcdf_check_size(const mw_netcdf *file, const mw_netcdf_variable *variable,
                                 mw_error *error)
 {
-    /* deflate packs at most 1032 bytes into one */
-    enum { BEST_PACKING = 4096, HEADER = 4096 };
-    double bytes = 1;
+    /* deflate packs at most 1032 bytes into one; classic files are not packed */
+    double packing = mw__netcdf_is_classic(file) ? 1 : 1032, bytes = 1;
     if (variable->rank > MW_NETCDF_RANK)
         return mw__netcdf_fail(file, variable, error, "it has %zu dimensions", variable->rank);
     for (size_t k = 0; k < variable->rank; k++) bytes *= (double)variable->lengths[k];
-    if (bytes <= BEST_PACKING * ((double)mw__netcdf_file_size(file) + HEADER)) return MW_OK;
+    if (bytes <= packing * (double)mw__netcdf_file_size(file)) return MW_OK;
     return mw__netcdf_fail(file, variable, error,
                            "%.0f values are announced, which a file of this size cannot hold",
                            bytes);

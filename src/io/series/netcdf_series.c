@@ -128,6 +128,7 @@ static mw_status netcdf_series_variable(netcdf_content *c, mw_series_part *part,
 {
     enum { MOST_LAYERS = 4096 };
     char *unit;
+    if (mw__netcdf_check_size(c->file, place->variable, error)) return MW_ERROR_INPUT;
     size_t layers = place->layer >= 0 ? place->variable->lengths[place->layer] : 1;
     if (layers > MOST_LAYERS) return MW_OK;
     mw_status status = mw__netcdf_text(c->file, place->variable, "units", &unit, error);

@@ -9,7 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const mw_series_kind *const kinds[] = {&mw__netcdf_series};
+static const mw_series_kind *const kinds[] = {&mw__netcdf_series, &mw__selafin_series,
+                                              &mw__adcirc_series};
 enum { KIND_COUNT = sizeof kinds / sizeof *kinds };
 
 struct mw_series {
@@ -30,7 +31,8 @@ static mw_status series_open_source(mw_source *source, const mw_series_options *
         if (kinds[k]->is(source->path, head, size)) part->kind = kinds[k];
     if (part->kind) return part->kind->open(source, options, part, error);
     return mw__fail(error, MW_ERROR_INPUT,
-                    "%.240s: values over time are read from netCDF, and this is none",
+                    "%.240s: not values over time in a known format (netCDF, Selafin, fort.63 and "
+                    "others of ADCIRC)",
                     mw__source_name(source));
 }
 

@@ -36,6 +36,6 @@ mw_status mw__series_part_add(mw_series_part *part, const char *name, const char
                               mw_series_field field, mw_error *error);
 void mw__series_part_release(mw_series_part *part);
 
-extern const mw_series_kind mw__netcdf_series;
+extern const mw_series_kind mw__netcdf_series, mw__selafin_series, mw__adcirc_series;
 
 #endif

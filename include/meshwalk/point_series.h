@@ -1,0 +1,87 @@
+/**
+ * @file point_series.h
+ * Values over time at points, written as netCDF by the CF conventions for discrete sampling
+ * geometries: time series at places that stay, or the track of one that moves. xarray, and whatever
+ * knows CF, read it. libnetcdf is loaded when it is needed.
+ */
+#ifndef MESHWALK_POINT_SERIES_H
+#define MESHWALK_POINT_SERIES_H
+
+#include <meshwalk/locate.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** What the points are. */
+typedef enum mw_point_feature {
+    MW_POINT_TIME_SERIES = 0, /**< stations: each has a value at each of the times */
+    MW_POINT_TRAJECTORY       /**< one track: each point has its own time, and one value */
+} mw_point_feature;
+
+/** What is written beside the values. Everything is read by mw_point_series_open() only. */
+typedef struct mw_point_series_layout {
+    mw_point_feature feature;
+    const double *places; /**< x and y of each point */
+    size_t place_stride;  /**< doubles from one to the next; 0: 2 */
+    size_t point_count;
+    int degrees;              /**< 1: x and y are longitude and latitude */
+    const double *times;      /**< `time_count` times; of a track one for each point */
+    size_t time_stride;       /**< doubles from one to the next; 0: 1 */
+    size_t time_count;        /**< ignored for a track */
+    const char *time_unit;    /**< as CF has it: "hours since 2020-01-01"; NULL or "": not known */
+    const char *calendar;     /**< NULL or "": not known */
+    const char *const *names; /**< of the fields */
+    const char *const *units; /**< of the fields, "": not known; NULL: none is known */
+    size_t field_count;
+    const mw_location *located; /**< the location of each point, for its status; NULL: not told */
+} mw_point_series_layout;
+
+/** A file that is written. Opaque. */
+typedef struct mw_point_series mw_point_series;
+
+/**
+ * Begin a file.
+ *
+ * @param path    the file, no pipe; it appears when it is complete
+ * @param layout  what it holds. Characters of names that CF does not allow become "_"
+ * @param out     receives the output, owned by the caller (mw_point_series_close()); NULL on
+ *                failure
+ * @param error   NULL, or receives the message of a failure
+ * @return MW_OK; MW_ERROR_ARGUMENT for NULL, or a pipe; MW_ERROR_SYSTEM if the file cannot be
+ *         written or there is no libnetcdf; MW_ERROR_MEMORY.
+ *
+ * Thread-safe; libnetcdf serves one call at a time.
+ */
+MW_API mw_status mw_point_series_open(const char *path, const mw_point_series_layout *layout,
+                                      mw_point_series **out, mw_error *error);
+
+/**
+ * Write the values of a field at a step: one for each point, NaN where it is missing.
+ * mw_point_series_close() reports a failure.
+ *
+ * @param output  the output
+ * @param field   number of the field, from 0
+ * @param step    number of the time, from 0; ignored for a track
+ * @param values  one for each point
+ */
+MW_API void mw_point_series_write(mw_point_series *output, size_t field, size_t step,
+                                  const double *values);
+
+/** 1 if a write has failed: a long job can stop. */
+MW_API int mw_point_series_failed(const mw_point_series *output);
+
+/**
+ * Finish a file, and release the output in any case.
+ *
+ * @param output  the output; NULL is allowed
+ * @param commit  1: give the file its name; 0: remove it
+ * @param error   NULL, or receives the first failure of a write
+ * @return MW_OK; MW_ERROR_SYSTEM, and no file is left.
+ */
+MW_API mw_status mw_point_series_close(mw_point_series *output, int commit, mw_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
