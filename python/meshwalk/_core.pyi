@@ -338,7 +338,7 @@ def constrained_delaunay(
     /,
 ) -> tuple[_Mesh, int, memoryview, memoryview]: ...
 def read_mesh(
-    path: bytes, progress: Progress | None, /
+    path: bytes, layout: str | None, progress: Progress | None, /
 ) -> tuple[memoryview, memoryview, int, dict[str, memoryview], int, str | None]: ...
 def read_constraints(
     path: bytes, progress: Progress | None, /
