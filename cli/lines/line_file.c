@@ -62,8 +62,31 @@ static int table_note_crs(mw_constraint_file *c, const query_source *source, con
     return 0;
 }
 
-static int table_read(const char *path, const line_file_settings *settings, const char *mesh_crs,
-                      mw_constraint_file *c)
+/* The table is one line, so what its columns tell of each point has no place in the answers. */
+static void table_remark_columns(const char *path, const query_source *source,
+                                 const size_t index[MAX_QUERY_COLUMNS])
+{
+    mw_point_table table;
+    text names = {0};
+    query_source_table(source, &table);
+    for (size_t i = 0; i < table.column_count; i++) {
+        if (i == index[0] || i == index[1]) continue;
+        if (names.size) text_string(&names, ", ");
+        if (table.names && *table.names[i])
+            text_string(&names, table.names[i]);
+        else
+            text_printf(&names, "%zu", i + 1);
+    }
+    int size = names.size < 1000 ? (int)names.size : 1000;
+    if (names.size > 0 && !names.failed)
+        complain("%s: remark: a table is one line; what it tells of its points is not kept: "
+                 "columns %.*s",
+                 files_is_standard(path) ? "standard input" : path, size, names.bytes);
+    text_release(&names);
+}
+
+static int table_read(const char *path, const line_file_settings *settings, bool quiet,
+                      const char *mesh_crs, mw_constraint_file *c)
 {
     query_source *source;
     query_source_settings how = {
@@ -80,6 +103,7 @@ static int table_read(const char *path, const line_file_settings *settings, cons
     }
     if (end == 0) end = table_chain(c);
     if (end == 0) end = table_note_crs(c, source, mesh_crs);
+    if (end == 0 && !quiet) table_remark_columns(path, source, index);
     query_source_close(source);
     return end;
 }
@@ -203,7 +227,7 @@ int line_file_read(line_file *l, const char *path, const line_file_settings *set
         return END_USAGE;
     }
     int end = vector ? vector_read(path, settings, common, &l->values, &c)
-                     : table_read(path, settings, mesh_crs, &c);
+                     : table_read(path, settings, common->quiet, mesh_crs, &c);
     if (end == 0) end = lines_settle_crs(settings, mesh_crs, &c);
     bool as_is = settings->crs && strcmp(settings->crs, "same") == 0;
     c.has_z = 0; /* heights of lines do not count */

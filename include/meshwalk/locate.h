@@ -130,7 +130,9 @@ typedef struct mw_locator_options {
  *         MW_ERROR_LIMIT for more than MW_MAX_TRIANGLES triangles, ghosts included;
  *         MW_ERROR_MEMORY, MW_CANCELLED.
  *
- * Thread-safe. Time: O(n) for n triangles; O(b log b) for b border edges if the mesh is not convex.
+ * Thread-safe. Time: O(n) for n triangles; O(b log b) for b border edges if the mesh is not convex;
+ * O(n log n), and 68 to 88 bytes a triangle, where walks from a grid are long
+ * (mw_locator_info.guide).
  */
 MW_API mw_status mw_locator_create(const mw_mesh *mesh, const mw_locator_options *options,
                                    mw_locator **out, mw_error *error);
@@ -215,7 +217,7 @@ typedef struct mw_index_options {
  * @return MW_OK; MW_ERROR_ARGUMENT for another start or options out of range; MW_ERROR_LIMIT for
  *         more than 2^30 cells; MW_ERROR_MEMORY, MW_CANCELLED.
  *
- * Thread-safe. Time: O(n) expected; O(n log n) for layers and the tree.
+ * Thread-safe. Time: O(n) expected; O(n log n) for layers, the tree and chains.
  */
 MW_API mw_status mw_index_create(const mw_locator *locator, mw_start_kind start,
                                  const mw_index_options *options, mw_index **out, mw_error *error);
@@ -230,7 +232,7 @@ typedef struct mw_index_info {
     /** Cells of a grid (both levels), buckets, or samples of a curve. */
     uint32_t cells;
     uint32_t layers; /**< layers, the mesh included; else 0 */
-    /** Vertices per layer, the mesh first; of a tree one number. */
+    /** Vertices per layer, the mesh first; of a tree or chains one number. */
     uint32_t vertices[MW_MAX_LAYERS];
 } mw_index_info;
 
@@ -284,8 +286,9 @@ typedef struct mw_query_options {
  * border. Each stage except the border counts the triangle that it starts in; triangles_visited
  * counts each entry once. Layers (MW_START_LAYERS) count like the mesh; the distances that choose
  * the vertex at which a search goes down are not counted. Tests in a bucket
- * (MW_START_TRIANGLE_BUCKETS) count as orient_init. Counts do not depend on threads. If queries
- * start at the previous one (last, sorted, auto), counts depend on lanes.
+ * (MW_START_TRIANGLE_BUCKETS) and of chains (MW_START_CHAINS) count as orient_init. Counts do not
+ * depend on threads. If queries start at the previous one (last, sorted, auto), counts depend on
+ * lanes.
  */
 typedef struct mw_counters {
     /** Walks; points that are not finite do not count. */

@@ -14,10 +14,10 @@ static int core_exec(PyObject *module)
     return errors_init(state) || memory_init(module, state) || mesh_init(module, state) ||
                    location_init(module, state) || locator_init(module, state) ||
                    surface_init(module, state) || star_init(module, state) ||
-                   prober_init(module, state) || editor_init(module, state) || check_init(module) ||
-                   layouts_init(module) || triangulation_init(module) || files_init(module) ||
-                   points_init(module) || borrowed_init(module) || segments_init(module) ||
-                   core_add_numbers(module)
+                   prober_init(module, state) || editor_init(module, state) ||
+                   operator_init(module, state) || check_init(module) || layouts_init(module) ||
+                   triangulation_init(module) || files_init(module) || points_init(module) ||
+                   borrowed_init(module) || segments_init(module) || core_add_numbers(module)
                ? -1
                : 0;
 }
@@ -32,6 +32,7 @@ static int core_traverse(PyObject *module, visitproc visit, void *arg)
     Py_VISIT(state->star_type);
     Py_VISIT(state->prober_type);
     Py_VISIT(state->editor_type);
+    Py_VISIT(state->operator_type);
     Py_VISIT(state->memory_type);
     Py_VISIT(state->input_error);
     Py_VISIT(state->limit_error);
@@ -49,6 +50,7 @@ static int core_clear(PyObject *module)
     Py_CLEAR(state->star_type);
     Py_CLEAR(state->prober_type);
     Py_CLEAR(state->editor_type);
+    Py_CLEAR(state->operator_type);
     Py_CLEAR(state->memory_type);
     Py_CLEAR(state->input_error);
     Py_CLEAR(state->limit_error);

@@ -66,7 +66,7 @@ static PyObject *file_take_all(core_state *state, mw_mesh_file *file)
     return result;
 }
 
-/* read_mesh(path, progress): path as bytes */
+/* read_mesh(path, layout, progress): path as bytes */
 static PyObject *file_read_mesh(PyObject *module, PyObject *args)
 {
     core_state *state = PyModule_GetState(module);
@@ -77,7 +77,7 @@ static PyObject *file_read_mesh(PyObject *module, PyObject *args)
     mw_mesh_file file;
     mw_error error;
     mw_status status;
-    if (!PyArg_ParseTuple(args, "yO", &path, &function)) return NULL;
+    if (!PyArg_ParseTuple(args, "yzO", &path, &options.layout, &function)) return NULL;
     options.progress = progress_begin(state, function, &progress);
     Py_BEGIN_ALLOW_THREADS
     status = mw_read_mesh(path, &options, &file, &error);

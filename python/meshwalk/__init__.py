@@ -42,6 +42,7 @@ from meshwalk._files import (
 from meshwalk._locations import Locations
 from meshwalk._locator import Locator, LocatorInfo, NearestBorder
 from meshwalk._mesh import Mesh, MeshInfo
+from meshwalk._operator import Operator
 from meshwalk._plot import explain, plot
 from meshwalk._prober import NearestPoints, Prober, Touches, TouchState
 from meshwalk._segments import Segments
@@ -81,6 +82,7 @@ __all__ = [
     "MeshInfo",
     "NearestBorder",
     "NearestPoints",
+    "Operator",
     "OptimumWarning",
     "Prober",
     "Segments",

@@ -6,6 +6,7 @@ one is refused.
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -13,7 +14,7 @@ import numpy as np
 from meshwalk._errors import LimitError
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Mapping
 
     from numpy.typing import ArrayLike, NDArray
 
@@ -230,6 +231,36 @@ def values(given: ArrayLike, name: str, count: int) -> NDArray[Any]:
             f"{name} must have a row for each of the {count} vertices; its shape is {array.shape}"
         )
     return array
+
+
+def interpolated(
+    values: NDArray[Any],
+    shape: tuple[int, ...],
+    interpolate: Callable[[NDArray[Any], bool, NDArray[Any]], None],
+) -> NDArray[Any]:
+    """Values at points of the shape, by a call of the library that takes them as a table.
+
+    `interpolate` gets the table, whether it holds floats, and room for the answers, which lie as
+    the table does.
+    """
+    narrow = values.dtype.kind == "f" and values.dtype.itemsize <= 4
+    kind = np.float32 if narrow else np.float64
+    inner = values.shape[1:]
+    # Fields in time, transposed, lie field by field, and do so still in the other order.
+    by_field = values.flags.f_contiguous and len(inner) > 1
+    flat = (len(values), math.prod(inner))
+    table = columns(values.reshape(flat, order="F" if by_field else "C"), kind)
+    in_rows = lies_in_rows(table)
+    points = math.prod(shape)
+    out = np.empty((points, flat[1]) if in_rows else (flat[1], points), kind)
+    interpolate(table, narrow, out)
+    result = out if in_rows else out.T
+    if not by_field:
+        return result.reshape(shape + inner)
+    # The inner axes were counted from the first on.
+    result = result.reshape(shape + inner[::-1])
+    here = len(shape)
+    return result.transpose(*range(here), *reversed(range(here, result.ndim)))
 
 
 def field(given: ArrayLike, name: str, count: int) -> NDArray[np.float64]:

@@ -90,6 +90,26 @@ class Locator:
     ) -> tuple[int, int, float, tuple[float, float], tuple[float, float, float]]: ...
     def _describe(self) -> dict[str, Any]: ...
 
+class Operator:
+    def transpose(self, threads: int, progress: Progress | None, /) -> Operator: ...
+    def apply(
+        self,
+        values: Buffer,
+        narrow: bool,
+        out: Buffer,
+        left_out: bool,
+        zero: bool,
+        threads: int,
+        progress: Progress | None,
+        /,
+    ) -> None: ...
+    def copy(self, first: Buffer, column: Buffer, weight: Buffer, /) -> None: ...
+    def describe(self) -> tuple[int, int, int, int, int]: ...
+
+def operator_from_locations(
+    mesh: Mesh, locations: Buffer, threads: int, progress: Progress | None, /
+) -> Operator: ...
+
 _Mesh = TypeVar("_Mesh", bound=Mesh)
 _Locator = TypeVar("_Locator", bound=Locator)
 
@@ -318,7 +338,7 @@ def constrained_delaunay(
     /,
 ) -> tuple[_Mesh, int, memoryview, memoryview]: ...
 def read_mesh(
-    path: bytes, progress: Progress | None, /
+    path: bytes, layout: str | None, progress: Progress | None, /
 ) -> tuple[memoryview, memoryview, int, dict[str, memoryview], int, str | None]: ...
 def read_constraints(
     path: bytes, progress: Progress | None, /

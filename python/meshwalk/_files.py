@@ -22,14 +22,20 @@ mesh_formats: tuple[str, ...] = _core.MESH_FORMATS
 """Names of the formats that `write` takes."""
 
 
-def read(path: str | os.PathLike[str], *, progress: Progress | None = None) -> Mesh:
+def read(
+    path: str | os.PathLike[str], *, layout: str | None = None, progress: Progress | None = None
+) -> Mesh:
     """Read a mesh from a file, gzipped or not.
 
     Parameters
     ----------
     path : str or path-like
         OFF, OBJ, PLY, STL, Triangle's ``.node``/``.ele``, ``fort.14``, ``.gr3``, ``.2dm``,
-        Selafin, ``.msh``, VTK, VTU, SU2 or ``.npz``: recognised by content, else by name.
+        Selafin, ``.msh``, VTK, VTU, SU2, ``.npz`` or netCDF (UGRID, FVCOM, SCHISM, ADCIRC, ANUGA,
+        FESOM2, ICON, MPAS, TUFLOW-FV): recognised by content, else by name.
+    layout : str, optional
+        Of netCDF: how the file is laid out, such as ``"fvcom"``, with ``":0"`` or ``":1"`` behind
+        it for the number of the first vertex. Default: recognised.
     progress : callable, optional
         As of `Locator`.
 
@@ -59,7 +65,7 @@ def read(path: str | os.PathLike[str], *, progress: Progress | None = None) -> M
     >>> meshwalk.read(name).fields["z"]
     array([7., 8., 9.])
     """
-    xyz, triangles, has_z, fields, crs = _read_all(path, progress)
+    xyz, triangles, has_z, fields, crs = _read_all(path, layout, progress)
     return Mesh(xyz if has_z else xyz[:, :2], triangles, fields, crs=crs)
 
 
@@ -67,18 +73,18 @@ def read_arrays(
     path: str | os.PathLike[str], progress: Progress | None = None
 ) -> tuple[NDArray[np.float64], NDArray[np.uint32], bool, dict[str, NDArray[np.float64]]]:
     """x, y, z; triangles; whether the file has z; further values at the vertices by name."""
-    return _read_all(path, progress)[:4]
+    return _read_all(path, None, progress)[:4]
 
 
 def _read_all(
-    path: str | os.PathLike[str], progress: Progress | None
+    path: str | os.PathLike[str], layout: str | None, progress: Progress | None
 ) -> tuple[
     NDArray[np.float64], NDArray[np.uint32], bool, dict[str, NDArray[np.float64]], str | None
 ]:
     """As `read_arrays`, and the coordinate system."""
     name = _arrays.path(path)
     try:
-        points, triangles, has_z, fields, _, crs = _core.read_mesh(name, progress)
+        points, triangles, has_z, fields, _, crs = _core.read_mesh(name, layout, progress)
     except OSError as error:
         raise _found(error, name) from None
     return (
@@ -294,8 +300,8 @@ def write(
         The file.
     mesh : Mesh
         The mesh; its field ``"z"`` is the third coordinate, others are written where the format has
-        values at the vertices (PLY, ``.node``, VTK, CSV). PLY keeps its coordinate system; beside
-        files of other formats it goes to a ``.prj`` file.
+        values at the vertices (PLY, ``.node``, netCDF, VTK, CSV). PLY and netCDF keep its
+        coordinate system; beside files of other formats it goes to a ``.prj`` file.
     format : str, optional
         One of `mesh_formats`; by default the ending of the path says it.
     progress : callable, optional
@@ -321,8 +327,8 @@ def write(
     Examples
     --------
     >>> import meshwalk
-    >>> meshwalk.mesh_formats
-    ('off', 'ply', 'ply-ascii', 'node', 'obj', 'stl', 'csv', 'vtk')
+    >>> meshwalk.mesh_formats[:6]
+    ('off', 'ply', 'ply-ascii', 'node', 'obj', 'stl')
     """
     points = np.zeros((mesh.vertex_count, 3))
     points[:, :2] = mesh.points
@@ -341,7 +347,9 @@ def write(
 
 
 def _keeps_crs(name: bytes, format: str | None) -> bool:
-    return format in ("ply", "ply-ascii") if format else name.lower().endswith(b".ply")
+    if format:
+        return format in ("ply", "ply-ascii", "netcdf")
+    return name.lower().endswith((b".ply", b".nc", b".nc4"))
 
 
 def _prj_to_write(name: bytes, crs: bytes | None) -> bytes | None:

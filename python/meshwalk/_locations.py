@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import os
 from typing import TYPE_CHECKING, Any
 
@@ -260,24 +259,12 @@ class Locations:
     def _interpolate_array(
         self, values: NDArray[Any], threads: int, progress: Progress | None
     ) -> NDArray[Any]:
-        narrow = values.dtype.kind == "f" and values.dtype.itemsize <= 4
-        kind = np.float32 if narrow else np.float64
-        inner = values.shape[1:]
-        # Fields in time, transposed, lie field by field, and do so still in the other order.
-        by_field = values.flags.f_contiguous and len(inner) > 1
-        flat = (len(values), math.prod(inner))
-        table = _arrays.columns(values.reshape(flat, order="F" if by_field else "C"), kind)
         records = np.ascontiguousarray(self.records).reshape(-1)
-        in_rows = _arrays.lies_in_rows(table)
-        out = np.empty((records.size, flat[1]) if in_rows else (flat[1], records.size), kind)
-        self.mesh._interpolate_table(table, narrow, records, out, threads, progress)
-        result = out if in_rows else out.T
-        if not by_field:
-            return result.reshape(self.shape + inner)
-        # The inner axes were counted from the first on.
-        result = result.reshape(self.shape + inner[::-1])
-        here = len(self.shape)
-        return result.transpose(*range(here), *reversed(range(here, result.ndim)))
+
+        def interpolate(table: NDArray[Any], narrow: bool, out: NDArray[Any]) -> None:
+            self.mesh._interpolate_table(table, narrow, records, out, threads, progress)
+
+        return _arrays.interpolated(values, self.shape, interpolate)
 
     def __getitem__(self, index: Any) -> Locations:
         chosen = self.records[index]

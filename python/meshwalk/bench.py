@@ -195,6 +195,11 @@ def measure_interpolation(
         "meshwalk 1 thread": lambda: hit.interpolate(rows, threads=1),
         "meshwalk, in time": lambda: hit.interpolate(fields.T),
     }
+    weights = meshwalk.Operator(hit)
+    ways["Operator"] = lambda: weights @ rows
+    ways["Operator 1 thread"] = lambda: weights.apply(rows, 1)
+    ways["Operator, in time"] = lambda: weights @ fields.T
+    ways["copying"] = lambda: rows.copy()
     try:
         operator = hit.operator()
     except ImportError:

@@ -36,6 +36,13 @@ prints "$(<expected)"
 run_on $'east;north\n1;2\n7;2\n7;2\n9;3\n' profile --columns east,north gap.off -; exits 0
 prints "$(<expected)"
 
+# What else a table tells of its points is not kept, and that is said.
+run_on $'name,x,y,m\na,1,2,0\nb,7,2,1\nc,9,3,2\n' profile gap.off -; exits 0
+prints "$(<expected)"
+says 'standard input: remark: .*columns name, m$'
+run_on $'5 1 2\n6 7 2\n7 9 3\n' profile --columns 2,3 gap.off -; exits 0; prints "$(<expected)"
+says 'columns 1$'
+
 # Through vertices, along edges and the border, touching a corner, outside, on one point.
 run_on $'x,y\n0,4\n4,0\n' profile gap.off -; exits 0
 prints "$header

@@ -44,6 +44,25 @@ def test_without_heights_and_gzipped(tmp_path: Path) -> None:
     assert len(meshwalk.read(tmp_path / "mesh.off.gz")) == 8
 
 
+def test_netcdf(tmp_path: Path) -> None:
+    path = tmp_path / "mesh.nc"
+    mesh = meshwalk.Mesh(*ring_arrays(), crs="EPSG:2056")
+    try:
+        mesh.write(path)
+    except OSError as error:
+        if "libnetcdf" not in str(error):
+            raise
+        pytest.skip("libnetcdf is not found")
+    again = meshwalk.read(path, layout="ugrid")
+    assert not (tmp_path / "mesh.prj").exists()
+    assert again.crs == "EPSG:2056"
+    assert again.triangles.tolist() == mesh.triangles.tolist()
+    with pytest.raises(meshwalk.InputError, match="no mesh in the layout fvcom"):
+        meshwalk.read(path, layout="fvcom")
+    with pytest.raises(ValueError, match="no layout 'ugrit'"):
+        meshwalk.read(path, layout="ugrit")
+
+
 @pytest.mark.parametrize("ending", ["ply", "off", "node", "vtk"])
 def test_coordinate_systems(tmp_path: Path, ending: str) -> None:
     mesh = meshwalk.Mesh(*ring_arrays(), crs="EPSG:2056")

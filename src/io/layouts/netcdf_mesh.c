@@ -201,10 +201,13 @@ mw_status mw__read_netcdf(mw_source *source, mw_mesh_builder *builder, mw_error 
     mw_netcdf *file;
     void *memory;
     mw_layout layout;
+    mw_job alone = {.threads = 1}, *job = builder->job;
+    if (!job) builder->job = &alone;
     mw_status status = mw__netcdf_open_source(source, &file, &memory, error);
     source->placeless = true;
     if (!status) status = mw__layout_find(file, builder->layout, &layout, error);
     if (!status) status = netcdf_mesh_read(file, &layout, builder, error);
+    builder->job = job;
     mw__netcdf_close(file);
     free(memory);
     return status;

@@ -30,6 +30,7 @@ struct mw_netcdf {
     size_t dimension_count;
     uint64_t size; /* of the file, in bytes */
     int format;    /* as libnetcdf numbers them */
+    bool in_memory;
 };
 
 bool mw__netcdf_begins(const char *head, size_t size)
@@ -62,9 +63,9 @@ mw_status mw__netcdf_fail(const mw_netcdf *file, const mw_netcdf_variable *varia
 static mw_status netcdf_file_refuse(const mw_netcdf *file, const mw_netcdf_variable *variable,
                                     int code, mw_error *error)
 {
-    static const int refusals[] = {ENOENT, EACCES, EPERM, EISDIR, EMFILE, ENFILE};
+    static const int refusals[] = {ENOENT, EACCES, EISDIR, EMFILE, ENFILE};
     if (code == NETCDF_NO_MEMORY || code == ENOMEM) return mw__fail_memory(error);
-    for (size_t i = 0; i < sizeof refusals / sizeof *refusals; i++)
+    for (size_t i = 0; i < sizeof refusals / sizeof *refusals && !file->in_memory; i++)
         if (code == refusals[i]) return mw__fail_system(file->name, code, error);
     if (code > 0) return mw__netcdf_fail(file, variable, error, "damaged, or not all of the file");
     return mw__netcdf_fail(file, variable, error, "%s", file->nc.nc_strerror(code));
@@ -180,6 +181,7 @@ mw_status mw__netcdf_open_memory(const char *name, void *bytes, size_t size, mw_
     mw_status status = netcdf_file_start(name, out, error);
     if (status) return status;
     (*out)->size = size;
+    (*out)->in_memory = true;
     mw__netcdf_lock(&(*out)->nc);
     int code = (*out)->nc.nc_open_mem("memory", NETCDF_READ, size, bytes, &(*out)->id);
     return netcdf_file_finish(out, code, error);

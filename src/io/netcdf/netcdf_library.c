@@ -43,6 +43,11 @@ static bool netcdf_library_find(void *library, mw_netcdf_functions *functions)
     NETCDF_FUNCTIONS(NETCDF_FIND)
 #undef NETCDF_FIND
     *(void **)&functions->be_quiet = dlsym(library, "H5Eset_auto2");
+    /* Else HDF5 falls over at the end of the program, where a file could not be written. This has
+     * an effect before its first use only. */
+    int (*no_exit)(void);
+    *(void **)&no_exit = dlsym(library, "H5dont_atexit");
+    if (no_exit) no_exit();
     return true;
 }
 
