@@ -4,6 +4,7 @@
 #include <meshwalk/io.h>
 #include <meshwalk/operator.h>
 #include <meshwalk/polygons.h>
+#include <meshwalk/weights.h>
 #include <meshwalk/segment.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -872,6 +873,22 @@ static mw_status run_write_pair(const call_inputs *in, const call_setting *how, 
     return status;
 }
 
+static mw_status run_write_weights(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                                   mw_error *error)
+{
+    char path[80];
+    mw_status status;
+    mw_operator *weights = operator_of(in, &(call_setting){0}, &status, error);
+    mw_file_options options = {.progress = how->progress};
+    (void)sum;
+    snprintf(path, sizeof path, "%s.npz", in->path);
+    status = mw_write_weights(path, weights, NULL, &options, error);
+    expect(!status == (access(path, F_OK) == 0), "there is a file of weights");
+    unlink(path);
+    mw_operator_destroy(weights);
+    return status;
+}
+
 const long_call long_calls[] = {
     {"mw_delaunay", run_delaunay},
     {"mw_triangulate, Delaunay", run_kind_delaunay},
@@ -923,5 +940,6 @@ const long_call long_calls[] = {
     {"mw_read_constraints", run_read_lines},
     {"mw_write_mesh", run_write},
     {"mw_write_mesh, two files", run_write_pair},
+    {"mw_write_weights", run_write_weights},
 };
 const size_t long_call_count = sizeof long_calls / sizeof *long_calls;
