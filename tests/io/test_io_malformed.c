@@ -46,6 +46,8 @@ static const bad_mesh bads[] = {
     {"e.off", "OFF BINARY\n", 1, "binary OFF"},
     {"e.off", "4OFF\n1 0 0\n1 1 1 1\n", 1, "'4OFF'"},
     {"e.off", "nOFF\n3\n1 0 0\n1 1 1\n", 1, "'nOFF'"},
+    {"e.dat", "nOFF\n3\n1 0 0\n1 1 1\n", 1, "'nOFF'"},
+    {"e.dat", "STCN4nOFF\n3\n1 0 0\n1 1 1\n", 1, "'STCN4nOFF'"},
     {"e.off", "OFF\n", 1, "numbers of vertices and faces"},
     {"e.off", "OFF\n3\n", 2, "numbers of vertices and faces"},
     {"e.off", "OFF\nthree one\n", 2, "numbers of vertices and faces"},

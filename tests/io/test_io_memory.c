@@ -9,6 +9,7 @@
 #include <stdbool.h>
 #include <meshwalk/series.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* wrap: malloc calloc realloc strdup strndup free */
@@ -293,6 +294,15 @@ static void test_write(void **state)
         fail_each(write_mesh, paths[i]);
         files_clear();
     }
+    if (mw_netcdf_version(NULL, 0) == 0) return;
+    fail_each(write_mesh, "a.nc");
+    fail_each(read_mesh, "a.nc");
+    size_t size;
+    char *contents = files_read("a.nc", &size);
+    files_write_gzip("b.nc.gz", (bytes){contents, size});
+    free(contents);
+    fail_each(read_mesh, "b.nc.gz");
+    files_clear();
 }
 
 int main(void)

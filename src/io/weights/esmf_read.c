@@ -23,7 +23,8 @@ static mw_status esmf_size(const esmf_reading *r, const char *name, uint32_t *si
     size_t length;
     if (mw__netcdf_dimension_find(r->file, name, &length) < 0)
         return mw__netcdf_fail(r->file, NULL, error,
-                               "has no dimension %s: it is no file of weights in ESMF's layout",
+                               "has no dimension %s: a file of weights in ESMF's layout tells the "
+                               "size of the matrix by it (ESMF's --weight_only leaves it out)",
                                name);
     if (length >= MW_NONE)
         return mw__fail(error, MW_ERROR_LIMIT,
