@@ -48,5 +48,9 @@ int mesh_field_load(mw_mesh *mesh, const char *path, const mw_mesh_file *file, c
         stride = 3;
     }
     if (!values) return mesh_field_fail(path, file, field);
+    if (file->step_count > 1 && stride == 1 && !choice->quiet)
+        complain("%s: warning: has values at %zu times; '%s' is that of the first ('meshwalk "
+                 "sample --time' takes others)",
+                 path, file->step_count, field);
     return mesh_field_set(mesh, path, choice, values, stride);
 }
