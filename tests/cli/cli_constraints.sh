@@ -51,7 +51,7 @@ run triangulate --constraints s.poly --keep insid -o m.off
 refused 2 "unknown part to keep 'insid'; did you mean 'inside'\?"
 run triangulate --constraints s.poly --kind greedy -o m.off; refused 2 "for --kind delaunay only"
 run triangulate --constraints s.poly; refused 2 "-o MESH is missing"
-run triangulate -o m.off; refused 2 "wants POINTS, or --constraints FILE"
+run triangulate -o m.off; refused 2 "wants POINTS, .*or --constraints FILE"
 run triangulate three.xyz --keep hull -o m.off; refused 2 "are about --constraints"
 run triangulate three.xyz --split -o m.off; refused 2 "are about --constraints"
 run triangulate --constraints s.poly --columns x,y -o m.off; refused 2 "are about POINTS"
