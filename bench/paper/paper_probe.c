@@ -192,7 +192,7 @@ static int probe_measurement_draw(probe_measurement *s, size_t n)
     size_t found = 0, drawn = 0;
     while (found < n) {
         if (drawn > 1000 * found + DRAWN_IN_VAIN) {
-            complain("%s: hardly a place to draw queries from", s->name);
+            complain("%s: hardly a point to draw queries from", s->name);
             return END_INPUT;
         }
         size_t more = n - found;

@@ -15,7 +15,7 @@ struct trap_entry {
     const char *name, *help;
     trap_kind *kind;
     trap_mesh_make *make;
-    trap_place place;
+    trap_position position;
     mw_start_kind start;
     size_t most; /* vertices; 0: any number */
 };
@@ -194,7 +194,7 @@ static int trap_scene_measure(trap_scene *s, const trap_plan *plan, trap_figures
     s->queries = malloc(2 * n * sizeof *s->queries);
     s->locations = malloc(n * sizeof *s->locations);
     if (!s->queries || !s->locations) return fail_memory();
-    trap_draw(s->mesh, s->trap->place, s->queries, n, plan->seed);
+    trap_draw(s->mesh, s->trap->position, s->queries, n, plan->seed);
     for (size_t i = 0; i < 2 * n && s->editor; i++) s->queries[i] = 0; /* where the hub is */
     mw_locator_describe(s->locator, &info);
     f->bytes = (double)info.bytes;
@@ -349,7 +349,7 @@ static int trap_probe(void *self, size_t n, bool alone)
     return 0;
 }
 
-/* A third as many triangles as vertices, all of them at one place. */
+/* A third as many triangles as vertices, all of them at one point. */
 static int trap_make_equal(const trap_entry *trap, size_t n, mw_surface **surface)
 {
     size_t count = n / 3;

@@ -196,12 +196,12 @@ bool trap_circle(trap_mesh *m, size_t n, uint64_t seed)
 /* --- queries ---------------------------------------------------------------------------------- */
 
 /* Shares of the corners: they sum up to 1. */
-static void trap_shares(trap_place place, uint64_t *random, double share[3])
+static void trap_shares(trap_position position, uint64_t *random, double share[3])
 {
     share[0] = share[1] = share[2] = 0;
-    if (place == TRAP_ON_VERTICES) {
+    if (position == TRAP_ON_VERTICES) {
         share[0] = 1;
-    } else if (place == TRAP_ON_EDGES) {
+    } else if (position == TRAP_ON_EDGES) {
         share[0] = share[1] = 0.5;
     } else {
         double s = sqrt(dataset_unit(random)), t = dataset_unit(random);
@@ -211,13 +211,14 @@ static void trap_shares(trap_place place, uint64_t *random, double share[3])
     }
 }
 
-void trap_draw(const mw_mesh *mesh, trap_place place, double *queries, size_t n, uint64_t seed)
+void trap_draw(const mw_mesh *mesh, trap_position position, double *queries, size_t n,
+               uint64_t seed)
 {
     double count = mw_mesh_triangle_count(mesh), share[3], corner[2];
     for (size_t i = 0; i < n; i++) {
         uint32_t v[3];
         mw_mesh_triangle(mesh, (uint32_t)(dataset_unit(&seed) * count), v);
-        trap_shares(place, &seed, share);
+        trap_shares(position, &seed, share);
         queries[2 * i] = queries[2 * i + 1] = 0;
         for (int k = 0; k < 3; k++) {
             if (share[k] == 0) continue;

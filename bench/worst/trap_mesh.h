@@ -25,13 +25,14 @@ trap_mesh_make trap_strip_30, trap_strip_300, trap_strip_2000, trap_fan, trap_ha
 void trap_mesh_release(trap_mesh *m);
 
 /* Where queries lie. */
-typedef enum trap_place {
-    TRAP_IN_TRIANGLES, /* in random triangles, at a random place in each */
+typedef enum trap_position {
+    TRAP_IN_TRIANGLES, /* in random triangles, at a random point of each */
     TRAP_ON_VERTICES,
     TRAP_ON_EDGES /* at rounded middles of edges */
-} trap_place;
+} trap_position;
 
 /* Set n queries, x0 y0 x1 y1 ... */
-void trap_draw(const mw_mesh *mesh, trap_place place, double *queries, size_t n, uint64_t seed);
+void trap_draw(const mw_mesh *mesh, trap_position position, double *queries, size_t n,
+               uint64_t seed);
 
 #endif

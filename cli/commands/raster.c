@@ -52,7 +52,7 @@ static const option raster_options[] = {
      "printed)",
      NULL},
     {"like", 0, OPTION_TEXT, offsetof(raster_settings, like), "RASTER",
-     "take the pixels of RASTER: their number, place and size, and its nodata value", NULL},
+     "take the pixels of RASTER: their number, position and size, and its nodata value", NULL},
     {"extent", 0, OPTION_TEXT, offsetof(raster_settings, grid.extent), "BOX",
      "XMIN,YMIN,XMAX,YMAX of the raster (default: that of MESH, grown to multiples of R)", NULL},
     {"field", 0, OPTION_TEXT, offsetof(raster_settings, field), "NAME",

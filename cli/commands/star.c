@@ -311,7 +311,7 @@ const command star_command = {
         "triangle is the facet of POLYHEDRON that the ray from the centre through the point "
         "meets, from 0; status is inside, edge or vertex. If the point is the centre or is "
         "not finite, the status is bad and the triangle -1. w0, w1, w2 are the weights of the "
-        "facet's corners at the place where the ray meets it. A ray through an edge or a "
+        "facet's corners at the point where the ray meets it. A ray through an edge or a "
         "corner belongs to the lowest-numbered facet that it meets. POLYHEDRON must be "
         "closed, and the centre must see the inside of each facet, as that of a sphere does. "
         "'-' is standard input.",

@@ -35,14 +35,14 @@ static int weights_write(const point_query *q, const located_points *p, const mw
     mw_error error;
     double *vertices = weights_vertices(q->mesh);
     if (!vertices) return fail_memory();
-    const mw_weight_places places = {.columns = vertices,
-                                     .rows = p->moved,
-                                     .row_stride = p->width,
-                                     .located = p->located,
-                                     .degrees = p->lonlat && p->moved == p->points};
+    const mw_weight_positions positions = {.columns = vertices,
+                                           .rows = p->moved,
+                                           .row_stride = p->width,
+                                           .located = p->located,
+                                           .degrees = p->lonlat && p->moved == p->points};
     const mw_file_options options = {.progress = progress_of_call()};
     progress_phase("writing", output);
-    mw_status status = mw_write_weights(output, weights, &places, &options, &error);
+    mw_status status = mw_write_weights(output, weights, &positions, &options, &error);
     free(vertices);
     return status == MW_OK ? 0 : fail_writing(&error);
 }

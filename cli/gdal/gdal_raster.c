@@ -20,7 +20,7 @@ uint32_t gdal_raster_size(raster_type type)
 
 struct gdal_raster {
     const gdal_functions *gdal;
-    gdal_directory place;
+    gdal_directory target;
     gdal_raster_form form;
     GDALDriverH driver, copier; /* what writes; what then copies to the final form, or NULL */
     char *scratch;              /* what is copied */
@@ -91,7 +91,7 @@ int gdal_raster_check(const char *path, const char *driver)
 static int raster_fail(const gdal_raster *r, const char *what)
 {
     const char *message = r->gdal->CPLGetLastErrorMsg();
-    complain("%s: GDAL says: %.1000s", r->place.path, *message ? message : what);
+    complain("%s: GDAL says: %.1000s", r->target.path, *message ? message : what);
     return END_RESOURCE;
 }
 
@@ -116,22 +116,22 @@ static char **creation_split(const char *list, const char *const *more)
 static int raster_choose_drivers(gdal_raster *r)
 {
     static const char *const large[] = {"BIGTIFF=IF_SAFER", NULL}, *const none[] = {NULL};
-    const char *name = r->form.driver ? r->form.driver : raster_driver_name(r->place.path);
+    const char *name = r->form.driver ? r->form.driver : raster_driver_name(r->target.path);
     GDALDriverH driver = r->gdal->GDALGetDriverByName(name);
     bool tiff = strcasecmp(name, "GTiff") == 0 &&
                 !(r->form.creation && strstr(r->form.creation, "BIGTIFF"));
     r->creation = creation_split(r->form.creation ? r->form.creation : "", tiff ? large : none);
-    r->scratch = malloc(strlen(r->place.temporary) + 32);
+    r->scratch = malloc(strlen(r->target.temporary) + 32);
     if (!r->creation || !r->scratch) return fail_memory();
     bool direct = driver_can(r->gdal, driver, GDAL_DCAP_CREATE) && strcasecmp(name, "GPKG") != 0;
     if (direct) {
-        strcpy(r->scratch, r->place.temporary);
+        strcpy(r->scratch, r->target.temporary);
         r->driver = driver;
         return 0;
     }
     /* A name that begins with a dot is not moved to the file's place. */
-    int stem = (int)(strrchr(r->place.temporary, '/') - r->place.temporary);
-    sprintf(r->scratch, "%.*s/.scratch.tif", stem, r->place.temporary);
+    int stem = (int)(strrchr(r->target.temporary, '/') - r->target.temporary);
+    sprintf(r->scratch, "%.*s/.scratch.tif", stem, r->target.temporary);
     r->driver = r->gdal->GDALGetDriverByName("GTiff");
     r->copier = driver;
     return 0;
@@ -141,8 +141,8 @@ static int raster_describe_bands(gdal_raster *r)
 {
     const gdal_functions *gdal = r->gdal;
     const gdal_raster_form *f = &r->form;
-    double place[6] = {f->corner[0], f->size[0], 0, f->corner[1], 0, -f->size[1]};
-    gdal->GDALSetGeoTransform(r->set, place);
+    double transform[6] = {f->corner[0], f->size[0], 0, f->corner[1], 0, -f->size[1]};
+    gdal->GDALSetGeoTransform(r->set, transform);
     OGRSpatialReferenceH crs = f->crs ? crs_parse(gdal, f->crs, true) : NULL;
     if (crs) gdal->GDALSetSpatialRef(r->set, crs);
     if (crs) gdal->OSRRelease(crs);
@@ -160,7 +160,7 @@ int gdal_raster_create(gdal_raster **raster, const char *path, const gdal_raster
     if (!r) return fail_memory();
     r->gdal = gdal_library_load();
     r->form = *form;
-    int end = gdal_directory_open(&r->place, path);
+    int end = gdal_directory_open(&r->target, path);
     if (end == 0) end = raster_choose_drivers(r);
     if (end) return end;
     char *scratch_options[] = {"BIGTIFF=IF_SAFER", NULL};
@@ -188,7 +188,7 @@ static int raster_complete(gdal_raster *r)
 {
     r->gdal->CPLErrorReset();
     if (r->copier) {
-        GDALDatasetH copy = r->gdal->GDALCreateCopy(r->copier, r->place.temporary, r->set, FALSE,
+        GDALDatasetH copy = r->gdal->GDALCreateCopy(r->copier, r->target.temporary, r->set, FALSE,
                                                     r->creation, NULL, NULL);
         if (!copy) return raster_fail(r, "it cannot be written");
         r->gdal->GDALClose(copy);
@@ -204,7 +204,7 @@ int gdal_raster_close(gdal_raster *r, bool commit)
     if (!r) return 0;
     if (commit) end = raster_complete(r);
     if (r->set) r->gdal->GDALClose(r->set);
-    int closed = gdal_directory_close(&r->place, commit && end == 0);
+    int closed = gdal_directory_close(&r->target, commit && end == 0);
     free(r->creation);
     free(r->scratch);
     free(r);
@@ -216,12 +216,13 @@ int gdal_raster_close(gdal_raster *r, bool commit)
 static int raster_take_grid(const gdal_functions *gdal, GDALDatasetH set, const char *path,
                             gdal_raster_form *form)
 {
-    double place[6];
-    if (gdal->GDALGetRasterCount(set) == 0 || gdal->GDALGetGeoTransform(set, place) != CE_None) {
-        complain("%s: this raster has no place on the map", path);
+    double transform[6];
+    if (gdal->GDALGetRasterCount(set) == 0 ||
+        gdal->GDALGetGeoTransform(set, transform) != CE_None) {
+        complain("%s: this raster has no position on the map", path);
         return END_INPUT;
     }
-    if (place[2] != 0 || place[4] != 0 || place[1] <= 0 || place[5] >= 0) {
+    if (transform[2] != 0 || transform[4] != 0 || transform[1] <= 0 || transform[5] >= 0) {
         complain("%s: its rows do not run east and its columns south; gdalwarp turns it", path);
         return END_INPUT;
     }
@@ -230,8 +231,8 @@ static int raster_take_grid(const gdal_functions *gdal, GDALDatasetH set, const 
     *form = (gdal_raster_form){.columns = (uint32_t)gdal->GDALGetRasterXSize(set),
                                .rows = (uint32_t)gdal->GDALGetRasterYSize(set),
                                .bands = (uint32_t)gdal->GDALGetRasterCount(set),
-                               .corner = {place[0], place[3]},
-                               .size = {place[1], -place[5]},
+                               .corner = {transform[0], transform[3]},
+                               .size = {transform[1], -transform[5]},
                                .nodata = has ? nodata : (double)NAN};
     return 0;
 }

@@ -62,7 +62,7 @@ typedef struct row_cell {
 
 struct gdal_rows {
     const gdal_functions *gdal;
-    gdal_directory place; /* where it is written until it is complete */
+    gdal_directory target; /* where it is written until it is complete */
     gdal_rows_form form;
     row_column *columns;
     row_cell *cells;
@@ -182,7 +182,7 @@ int gdal_rows_learn(gdal_rows *r, const char *bytes, size_t size)
 static int rows_fail(const gdal_rows *r, const char *what)
 {
     const char *message = r->gdal->CPLGetLastErrorMsg();
-    complain("%s: GDAL says: %.1000s", r->place.path, *message ? message : what);
+    complain("%s: GDAL says: %.1000s", r->target.path, *message ? message : what);
     return END_RESOURCE;
 }
 
@@ -228,7 +228,7 @@ int gdal_rows_open(gdal_rows **rows, const char *path, const gdal_rows_form *for
     if (!r) return fail_memory();
     r->gdal = gdal_library_load();
     r->form = *form;
-    int end = gdal_directory_open(&r->place, path);
+    int end = gdal_directory_open(&r->target, path);
     return end ? end : rows_read_header(r);
 }
 
@@ -247,7 +247,7 @@ static int rows_create_field(gdal_rows *r, row_column *column)
                                          [KIND_TEXT] = OFTString};
     const gdal_functions *gdal = r->gdal;
     OGRFieldDefnH definition = gdal->OGR_Fld_Create(column->name, types[column->kind]);
-    if (strcmp(format_by_path(r->place.path)->driver, "ESRI Shapefile") == 0 &&
+    if (strcmp(format_by_path(r->target.path)->driver, "ESRI Shapefile") == 0 &&
         types[column->kind] == OFTString)
         gdal->OGR_Fld_SetWidth(definition, 254);
     gdal->CPLErrorReset();
@@ -258,7 +258,7 @@ static int rows_create_field(gdal_rows *r, row_column *column)
     column->field = gdal->OGR_FD_GetFieldCount(layer) - 1;
     const char *name = gdal->OGR_Fld_GetNameRef(gdal->OGR_FD_GetFieldDefn(layer, column->field));
     if (strcmp(name, column->name) != 0 && !r->form.quiet)
-        complain("%s: remark: the column '%.60s' is called '%s' in this format", r->place.path,
+        complain("%s: remark: the column '%.60s' is called '%s' in this format", r->target.path,
                  column->name, name);
     return 0;
 }
@@ -266,9 +266,9 @@ static int rows_create_field(gdal_rows *r, row_column *column)
 static int rows_create_layer(gdal_rows *r)
 {
     const gdal_functions *gdal = r->gdal;
-    const char *driver = format_by_path(r->place.path)->driver;
+    const char *driver = format_by_path(r->target.path)->driver;
     char name[256];
-    const char *base = strrchr(r->place.temporary, '/') + 1;
+    const char *base = strrchr(r->target.temporary, '/') + 1;
     snprintf(name, sizeof name, "%.*s", (int)(strrchr(base, '.') - base), base);
     char *fid[] = {"FID=mw_fid", NULL}, *digits[] = {"SIGNIFICANT_FIGURES=17", NULL};
     char *ordered[] = {"SPATIAL_INDEX=NO", NULL}; /* an index sorts the rows */
@@ -280,7 +280,7 @@ static int rows_create_layer(gdal_rows *r)
     gdal->CPLSetConfigOption("OGR_SQLITE_SYNCHRONOUS", "OFF"); /* it has no name yet */
     OGRSpatialReferenceH crs = r->form.crs ? crs_parse(gdal, r->form.crs, true) : NULL;
     gdal->CPLErrorReset();
-    r->set = gdal->GDALCreate(gdal->GDALGetDriverByName(driver), r->place.temporary, 0, 0, 0,
+    r->set = gdal->GDALCreate(gdal->GDALGetDriverByName(driver), r->target.temporary, 0, 0, 0,
                               GDT_Unknown, NULL);
     if (r->set)
         r->layer = gdal->GDALDatasetCreateLayer(r->set, name, crs,
@@ -307,7 +307,7 @@ static int rows_fail_cell(gdal_rows *r, const row_column *column, const row_cell
         "%s: row %" PRIu64
         ": the column '%.60s' had numbers only, but here '%.60s': a field of a vector file has "
         "one kind of value; a table (CSV) can hold it",
-        r->place.path, r->written + 1, column->name, value ? value : "");
+        r->target.path, r->written + 1, column->name, value ? value : "");
     return END_INPUT;
 }
 
@@ -341,9 +341,9 @@ static void rows_warn_of_lonlat(gdal_rows *r, const double *p)
 {
     if (r->form.crs || r->warned || r->form.quiet || (fabs(p[0]) <= 360 && fabs(p[1]) <= 90))
         return;
-    if (strncmp(format_by_path(r->place.path)->driver, "GeoJSON", 7) != 0) return;
+    if (strncmp(format_by_path(r->target.path)->driver, "GeoJSON", 7) != 0) return;
     complain("%s: warning: GeoJSON means longitudes and latitudes, and row %" PRIu64 " has others",
-             r->place.path, r->written + 1);
+             r->target.path, r->written + 1);
     r->warned = true;
 }
 
@@ -355,7 +355,7 @@ static int feature_set_point(gdal_rows *r, OGRFeatureH feature, const double *p)
     for (size_t k = 0; k < r->form.dimensions; k++) finite = finite && isfinite(p[k]);
     if (!finite && r->points_needed) {
         complain("%s: row %" PRIu64 " has no point, which FlatGeobuf cannot hold; .gpkg can",
-                 r->place.path, r->written + 1);
+                 r->target.path, r->written + 1);
         return END_INPUT;
     }
     if (!finite) return 0;
@@ -398,7 +398,7 @@ static int rows_write_feature(gdal_rows *r, const double *point)
             end = rows_fail(r, "a row cannot be written");
     }
     if (end == 0 && !r->warned && !r->form.quiet && gdal->CPLGetLastErrorType() >= CE_Warning) {
-        complain("%s: warning: row %" PRIu64 ": GDAL says: %.1000s", r->place.path, r->written + 1,
+        complain("%s: warning: row %" PRIu64 ": GDAL says: %.1000s", r->target.path, r->written + 1,
                  gdal->CPLGetLastErrorMsg());
         r->warned = true;
     }
@@ -434,7 +434,7 @@ int gdal_rows_write_line(gdal_rows *r, const char *bytes, size_t size, const dou
                          size_t count)
 {
     if (count > INT_MAX) {
-        complain("%s: a line has more than %d points", r->place.path, INT_MAX);
+        complain("%s: a line has more than %d points", r->target.path, INT_MAX);
         return END_RESOURCE;
     }
     r->line_count = count;
@@ -445,11 +445,11 @@ int gdal_rows_write_line(gdal_rows *r, const char *bytes, size_t size, const dou
 static void rows_remove_sidecars(const gdal_rows *r)
 {
     static const char *const endings[] = {"prj", "cpg", "qix", "sbn", "sbx"};
-    if (strcmp(format_by_path(r->place.path)->driver, "ESRI Shapefile") != 0) return;
+    if (strcmp(format_by_path(r->target.path)->driver, "ESRI Shapefile") != 0) return;
     for (size_t i = 0; i < sizeof endings / sizeof *endings; i++) {
         char name[4096];
-        int stem = (int)strlen(r->place.path) - 3;
-        if (snprintf(name, sizeof name, "%.*s%s", stem, r->place.path, endings[i]) <
+        int stem = (int)strlen(r->target.path) - 3;
+        if (snprintf(name, sizeof name, "%.*s%s", stem, r->target.path, endings[i]) <
             (int)sizeof name)
             unlink(name);
     }
@@ -468,7 +468,7 @@ int gdal_rows_close(gdal_rows *r, bool commit)
             end = rows_fail(r, "it is incomplete");
     }
     if (commit && end == 0) rows_remove_sidecars(r);
-    int closed = gdal_directory_close(&r->place, commit && end == 0);
+    int closed = gdal_directory_close(&r->target, commit && end == 0);
     if (end == 0) end = closed;
     for (size_t i = 0; r->columns && i < r->count; i++) free(r->columns[i].name);
     free(r->columns);

@@ -87,12 +87,12 @@ static profile_point profile_point_of(const profile *p, const double *ends,
     profile_point point = {.at = "edge"};
     double weight[3];
     uint32_t v[3];
-    uint8_t place = end ? piece->to_at : piece->from_at;
+    uint8_t position = end ? piece->to_at : piece->from_at;
     mw_segment_weights(p->mesh, ends, ends + 2, piece, end, weight, point.xy);
     mw_mesh_triangle(p->mesh, piece->triangle, v);
     for (int k = 0; k < 3; k++)
         if (weight[k] != 0) point.value += weight[k] * p->values[v[k]];
-    if (place >= MW_AT_VERTEX && place < MW_AT_INSIDE) point.at = "vertex";
+    if (position >= MW_AT_VERTEX && position < MW_AT_INSIDE) point.at = "vertex";
     return point;
 }
 

@@ -11,7 +11,7 @@
 typedef struct greedy_candidate {
     double error; /* at most the tolerance: it is not in the heap */
     size_t pixel;
-    uint32_t place; /* in the heap */
+    uint32_t position; /* in the heap */
 } greedy_candidate;
 
 typedef struct greedy_tin {
@@ -35,35 +35,36 @@ static bool greedy_before(const greedy_tin *g, uint32_t a, uint32_t b)
     return p->error > q->error || (p->error == q->error && p->pixel < q->pixel);
 }
 
-static void greedy_put(greedy_tin *g, size_t place, uint32_t triangle)
+static void greedy_put(greedy_tin *g, size_t position, uint32_t triangle)
 {
-    g->heap[place] = triangle;
-    g->candidates[triangle].place = (uint32_t)place;
+    g->heap[position] = triangle;
+    g->candidates[triangle].position = (uint32_t)position;
 }
 
-/* Move what stands at a place to where it belongs. */
-static void greedy_settle(greedy_tin *g, size_t place)
+/* Move what stands at a position to where it belongs. */
+static void greedy_settle(greedy_tin *g, size_t position)
 {
-    uint32_t t = g->heap[place];
-    for (; place > 0 && greedy_before(g, t, g->heap[(place - 1) / 2]); place = (place - 1) / 2)
-        greedy_put(g, place, g->heap[(place - 1) / 2]);
-    for (size_t child; (child = 2 * place + 1) < g->count; place = child) {
+    uint32_t t = g->heap[position];
+    for (; position > 0 && greedy_before(g, t, g->heap[(position - 1) / 2]);
+         position = (position - 1) / 2)
+        greedy_put(g, position, g->heap[(position - 1) / 2]);
+    for (size_t child; (child = 2 * position + 1) < g->count; position = child) {
         if (child + 1 < g->count && greedy_before(g, g->heap[child + 1], g->heap[child])) child++;
         if (!greedy_before(g, g->heap[child], t)) break;
-        greedy_put(g, place, g->heap[child]);
+        greedy_put(g, position, g->heap[child]);
     }
-    greedy_put(g, place, t);
+    greedy_put(g, position, t);
 }
 
 static void greedy_remove(greedy_tin *g, uint32_t triangle)
 {
-    size_t place = g->candidates[triangle].place;
-    if (place == MW_NONE) return;
-    g->candidates[triangle].place = MW_NONE;
+    size_t position = g->candidates[triangle].position;
+    if (position == MW_NONE) return;
+    g->candidates[triangle].position = MW_NONE;
     uint32_t last = g->heap[--g->count];
     if (last == triangle) return;
-    greedy_put(g, place, last);
-    greedy_settle(g, place);
+    greedy_put(g, position, last);
+    greedy_settle(g, position);
 }
 
 static bool greedy_grow(greedy_tin *g, size_t triangles, size_t vertices)
@@ -109,7 +110,7 @@ static void greedy_load(const greedy_tin *g, uint32_t triangle, greedy_triangle 
     t->origin[2] = g->z[v[0]];
 }
 
-/* A place in columns or rows as a number of one, within limits. Those hardly outside a triangle
+/* A position in columns or rows as a number of one, within limits. Those hardly outside a triangle
  * count as inside: verified is with the exact ones. */
 #define SLACK 1e-9
 static int64_t clamp(double value, int64_t most)
@@ -210,7 +211,7 @@ static int greedy_run(greedy_tin *g)
         size_t pixel = g->candidates[t].pixel;
         end = greedy_insert(g, pixel);
         /* It lies in a triangle beside, or hardly outside of all. */
-        bool same = g->candidates[t].place != MW_NONE && g->candidates[t].pixel == pixel;
+        bool same = g->candidates[t].position != MW_NONE && g->candidates[t].pixel == pixel;
         if (end == 0 && same) greedy_scan(g, t);
     }
     return end;

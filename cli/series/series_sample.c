@@ -208,8 +208,8 @@ static int run_write_netcdf_of(series_run *r, const char **names, const char **u
     }
     const mw_point_series_layout layout = {
         .feature = track ? MW_POINT_TRAJECTORY : MW_POINT_TIME_SERIES,
-        .places = r->points.points,
-        .place_stride = r->points.width,
+        .positions = r->points.points,
+        .position_stride = r->points.width,
         .point_count = r->points.count,
         .degrees = r->points.lonlat,
         .times = track ? r->points.points + 2 : info->times + r->choice.first,

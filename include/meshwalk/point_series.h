@@ -1,7 +1,7 @@
 /**
  * @file point_series.h
  * Values over time at points, written as netCDF by the CF conventions for discrete sampling
- * geometries: time series at places that stay, or the track of one that moves. xarray, and whatever
+ * geometries: time series at points that stay, or the track of one that moves. xarray, and whatever
  * knows CF, read it. libnetcdf is loaded when it is needed.
  */
 #ifndef MESHWALK_POINT_SERIES_H
@@ -22,8 +22,8 @@ typedef enum mw_point_feature {
 /** What is written beside the values. Everything is read by mw_point_series_open() only. */
 typedef struct mw_point_series_layout {
     mw_point_feature feature;
-    const double *places; /**< x and y of each point */
-    size_t place_stride;  /**< doubles from one to the next; 0: 2 */
+    const double *positions; /**< x and y of each point */
+    size_t position_stride;  /**< doubles from one to the next; 0: 2 */
     size_t point_count;
     int degrees;              /**< 1: x and y are longitude and latitude */
     const double *times;      /**< `time_count` times; of a track one for each point */

@@ -18,7 +18,7 @@ extern "C" {
 #endif
 
 /** What a file of weights tells of rows and columns beside the weights. All members may be NULL. */
-typedef struct mw_weight_places {
+typedef struct mw_weight_positions {
     const double *columns;      /**< x and y of each column: xc_a, yc_a */
     size_t column_stride;       /**< doubles from one to the next; 0: 2 */
     const double *rows;         /**< x and y of each row: xc_b, yc_b */
@@ -26,19 +26,19 @@ typedef struct mw_weight_places {
     const mw_location *located; /**< the location of each row: its status is kept, as status_b */
     int degrees;                /**< 1: x and y are longitude and latitude */
     const char *title;          /**< of the file */
-} mw_weight_places;
+} mw_weight_positions;
 
 /**
  * Write an operator to a file: in ESMF's layout (netCDF-4), or, if the name ends in .npz, as
  * scipy.sparse.save_npz() writes a csr_array. The file appears when it is complete.
  *
- * Beside the weights ESMF's layout has the places and, of columns (_a) and rows (_b), mask (1; 0
+ * Beside the weights ESMF's layout has the positions and, of columns (_a) and rows (_b), mask (1; 0
  * for a row without entries), area (0: not known) and frac (the sum of the row's weights; 1 for a
  * column that some row uses, else 0).
  *
  * @param path     the file, no pipe
  * @param weights  the operator
- * @param places   NULL: nothing is known
+ * @param positions   NULL: nothing is known
  * @param options  NULL selects the defaults
  * @param error    NULL, or receives the message of a failure
  * @return MW_OK; MW_ERROR_ARGUMENT for NULL or a pipe; MW_ERROR_LIMIT for more than 2^31 - 1 rows,
@@ -48,8 +48,8 @@ typedef struct mw_weight_places {
  * Thread-safe; libnetcdf serves one call at a time.
  */
 MW_API mw_status mw_write_weights(const char *path, const mw_operator *weights,
-                                  const mw_weight_places *places, const mw_file_options *options,
-                                  mw_error *error);
+                                  const mw_weight_positions *positions,
+                                  const mw_file_options *options, mw_error *error);
 
 /**
  * Read an operator from a file in ESMF's layout, whoever wrote it: any number of entries in a row.
@@ -97,7 +97,7 @@ typedef struct mw_apply_weights_info {
  * Its other dimensions, such as time and layers, stay; the last becomes `point`. Variables of these
  * dimensions alone, such as time, are copied, and so are units, names and calendars. Missing values
  * (_FillValue, missing_value, NaN) count as missing, packed values (scale_factor, add_offset) are
- * unpacked. Where the weights tell the places of the points, these become point_x and point_y. A
+ * unpacked. Where the weights tell the positions of the points, these become point_x and point_y. A
  * few rows are in memory at a time, never a whole field.
  *
  * @param weights  a file of weights in ESMF's layout

@@ -30,11 +30,11 @@ void mw_operator_describe(const mw_operator *o, mw_operator_info *info)
 static void operator_count(const mw_operator *o, uint64_t *first)
 {
     first[0] = 0;
-    for (size_t place = 0; place < o->rows; place++) {
+    for (size_t rank = 0; rank < o->rows; rank++) {
         uint64_t count = 0;
-        for (uint64_t e = mw__operator_first(o, place); e < mw__operator_first(o, place + 1); e++)
+        for (uint64_t e = mw__operator_first(o, rank); e < mw__operator_first(o, rank + 1); e++)
             count += o->weight[e] != 0;
-        first[(size_t)mw__operator_row(o, place) + 1] = count;
+        first[(size_t)mw__operator_row(o, rank) + 1] = count;
     }
 }
 
@@ -42,9 +42,9 @@ void mw_operator_copy(const mw_operator *o, uint64_t *first, uint32_t *column, d
 {
     operator_count(o, first);
     for (size_t i = 0; i < o->rows; i++) first[i + 1] += first[i];
-    for (size_t place = 0; place < o->rows && (column || weight); place++) {
-        uint64_t to = first[mw__operator_row(o, place)];
-        for (uint64_t e = mw__operator_first(o, place); e < mw__operator_first(o, place + 1); e++) {
+    for (size_t rank = 0; rank < o->rows && (column || weight); rank++) {
+        uint64_t to = first[mw__operator_row(o, rank)];
+        for (uint64_t e = mw__operator_first(o, rank); e < mw__operator_first(o, rank + 1); e++) {
             if (o->weight[e] == 0) continue;
             if (column) column[to] = o->column[e];
             if (weight) weight[to] = o->weight[e];

@@ -1,8 +1,8 @@
 /* operator.h - the rows of an operator. Private.
  *
- * Rows lie in places. Their order follows what they read: the places of neighbours are near each
- * other, so that values come from the cache. Most operators have at most three entries a row; then
- * each place has three, and weights of 0 fill up what is missing. */
+ * The rank of a row is where it stands in memory. Rows that read near each other have ranks near
+ * each other, so that values come from the cache. Most operators have at most three entries a row;
+ * then each rank has three, and weights of 0 fill up what is missing. */
 #ifndef MW_SRC_OPERATOR_OPERATOR_H
 #define MW_SRC_OPERATOR_OPERATOR_H
 
@@ -15,20 +15,20 @@ enum { MW_NARROW_ROW = 3 };
 struct mw_operator {
     uint32_t rows, columns, empty_rows, widest;
     size_t entries;
-    uint32_t *row;    /* the row in each place; NULL: places are rows */
-    uint64_t *first;  /* the entries of place i begin at first[i]; NULL: at 3 * i, and are three */
+    uint32_t *row;    /* the row of each rank; NULL: ranks are rows */
+    uint64_t *first;  /* the entries of rank i begin at first[i]; NULL: at 3 * i, and are three */
     uint32_t *column; /* of each entry; of a weight of 0: any column */
     double *weight;
 };
 
-static MW_INLINE uint32_t mw__operator_row(const mw_operator *o, size_t place)
+static MW_INLINE uint32_t mw__operator_row(const mw_operator *o, size_t rank)
 {
-    return o->row ? o->row[place] : (uint32_t)place;
+    return o->row ? o->row[rank] : (uint32_t)rank;
 }
 
-static MW_INLINE uint64_t mw__operator_first(const mw_operator *o, size_t place)
+static MW_INLINE uint64_t mw__operator_first(const mw_operator *o, size_t rank)
 {
-    return o->first ? o->first[place] : MW_NARROW_ROW * (uint64_t)place;
+    return o->first ? o->first[rank] : MW_NARROW_ROW * (uint64_t)rank;
 }
 
 #endif

@@ -16,9 +16,9 @@
 
 enum {
     TILE = 256,      /* values of a row that are summed together                               */
-    RANGE = 1 << 14, /* places of a chunk of work */
-    STRIP = 2048,    /* places whose entries stay in the cache while field after field is read */
-    AHEAD = 3,       /* places between one whose values are asked for and one that is summed    */
+    RANGE = 1 << 14, /* ranks of a chunk of work */
+    STRIP = 2048,    /* ranks whose entries stay in the cache while field after field is read */
+    AHEAD = 3,       /* ranks between one whose values are asked for and one that is summed    */
     LINE = 64,       /* bytes of a cache line, of which the processor finds more by itself after */
     LINES = 32,      /* so many                                                                 */
     /* bytes of results that are more than most caches hold, and of a row that repay writing it past
@@ -37,25 +37,25 @@ typedef struct apply_call {
     mw_missing_rule missing;
     double empty; /* the result of a row without entries */
     bool narrow, past_caches;
-    size_t ranges, fields; /* a chunk of work is one of these ranges of places, of so many fields */
+    size_t ranges, fields; /* a chunk of work is one of these ranges of ranks, of so many fields */
 } apply_call;
 
 typedef struct apply_part {
     size_t from, to, field, field_end;
 } apply_part;
 
-/* The entries of a place. */
+/* The entries of a rank. */
 typedef struct apply_entries {
     const uint32_t *column;
     const double *weight;
     uint64_t count;
 } apply_entries;
 
-static MW_INLINE apply_entries entries_of(const mw_operator *o, size_t place)
+static MW_INLINE apply_entries entries_of(const mw_operator *o, size_t rank)
 {
-    const uint64_t first = mw__operator_first(o, place);
+    const uint64_t first = mw__operator_first(o, rank);
     return (apply_entries){&o->column[first], &o->weight[first],
-                           mw__operator_first(o, place + 1) - first};
+                           mw__operator_first(o, rank + 1) - first};
 }
 
 /* `narrow` is a literal where this is stamped: floats and doubles are one code. */
@@ -122,7 +122,7 @@ static MW_INLINE double sum_any(const apply_call *c, apply_entries e, size_t k, 
                                              : sum_all(c, e, k, narrow);
 }
 
-/* Whether a place has three entries, and nothing is to be left out. */
+/* Whether a rank has three entries, and nothing is to be left out. */
 static MW_INLINE bool entries_plain(const apply_call *c, const double w[3])
 {
     return w[0] != 0 && w[1] != 0 && w[2] != 0 && c->missing == MW_MISSING_SPREADS;
@@ -167,7 +167,7 @@ static MW_INLINE void tile_plain(const double w[3], const void *const from[3], s
     }
 }
 
-/* Values k .. k + n - 1 of a place. */
+/* Values k .. k + n - 1 of a rank. */
 static MW_INLINE void tile_sum(const apply_call *c, apply_entries e, size_t k, size_t n,
                                void *restrict to, bool narrow)
 {
@@ -204,10 +204,10 @@ static void passed_end(void)
 #endif
 }
 
-static MW_INLINE void row_sum(const apply_call *c, size_t place, bool narrow)
+static MW_INLINE void row_sum(const apply_call *c, size_t rank, bool narrow)
 {
-    const apply_entries e = entries_of(c->o, place);
-    const size_t row = mw__operator_row(c->o, place) * c->row, size = narrow ? 4 : 8;
+    const apply_entries e = entries_of(c->o, rank);
+    const size_t row = mw__operator_row(c->o, rank) * c->row, size = narrow ? 4 : 8;
     double tile[TILE];
     for (size_t k = 0; k < c->count; k += TILE) {
         const size_t n = c->count - k < TILE ? c->count - k : TILE;
@@ -217,10 +217,10 @@ static MW_INLINE void row_sum(const apply_call *c, size_t place, bool narrow)
     }
 }
 
-/* Have the values of a place on their way. */
-static MW_INLINE void row_ask(const apply_call *c, size_t place, bool narrow)
+/* Have the values of a rank on their way. */
+static MW_INLINE void row_ask(const apply_call *c, size_t rank, bool narrow)
 {
-    const apply_entries e = entries_of(c->o, place);
+    const apply_entries e = entries_of(c->o, rank);
     const size_t row = c->count * (narrow ? 4 : 8), bytes = row < LINES * LINE ? row : LINES * LINE;
     for (uint64_t i = 0; i < e.count && i < MW_NARROW_ROW; i++) {
         const char *values = operand_at(c->values, e.column[i] * c->stride, narrow);
@@ -231,21 +231,21 @@ static MW_INLINE void row_ask(const apply_call *c, size_t place, bool narrow)
 
 static MW_INLINE void rows_apply(const apply_call *c, size_t from, size_t to, bool narrow)
 {
-    for (size_t place = from; place < to; place++) {
-        if (place + AHEAD < to) row_ask(c, place + AHEAD, narrow);
-        row_sum(c, place, narrow);
+    for (size_t rank = from; rank < to; rank++) {
+        if (rank + AHEAD < to) row_ask(c, rank + AHEAD, narrow);
+        row_sum(c, rank, narrow);
     }
     if (c->past_caches) passed_end();
 }
 
 /* --- values field by field -------------------------------------------------------------------- */
 
-static MW_INLINE double value_of_place(const apply_call *c, size_t place, size_t k, bool narrow)
+static MW_INLINE double value_of_rank(const apply_call *c, size_t rank, size_t k, bool narrow)
 {
-    const uint32_t *v = &c->o->column[MW_NARROW_ROW * place];
-    const double *w = &c->o->weight[MW_NARROW_ROW * place];
+    const uint32_t *v = &c->o->column[MW_NARROW_ROW * rank];
+    const double *w = &c->o->weight[MW_NARROW_ROW * rank];
     if (c->o->first || MW_UNLIKELY(!entries_plain(c, w)))
-        return sum_any(c, entries_of(c->o, place), k, narrow);
+        return sum_any(c, entries_of(c->o, rank), k, narrow);
     const size_t at = k * c->step;
     double sum = 0 + w[0] * operand_load(c->values, v[0] * c->stride + at, narrow);
     sum += w[1] * operand_load(c->values, v[1] * c->stride + at, narrow);
@@ -257,9 +257,9 @@ static MW_INLINE void fields_apply(const apply_call *c, apply_part part, bool na
     for (size_t strip = part.from; strip < part.to; strip += STRIP) {
         const size_t end = part.to - strip < STRIP ? part.to : strip + STRIP;
         for (size_t k = part.field; k < part.field_end; k++)
-            for (size_t place = strip; place < end; place++)
-                operand_store(c->result, mw__operator_row(c->o, place) * c->row + k * c->field,
-                              value_of_place(c, place, k, narrow), narrow);
+            for (size_t rank = strip; rank < end; rank++)
+                operand_store(c->result, mw__operator_row(c->o, rank) * c->row + k * c->field,
+                              value_of_rank(c, rank, k, narrow), narrow);
     }
 }
 
@@ -327,7 +327,7 @@ static apply_call apply_begin(const mw_operator *o, const mw_value_table *table,
     if (!c.stride) c.stride = fields ? 1 : table->count;
     const size_t row = c.count * (c.narrow ? sizeof(float) : sizeof(double));
     c.ranges = (o->rows + (size_t)RANGE - 1) / RANGE;
-    /* Where places are no rows, the results of one field at a time stay in the caches until all
+    /* Where ranks are no rows, the results of one field at a time stay in the caches until all
      * numbers of a line are there. */
     c.fields = fields && o->row ? 1 : c.count;
     c.past_caches = row >= LONG && o->rows >= LARGE / row;

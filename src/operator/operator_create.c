@@ -1,7 +1,7 @@
 /* operator_create.c - operators from locations, from entries, and from the rows of another. */
 #include "base/options.h"
 #include "mesh/mesh.h"
-#include "operator/place_order.h"
+#include "operator/row_order.h"
 #include "operator/sparse_rows.h"
 
 #include <math.h>
@@ -47,17 +47,17 @@ static bool locations_order(const mw_mesh *mesh, const mw_location *at, mw_opera
     if (!key) return false;
     for (uint32_t i = 0; i < o->rows; i++)
         key[i] = at[i].triangle == MW_NONE ? MW_NONE : mw__triangle_slot(mesh, at[i].triangle);
-    const bool done = mw__place_order(key, o->rows, &o->row);
+    const bool done = mw__row_order(key, o->rows, &o->row);
     free(key);
     return done;
 }
 
 /* The entries of a location; the column of a weight of 0 is one that is read anyway. */
-static void location_fill(const location_rows *work, size_t place)
+static void location_fill(const location_rows *work, size_t rank)
 {
-    const mw_location *at = &work->at[mw__operator_row(work->o, place)];
-    uint32_t v[3] = {0}, *column = &work->o->column[3 * place];
-    double *weight = &work->o->weight[3 * place];
+    const mw_location *at = &work->at[mw__operator_row(work->o, rank)];
+    uint32_t v[3] = {0}, *column = &work->o->column[3 * rank];
+    double *weight = &work->o->weight[3 * rank];
     const bool there = at->triangle != MW_NONE;
     if (there) mw_mesh_triangle(work->mesh, at->triangle, v);
     const uint32_t any = at->weight[0] != 0 ? v[0] : at->weight[1] != 0 ? v[1] : v[2];
@@ -69,13 +69,13 @@ static void location_fill(const location_rows *work, size_t place)
 
 static void locations_fill(void *work, uint64_t from, uint64_t to)
 {
-    for (uint64_t place = from; place < to; place++) location_fill(work, place);
+    for (uint64_t rank = from; rank < to; rank++) location_fill(work, rank);
 }
 
 static void locations_measure(mw_operator *o)
 {
-    for (size_t place = 0; place < o->rows; place++) {
-        const double *w = &o->weight[3 * place];
+    for (size_t rank = 0; rank < o->rows; rank++) {
+        const double *w = &o->weight[3 * rank];
         const uint32_t count = (uint32_t)(w[0] != 0) + (w[1] != 0) + (w[2] != 0);
         o->entries += count;
         o->empty_rows += count == 0;

@@ -1,7 +1,7 @@
 /* sparse_rows.c - rows of any width are counted, filled, and packed into an operator. */
 #include "operator/sparse_rows.h"
 
-#include "operator/place_order.h"
+#include "operator/row_order.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -54,7 +54,7 @@ static bool rows_order(const mw_sparse_rows *s, mw_operator *o)
     uint32_t *key = mw__alloc(s->rows, sizeof *key);
     if (!key) return false;
     for (uint32_t i = 0; i < s->rows; i++) key[i] = rows_lowest_column(s, i);
-    const bool done = mw__place_order(key, s->rows, &o->row);
+    const bool done = mw__row_order(key, s->rows, &o->row);
     free(key);
     return done;
 }
@@ -81,12 +81,12 @@ static bool rows_allocate(mw_operator *o)
     return (narrow || o->first) && o->column && o->weight;
 }
 
-/* Copy the entries of a row to a place, and return where the next place begins. */
-static uint64_t rows_place(const mw_sparse_rows *s, mw_operator *o, size_t place, uint64_t at)
+/* Copy the entries of a row to a rank, and return where the next rank begins. */
+static uint64_t rows_copy_entries(const mw_sparse_rows *s, mw_operator *o, size_t rank, uint64_t at)
 {
-    const uint32_t row = mw__operator_row(o, place);
+    const uint32_t row = mw__operator_row(o, rank);
     const uint64_t from = s->first[row], count = s->first[row + 1] - from;
-    if (o->first) o->first[place] = at;
+    if (o->first) o->first[rank] = at;
     memcpy(&o->column[at], &s->column[from], count * sizeof *o->column);
     memcpy(&o->weight[at], &s->weight[from], count * sizeof *o->weight);
     if (o->first) return at + count;
@@ -104,7 +104,7 @@ mw_operator *mw__sparse_rows_pack(const mw_sparse_rows *s, mw_job *job)
     rows_measure(s, o);
     bool packed = rows_order(s, o) && rows_allocate(o) && mw__job_step(job, 1, 2);
     uint64_t at = 0;
-    for (size_t place = 0; place < o->rows && packed; place++) at = rows_place(s, o, place, at);
+    for (size_t rank = 0; rank < o->rows && packed; rank++) at = rows_copy_entries(s, o, rank, at);
     if (packed && o->first) o->first[o->rows] = at;
     if (packed && mw__job_step(job, 2, 2)) return o;
     mw_operator_destroy(o);

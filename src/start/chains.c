@@ -2,8 +2,8 @@
  *
  * Order points by y, and those of one y by x: a lower one comes first, and an edge goes up from its
  * first end to the other. A tile to the left of an edge comes before the tile to its right. That
- * has no cycles (docs/proofs/queries.md), so all tiles can be put into places 1 to n, each after
- * those to its left. Chain c, from 1 to n + 1, is what parts the tiles before place c from the
+ * has no cycles (docs/proofs/queries.md), so all tiles can be put into positions 1 to n, each after
+ * those to its left. Chain c, from 1 to n + 1, is what parts the tiles before position c from the
  * others: edges from the lowest vertex of the hull to the highest one, ever upwards. Chain 1 and n
  * + 1 are the two sides of the hull.
  *
@@ -11,11 +11,11 @@
  *           \  1 | | 2 / \ 3 /
  *            \   | |  /   \ /
  *
- * A search has places low to high in which q can be. Of the chains between them it takes the one
+ * A search has positions low to high in which q can be. Of the chains between them it takes the one
  * with most zeros at the end of its binary number, and tests q against the edge of that chain at
  * the height of q. One side of the edge is left.
  *
- * An edge from a tile at place l to one at r belongs to the chains l + 1 to r. It is kept once,
+ * An edge from a tile at position l to one at r belongs to the chains l + 1 to r. It is kept once,
  * with the one of them that has most zeros at the end: of these chains the search meets that one
  * first. At the height of q the tiles lie side by side, and the ranges of the edges between them
  * fit together: low and high always are ends of such ranges. So a range is either within low ..
@@ -49,10 +49,10 @@ typedef struct chains_build {
     const mw_tiling *tiling;
     mw_job *job;
     chain_vertex *vertex[2];
-    uint32_t *rank;  /* of each vertex                                     */
-    uint32_t *place; /* of each tile                                       */
-    uint32_t *ready; /* tiles that may be placed next                      */
-    uint8_t *before; /* neighbours to the left of a tile without a place   */
+    uint32_t *rank;     /* of each vertex                                     */
+    uint32_t *position; /* of each tile                                       */
+    uint32_t *ready;    /* tiles that may be placed next                      */
+    uint8_t *before;    /* neighbours to the left of a tile without a position   */
     chain_link *link;
     uint32_t links;
 } chains_build;
@@ -62,7 +62,7 @@ static void chains_build_release(chains_build *b)
     free(b->vertex[0]);
     free(b->vertex[1]);
     free(b->rank);
-    free(b->place);
+    free(b->position);
     free(b->ready);
     free(b->before);
     free(b->link);
@@ -116,7 +116,7 @@ static MW_INLINE bool chains_edge_goes_up(const chains_build *b, const mw_triang
     return b->rank[tile->v[k]] < b->rank[tile->v[k + 1]];
 }
 
-/* Put each tile behind those to its left. Returns how many have a place. */
+/* Put each tile behind those to its left. Returns how many have a position. */
 static uint32_t chains_place(chains_build *b)
 {
     const mw_tiling *tiling = b->tiling;
@@ -131,7 +131,7 @@ static uint32_t chains_place(chains_build *b)
     while (ready > 0) {
         uint32_t t = b->ready[--ready];
         const mw_triangle *tile = &tiling->tri[t];
-        b->place[t] = ++placed;
+        b->position[t] = ++placed;
         for (uint32_t k = 0; k < 3; k++) {
             if (tile->link[k] == MW_NONE || !chains_edge_goes_up(b, tile, k)) continue;
             uint32_t right = mw__link_triangle(tile->link[k]);
@@ -157,14 +157,14 @@ static bool chains_place_tiles(mw_chains *chains, chains_build *b)
 {
     const mw_tiling *tiling = b->tiling;
     size_t n = tiling->tri_count;
-    b->place = mw__alloc_lines(n, sizeof *b->place);
+    b->position = mw__alloc_lines(n, sizeof *b->position);
     b->ready = mw__alloc_lines(n, sizeof *b->ready);
     b->before = mw__alloc_lines(n, sizeof *b->before);
     chains->tile = mw__alloc_lines(n + 2, sizeof *chains->tile);
-    if (!b->place || !b->ready || !b->before || !chains->tile) return false;
+    if (!b->position || !b->ready || !b->before || !chains->tile) return false;
     if (chains_place(b) != n) return true; /* of an embedding all have one */
     chains->tiles = (uint32_t)n;
-    for (uint32_t t = 0; t < n; t++) b->ready[b->place[t] - 1] = t;
+    for (uint32_t t = 0; t < n; t++) b->ready[b->position[t] - 1] = t;
     chains->tile[0] = 0;
     for (uint32_t i = 1; i <= n; i++)
         chains->tile[i] = chains_tile_name(tiling, b->ready[i - 1], chains->tile[i - 1]);
@@ -190,10 +190,11 @@ static bool chains_link(const mw_chains *chains, const chains_build *b, uint32_t
     const mw_triangle *tile = &b->tiling->tri[t];
     uint32_t from = b->rank[tile->v[k]], to = b->rank[tile->v[k + 1]], link = tile->link[k];
     if (from < to)
-        *e = (chain_link){from, to, b->place[t],
-                          link == MW_NONE ? chains->tiles + 1 : b->place[mw__link_triangle(link)]};
+        *e = (chain_link){from, to, b->position[t],
+                          link == MW_NONE ? chains->tiles + 1
+                                          : b->position[mw__link_triangle(link)]};
     else
-        *e = (chain_link){to, from, 0, b->place[t]};
+        *e = (chain_link){to, from, 0, b->position[t]};
     return from < to || link == MW_NONE;
 }
 
@@ -292,8 +293,8 @@ size_t mw__chains_bytes(const mw_chains *chains)
 
 typedef struct chain_search {
     mw_point q;
-    uint32_t low, high; /* places                                         */
-    uint32_t beside;    /* the place across the edge that was tested last */
+    uint32_t low, high; /* positions                                         */
+    uint32_t beside;    /* the position across the edge that was tested last */
     uint32_t comparisons, tests;
 } chain_search;
 

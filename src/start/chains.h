@@ -6,7 +6,7 @@
 #include "tiling/tiling.h"
 #include "walk/walk.h"
 
-/* An edge, from its lower end to the upper one, and the places of the tiles to its left and
+/* An edge, from its lower end to the upper one, and the positions of the tiles to its left and
  * right. */
 typedef struct mw_chains_edge {
     mw_point low, high;
@@ -17,7 +17,7 @@ typedef struct mw_chains_edge {
 typedef struct mw_chains {
     mw_chains_edge *edge; /* of chain 1, of chain 2, ...; in each from below to above      */
     uint32_t *from;       /* from[c]: the first edge of chain c, from[c + 1] is behind it  */
-    uint32_t *tile;       /* tile[i]: the name of the tile at place i, from 1 to tiles     */
+    uint32_t *tile;       /* tile[i]: the name of the tile at position i, from 1 to tiles     */
     /* the outermost edges at the lowest vertex and at the highest one: left, right */
     mw_chains_edge bottom[2], top[2];
     uint32_t tiles, points; /* how many; tiles 0: there are no chains */

@@ -54,11 +54,11 @@ static void write_example(const char *path, bool degrees)
     static const double vertices[] = {0, 0, 1, 0, 1, 1, 0, 1}, points[] = {0, 10, 1, 11, 2, 12};
     static const mw_location at[] = {
         {.where = MW_INSIDE}, {.where = MW_ON_VERTEX}, {.where = MW_OUTSIDE}};
-    const mw_weight_places places = {
+    const mw_weight_positions positions = {
         .columns = vertices, .rows = points, .located = at, .degrees = degrees};
     mw_operator *weights = example();
     mw_error error;
-    if (mw_write_weights(path, weights, &places, NULL, &error)) fail_msg("%s", error.message);
+    if (mw_write_weights(path, weights, &positions, NULL, &error)) fail_msg("%s", error.message);
     mw_operator_destroy(weights);
 }
 
@@ -204,9 +204,9 @@ static void test_apply(void **state)
     const mw_apply_weights_options one = {.fields = names, .field_count = 1};
     assert_int_equal(mw_apply_weights("w.nc", "f.nc", "o.nc", &one, &info, &error), MW_OK);
     assert_int_equal(info.fields, 1);
-    double places[3];
-    numbers_read("o.nc", "point_y", 3, places);
-    assert_true(places[0] == 10 && places[2] == 12);
+    double positions[3];
+    numbers_read("o.nc", "point_y", 3, positions);
+    assert_true(positions[0] == 10 && positions[2] == 12);
     files_clear();
 }
 

@@ -27,8 +27,8 @@ static void need_netcdf(void)
 
 static mw_point_series_layout stations(void)
 {
-    return (mw_point_series_layout){.places = places,
-                                    .place_stride = 3,
+    return (mw_point_series_layout){.positions = places,
+                                    .position_stride = 3,
                                     .point_count = 2,
                                     .degrees = 1,
                                     .times = times,
@@ -138,7 +138,7 @@ static void test_refused(void **state)
     assert_null(out);
     assert_int_equal(mw_point_series_open(NULL, &layout, &out, &error), MW_ERROR_ARGUMENT);
     assert_int_equal(mw_point_series_open("s.nc", NULL, &out, &error), MW_ERROR_ARGUMENT);
-    layout.places = NULL;
+    layout.positions = NULL;
     assert_int_equal(mw_point_series_open("s.nc", &layout, &out, &error), MW_ERROR_ARGUMENT);
     layout = stations();
     assert_int_equal(mw_point_series_open("s.nc", &layout, &out, &error), MW_OK);

@@ -1,8 +1,8 @@
 /* mesh_formats.h - the table of file formats: who reads and writes which. Private.
  *
  * A new format is one file with its reader or writer, their lines in mesh_readers.h and
- * mesh_writers.h, and one row in mesh_formats.c; the program learns its name from there
- * (mw_mesh_format_name). */
+ * mesh_writers.h, and one row in mesh_formats.c. CONTRIBUTING.md lists what else names the
+ * formats. */
 #ifndef MW_SRC_IO_FORMATS_MESH_FORMATS_H
 #define MW_SRC_IO_FORMATS_MESH_FORMATS_H
 

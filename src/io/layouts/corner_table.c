@@ -36,7 +36,7 @@ static mw_status corner_refuse(const corner_reading *reading, size_t face, mw_er
                            reading->layout->first_number, what, number);
 }
 
-static mw_status corner_add(corner_reading *reading, size_t face, size_t place, double number,
+static mw_status corner_add(corner_reading *reading, size_t face, size_t column, double number,
                             mw_error *error)
 {
     if (number != (double)(int64_t)number || number >= INT32_MAX)
@@ -51,7 +51,7 @@ static mw_status corner_add(corner_reading *reading, size_t face, size_t place, 
         reading->highest = corner;
         reading->highest_face = face;
     }
-    reading->table->corners[face * reading->table->width + place] = (int32_t)corner;
+    reading->table->corners[face * reading->table->width + column] = (int32_t)corner;
     return MW_OK;
 }
 

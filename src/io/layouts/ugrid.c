@@ -18,10 +18,10 @@ static char *ugrid_word(char **text)
     return word;
 }
 
-/* The variable that an attribute of the topology names as its word number `place`. NULL without an
+/* The variable that an attribute of the topology names as its word number `index`. NULL without an
  * error: no such attribute or word. */
 static mw_status ugrid_variable(const mw_netcdf *file, const mw_netcdf_variable *topology,
-                                const char *attribute, int place, const mw_netcdf_variable **out,
+                                const char *attribute, int index, const mw_netcdf_variable **out,
                                 mw_error *error)
 {
     char *text;
@@ -29,7 +29,7 @@ static mw_status ugrid_variable(const mw_netcdf *file, const mw_netcdf_variable 
     mw_status status = mw__netcdf_text(file, topology, attribute, &text, error);
     if (status || !text) return status;
     char *rest = text, *word = NULL;
-    for (int i = 0; i <= place; i++) word = ugrid_word(&rest);
+    for (int i = 0; i <= index; i++) word = ugrid_word(&rest);
     if (word) *out = mw__netcdf_find(file, word);
     if (word && !*out)
         status = mw__netcdf_fail(file, topology, error, "%s names '%.80s', which is not there",

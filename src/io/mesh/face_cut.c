@@ -27,7 +27,7 @@ static int cut_turn(const cut_view *f, size_t i)
 }
 
 /* The direction of the edge from corner i: 1 if the next corner comes later in the order of x,
- * then y; 0 if it is at the same place. */
+ * then y; 0 if it is at the same point. */
 static int cut_direction(const cut_view *f, size_t i)
 {
     mw_point a = cut_point(f, i), b = cut_point(f, i + 1);
@@ -104,7 +104,7 @@ static void cut_fan(const cut_view *f, size_t apex, uint32_t *triangles)
     }
 }
 
-/* Corners at one place can hide a turn; then triangles of the fan turn either way. */
+/* Corners at one point can hide a turn; then triangles of the fan turn either way. */
 static bool cut_turns_one_way(const cut_view *f, size_t apex)
 {
     bool left = false, right = false;

@@ -8,17 +8,17 @@
 #include <string.h>
 
 /* Where the values of a field stand in its variable: the numbers of dimensions. */
-typedef struct netcdf_place {
+typedef struct netcdf_axes {
     const mw_netcdf_variable *variable;
     mw_netcdf_packing packing;
     int time, layer, values; /* -1: no such dimension */
     size_t layer_index;
-} netcdf_place;
+} netcdf_axes;
 
 typedef struct netcdf_content {
     mw_netcdf *file;
     void *memory;
-    netcdf_place *places; /* of the fields */
+    netcdf_axes *axes_of; /* of the fields */
     int time_dimension, vertex_dimension, face_dimension;
     mw_layout layout;
 } netcdf_content;
@@ -34,7 +34,7 @@ static void netcdf_series_close(void *content)
     netcdf_content *c = content;
     mw__netcdf_close(c->file);
     free(c->memory);
-    free(c->places);
+    free(c->axes_of);
     free(c);
 }
 
@@ -83,10 +83,10 @@ static mw_status netcdf_series_dimensions(netcdf_content *c, const mw_series_opt
 }
 
 /* Is this a field, and where are its values? */
-static bool netcdf_series_place(const netcdf_content *c, const mw_netcdf_variable *variable,
-                                netcdf_place *place)
+static bool netcdf_series_axes(const netcdf_content *c, const mw_netcdf_variable *variable,
+                               netcdf_axes *axes)
 {
-    *place = (netcdf_place){.variable = variable, .time = -1, .layer = -1, .values = -1};
+    *axes = (netcdf_axes){.variable = variable, .time = -1, .layer = -1, .values = -1};
     if (variable->rank > 3 || variable->type == MW_NETCDF_CHAR ||
         variable->type >= MW_NETCDF_STRING || variable == c->layout.x || variable == c->layout.y ||
         variable == c->layout.corners || variable == c->layout.counts)
@@ -94,49 +94,49 @@ static bool netcdf_series_place(const netcdf_content *c, const mw_netcdf_variabl
     for (int k = 0; k < (int)variable->rank; k++) {
         int d = variable->dimensions[k];
         bool values = d >= 0 && (d == c->vertex_dimension || d == c->face_dimension);
-        int *role = d == c->time_dimension ? &place->time : values ? &place->values : &place->layer;
+        int *role = d == c->time_dimension ? &axes->time : values ? &axes->values : &axes->layer;
         if (*role >= 0) return false;
         *role = k;
     }
     /* tables of numbers of vertices and of faces are constant, and have several a face */
-    bool table = place->time < 0 && place->layer >= 0 && variable->type != MW_NETCDF_FLOAT &&
+    bool table = axes->time < 0 && axes->layer >= 0 && variable->type != MW_NETCDF_FLOAT &&
                  variable->type != MW_NETCDF_DOUBLE;
-    return place->values >= 0 && !table;
+    return axes->values >= 0 && !table;
 }
 
 static mw_status netcdf_series_field(netcdf_content *c, mw_series_part *part,
-                                     const netcdf_place *place, const char *unit, mw_error *error)
+                                     const netcdf_axes *axes, const char *unit, mw_error *error)
 {
-    const mw_netcdf_variable *variable = place->variable;
+    const mw_netcdf_variable *variable = axes->variable;
     char name[MW_NETCDF_NAME + 24];
-    netcdf_place *places = mw__realloc(c->places, part->field_count + 1, sizeof *places);
-    if (!places) return mw__fail_memory(error);
-    c->places = places;
-    places[part->field_count] = *place;
-    bool layers = place->layer >= 0 && variable->lengths[place->layer] > 1;
-    snprintf(name, sizeof name, layers ? "%s:%zu" : "%s", variable->name, place->layer_index);
-    mw_series_field field = {.location = variable->dimensions[place->values] == c->vertex_dimension
+    netcdf_axes *axes_of = mw__realloc(c->axes_of, part->field_count + 1, sizeof *axes_of);
+    if (!axes_of) return mw__fail_memory(error);
+    c->axes_of = axes_of;
+    axes_of[part->field_count] = *axes;
+    bool layers = axes->layer >= 0 && variable->lengths[axes->layer] > 1;
+    snprintf(name, sizeof name, layers ? "%s:%zu" : "%s", variable->name, axes->layer_index);
+    mw_series_field field = {.location = variable->dimensions[axes->values] == c->vertex_dimension
                                              ? MW_SERIES_VERTEX
                                              : MW_SERIES_FACE,
-                             .constant = place->time < 0,
-                             .value_count = variable->lengths[place->values]};
+                             .constant = axes->time < 0,
+                             .value_count = variable->lengths[axes->values]};
     return mw__series_part_add(part, name, unit, field, error);
 }
 
-static mw_status netcdf_series_variable(netcdf_content *c, mw_series_part *part,
-                                        netcdf_place *place, mw_error *error)
+static mw_status netcdf_series_variable(netcdf_content *c, mw_series_part *part, netcdf_axes *axes,
+                                        mw_error *error)
 {
     enum { MOST_LAYERS = 4096 };
     char *unit;
-    if (mw__netcdf_check_size(c->file, place->variable, error)) return MW_ERROR_INPUT;
-    size_t layers = place->layer >= 0 ? place->variable->lengths[place->layer] : 1;
+    if (mw__netcdf_check_size(c->file, axes->variable, error)) return MW_ERROR_INPUT;
+    size_t layers = axes->layer >= 0 ? axes->variable->lengths[axes->layer] : 1;
     if (layers > MOST_LAYERS) return MW_OK;
-    mw_status status = mw__netcdf_text(c->file, place->variable, "units", &unit, error);
-    if (!status && !unit) status = mw__netcdf_text(c->file, place->variable, "unit", &unit, error);
-    place->packing = mw__netcdf_packing(c->file, place->variable);
+    mw_status status = mw__netcdf_text(c->file, axes->variable, "units", &unit, error);
+    if (!status && !unit) status = mw__netcdf_text(c->file, axes->variable, "unit", &unit, error);
+    axes->packing = mw__netcdf_packing(c->file, axes->variable);
     for (size_t k = 0; k < layers && !status; k++) {
-        place->layer_index = k;
-        status = netcdf_series_field(c, part, place, unit, error);
+        axes->layer_index = k;
+        status = netcdf_series_field(c, part, axes, unit, error);
     }
     free(unit);
     return status;
@@ -149,9 +149,9 @@ static mw_status netcdf_series_fill(netcdf_content *c, const mw_series_options *
     mw_status status = netcdf_series_dimensions(c, options, error);
     if (!status) status = mw__netcdf_times(c->file, c->time_dimension, part, error);
     for (size_t i = 0; i < mw__netcdf_variable_count(c->file) && !status; i++) {
-        netcdf_place place;
-        if (netcdf_series_place(c, mw__netcdf_variable_at(c->file, i), &place))
-            status = netcdf_series_variable(c, part, &place, error);
+        netcdf_axes axes;
+        if (netcdf_series_axes(c, mw__netcdf_variable_at(c->file, i), &axes))
+            status = netcdf_series_variable(c, part, &axes, error);
     }
     if (status || part->field_count > 0) return status;
     return mw__netcdf_fail(c->file, NULL, error,
@@ -172,14 +172,14 @@ static mw_status netcdf_series_read(void *content, size_t field, size_t step, do
                                     mw_error *error)
 {
     const netcdf_content *c = content;
-    const netcdf_place *place = &c->places[field];
-    const mw_netcdf_variable *variable = place->variable;
+    const netcdf_axes *axes = &c->axes_of[field];
+    const mw_netcdf_variable *variable = axes->variable;
     size_t starts[3] = {0}, counts[3] = {1, 1, 1};
-    if (place->time >= 0) starts[place->time] = step;
-    if (place->layer >= 0) starts[place->layer] = place->layer_index;
-    counts[place->values] = variable->lengths[place->values];
+    if (axes->time >= 0) starts[axes->time] = step;
+    if (axes->layer >= 0) starts[axes->layer] = axes->layer_index;
+    counts[axes->values] = variable->lengths[axes->values];
     mw_status status = mw__netcdf_doubles(c->file, variable, starts, counts, values, error);
-    if (!status) mw__netcdf_unpack(&place->packing, values, counts[place->values]);
+    if (!status) mw__netcdf_unpack(&axes->packing, values, counts[axes->values]);
     return status;
 }
 

@@ -165,12 +165,12 @@ static bool series_write_ids(mw_point_series *s, int variable)
 static bool series_write_axes(mw_point_series *s, const mw_point_series_layout *layout,
                               const series_axes *axes)
 {
-    const size_t place = layout->place_stride ? layout->place_stride : 2,
+    const size_t stride = layout->position_stride ? layout->position_stride : 2,
                  time = layout->time_stride ? layout->time_stride : 1;
     return series_write_axis(s, axes->time, layout->times, time,
                              s->track ? s->points : layout->time_count) &&
-           series_write_axis(s, axes->x, layout->places, place, s->points) &&
-           series_write_axis(s, axes->y, layout->places + 1, place, s->points) &&
+           series_write_axis(s, axes->x, layout->positions, stride, s->points) &&
+           series_write_axis(s, axes->y, layout->positions + 1, stride, s->points) &&
            series_write_ids(s, axes->id) &&
            (!layout->located || series_write_statuses(s, axes->status, layout->located));
 }
@@ -180,10 +180,10 @@ static bool series_write_axes(mw_point_series *s, const mw_point_series_layout *
 static mw_status series_check(const char *path, const mw_point_series_layout *layout,
                               mw_error *error)
 {
-    if (!path || !layout || (layout->point_count && !layout->places) || !layout->times ||
+    if (!path || !layout || (layout->point_count && !layout->positions) || !layout->times ||
         (layout->field_count && !layout->names))
         return mw__fail(error, MW_ERROR_ARGUMENT,
-                        "a series of points needs a path, places, times and names");
+                        "a series of points needs a path, positions, times and names");
     return MW_OK;
 }
 

@@ -52,7 +52,7 @@ static const struct {
 
 typedef struct esmf_file {
     const mw_weight_rows *rows;
-    const mw_weight_places *places;
+    const mw_weight_positions *positions;
     mw_netcdf_output *output;
     unsigned char *used; /* 1 for each column that some row uses */
     uint32_t *entry_row; /* the row of each entry */
@@ -69,9 +69,9 @@ static size_t esmf_length(const esmf_file *f, esmf_dimension dimension)
 
 static bool esmf_has(const esmf_file *f, esmf_part part)
 {
-    if (part == PART_X_A || part == PART_Y_A) return f->places->columns != NULL;
-    if (part == PART_X_B || part == PART_Y_B) return f->places->rows != NULL;
-    return part != PART_STATUS_B || f->places->located != NULL;
+    if (part == PART_X_A || part == PART_Y_A) return f->positions->columns != NULL;
+    if (part == PART_X_B || part == PART_Y_B) return f->positions->rows != NULL;
+    return part != PART_STATUS_B || f->positions->located != NULL;
 }
 
 /* --- numbers ---------------------------------------------------------------------------------- */
@@ -90,7 +90,7 @@ static double esmf_place(const double *at, size_t stride, size_t i, size_t axis)
 
 static double esmf_number(const esmf_file *f, esmf_part part, size_t i)
 {
-    const mw_weight_places *p = f->places;
+    const mw_weight_positions *p = f->positions;
     switch (part) {
     case PART_ROW: return (double)f->entry_row[i] + 1;
     case PART_COLUMN: return (double)f->rows->column[i] + 1;
@@ -136,8 +136,9 @@ static void esmf_define_status(esmf_file *f)
 
 static void esmf_define_units(esmf_file *f, esmf_part part)
 {
-    const bool place = part == PART_X_A || part == PART_Y_A || part == PART_X_B || part == PART_Y_B;
-    if (place && f->places->degrees)
+    const bool position =
+        part == PART_X_A || part == PART_Y_A || part == PART_X_B || part == PART_Y_B;
+    if (position && f->positions->degrees)
         mw__netcdf_output_text(f->output, f->variable[part], "units", "degrees");
     if (part == PART_ROW || part == PART_COLUMN)
         mw__netcdf_output_number(f->output, f->variable[part], "start_index", MW_NETCDF_INT, 1);
@@ -158,7 +159,7 @@ static void esmf_define(esmf_file *f)
     }
     if (esmf_has(f, PART_STATUS_B)) esmf_define_status(f);
     mw__netcdf_output_text(f->output, MW_NETCDF_OUTPUT_FILE, "title",
-                           f->places->title ? f->places->title : "weights, by meshwalk");
+                           f->positions->title ? f->positions->title : "weights, by meshwalk");
     mw__netcdf_output_text(f->output, MW_NETCDF_OUTPUT_FILE, "map_method",
                            "linear interpolation in triangles");
     mw__netcdf_output_text(f->output, MW_NETCDF_OUTPUT_FILE, "Conventions", "CF-1.8");
@@ -183,9 +184,9 @@ static bool esmf_prepare(esmf_file *f)
 }
 
 mw_status mw__esmf_write(const char *path, const mw_weight_rows *rows,
-                         const mw_weight_places *places, mw_job *job, mw_error *error)
+                         const mw_weight_positions *positions, mw_job *job, mw_error *error)
 {
-    esmf_file f = {.rows = rows, .places = places};
+    esmf_file f = {.rows = rows, .positions = positions};
     mw_status status = MW_OK;
     if (!esmf_prepare(&f))
         status = mw__fail_memory(error);

@@ -36,13 +36,13 @@ static mw_status rows_check(const char *path, const mw_operator *weights, mw_err
 }
 
 mw_status mw_write_weights(const char *path, const mw_operator *weights,
-                           const mw_weight_places *places, const mw_file_options *options,
+                           const mw_weight_positions *positions, const mw_file_options *options,
                            mw_error *error)
 {
     static const mw_file_options plain;
-    static const mw_weight_places unknown;
+    static const mw_weight_positions unknown;
     if (!options) options = &plain;
-    if (!places) places = &unknown;
+    if (!positions) positions = &unknown;
     if (!path || !weights)
         return mw__fail(error, MW_ERROR_ARGUMENT, "writing weights needs a path and an operator");
     mw_status status = MW_RESERVED_CHECK(mw_file_options, options, error);
@@ -56,7 +56,7 @@ mw_status mw_write_weights(const char *path, const mw_operator *weights,
     else if (path_ends_in(path, ".npz"))
         status = mw__npz_write(path, &rows, &job, error);
     else
-        status = mw__esmf_write(path, &rows, places, &job, error);
+        status = mw__esmf_write(path, &rows, positions, &job, error);
     free(rows.first);
     free(rows.column);
     free(rows.weight);

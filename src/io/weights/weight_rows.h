@@ -15,7 +15,7 @@ typedef struct mw_weight_rows {
 
 /* Writers; `rows` are the same as `weights`. */
 mw_status mw__esmf_write(const char *path, const mw_weight_rows *rows,
-                         const mw_weight_places *places, mw_job *job, mw_error *error);
+                         const mw_weight_positions *positions, mw_job *job, mw_error *error);
 mw_status mw__npz_write(const char *path, const mw_weight_rows *rows, mw_job *job, mw_error *error);
 
 #endif

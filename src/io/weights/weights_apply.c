@@ -26,11 +26,11 @@ typedef struct applied_file {
     mw_netcdf *in;
     mw_netcdf_output *out;
     mw_missing_rule rule;
-    int source;     /* the dimension that is interpolated away */
-    int *dimension; /* the number in the output of each dimension of the input; -1: not there */
-    int point;      /* the dimension of the output that takes its place */
-    int x, y;       /* variables with the places of the points; -1: not known */
-    const double *place; /* all x, then all y */
+    int source;       /* the dimension that is interpolated away */
+    int *dimension;   /* the number in the output of each dimension of the input; -1: not there */
+    int point;        /* the dimension of the output that stands for it */
+    int x, y;         /* variables with the positions of the points; -1: not known */
+    const double *xy; /* all x, then all y */
     applied_variable *variable;
     size_t count;
     uint64_t done, total; /* rows */
@@ -204,10 +204,10 @@ static mw_status applied_define_variable(applied_file *f, applied_variable *v, m
     return applied_copy_texts(f, v, error);
 }
 
-static void applied_define_places(applied_file *f, bool degrees)
+static void applied_define_positions(applied_file *f, bool degrees)
 {
     f->x = f->y = -1;
-    if (!f->place) return;
+    if (!f->xy) return;
     f->x = mw__netcdf_output_variable(f->out, "point_x", MW_NETCDF_DOUBLE, 1, &f->point);
     f->y = mw__netcdf_output_variable(f->out, "point_y", MW_NETCDF_DOUBLE, 1, &f->point);
     if (!degrees) return;
@@ -221,7 +221,7 @@ static mw_status applied_define(applied_file *f, bool degrees, mw_error *error)
 {
     mw_status status = MW_OK;
     applied_define_dimensions(f);
-    applied_define_places(f, degrees);
+    applied_define_positions(f, degrees);
     for (size_t i = 0; i < f->count && !status; i++)
         status = applied_define_variable(f, &f->variable[i], error);
     mw__netcdf_output_text(f->out, MW_NETCDF_OUTPUT_FILE, "Conventions", "CF-1.8");
@@ -307,12 +307,12 @@ static mw_status applied_axis(const applied_file *f, const applied_variable *v, 
     return status;
 }
 
-static void applied_places(const applied_file *f)
+static void applied_positions(const applied_file *f)
 {
     const size_t start = 0, count = f->size.rows;
     if (f->x < 0 || count == 0) return;
-    mw__netcdf_output_doubles(f->out, f->x, &start, &count, f->place);
-    mw__netcdf_output_doubles(f->out, f->y, &start, &count, f->place + count);
+    mw__netcdf_output_doubles(f->out, f->x, &start, &count, f->xy);
+    mw__netcdf_output_doubles(f->out, f->y, &start, &count, f->xy + count);
 }
 
 static mw_status applied_values(applied_file *f, mw_error *error)
@@ -341,11 +341,11 @@ static void applied_count(applied_file *f, mw_apply_weights_info *info)
     f->total = info->slabs;
 }
 
-/* --- places of the points --------------------------------------------------------------------- */
+/* --- positions of the points ------------------------------------------------------------------ */
 
-/* All x, then all y, of the rows of a file of weights; *place is NULL if it does not tell. */
-static mw_status places_read(const char *path, uint32_t rows, double **place, bool *degrees,
-                             mw_error *error)
+/* All x, then all y, of the rows of a file of weights; *xy is NULL if it does not tell. */
+static mw_status positions_read(const char *path, uint32_t rows, double **xy, bool *degrees,
+                                mw_error *error)
 {
     mw_netcdf *file;
     char *units = NULL;
@@ -355,10 +355,9 @@ static mw_status places_read(const char *path, uint32_t rows, double **place, bo
     const mw_netcdf_variable *x = mw__netcdf_find(file, "xc_b"), *y = mw__netcdf_find(file, "yc_b");
     const bool there = x && y && x->rank == 1 && y->rank == 1 && x->lengths[0] == rows &&
                        y->lengths[0] == rows && rows > 0;
-    if (there && !(*place = mw__alloc(rows, 2 * sizeof **place))) status = mw__fail_memory(error);
-    if (there && !status) status = mw__netcdf_doubles(file, x, &start, &count, *place, error);
-    if (there && !status)
-        status = mw__netcdf_doubles(file, y, &start, &count, *place + rows, error);
+    if (there && !(*xy = mw__alloc(rows, 2 * sizeof **xy))) status = mw__fail_memory(error);
+    if (there && !status) status = mw__netcdf_doubles(file, x, &start, &count, *xy, error);
+    if (there && !status) status = mw__netcdf_doubles(file, y, &start, &count, *xy + rows, error);
     if (there && !status) status = mw__netcdf_text(file, x, "units", &units, error);
     *degrees = units && strncmp(units, "degree", 6) == 0;
     free(units);
@@ -384,7 +383,7 @@ static mw_status applied_run(applied_file *f, const char *fields, const char *ou
     status = mw__netcdf_output_open(out, &f->out, error);
     if (status) return status;
     status = applied_define(f, degrees, error);
-    if (!status) applied_places(f);
+    if (!status) applied_positions(f);
     if (!status) status = applied_values(f, error);
     mw_status closed = mw__netcdf_output_close(f->out, !status, status ? NULL : error);
     return status ? status : closed;
@@ -407,7 +406,7 @@ mw_status mw_apply_weights(const char *weights, const char *fields, const char *
     static const mw_apply_weights_options plain;
     mw_apply_weights_info unasked;
     mw_operator *kept = NULL;
-    double *place = NULL;
+    double *xy = NULL;
     bool degrees = false;
     if (!options) options = &plain;
     if (!info) info = &unasked;
@@ -419,13 +418,13 @@ mw_status mw_apply_weights(const char *weights, const char *fields, const char *
     status = mw_read_weights(weights, NULL, &kept, error);
     applied_file f = {.weights = kept, .rule = options->missing, .job = &job};
     if (!status) mw_operator_describe(kept, &f.size);
-    if (!status) status = places_read(weights, f.size.rows, &place, &degrees, error);
-    f.place = place;
+    if (!status) status = positions_read(weights, f.size.rows, &xy, &degrees, error);
+    f.xy = xy;
     if (!status) status = applied_run(&f, fields, out, degrees, options, info, error);
     mw__netcdf_close(f.in);
     free(f.variable);
     free(f.dimension);
-    free(place);
+    free(xy);
     mw_operator_destroy(kept);
     return mw__job_end(&job, status, error);
 }

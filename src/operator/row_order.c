@@ -1,5 +1,5 @@
-/* place_order.c - rows that read the same values come one after the other. */
-#include "operator/place_order.h"
+/* row_order.c - rows that read the same values come one after the other. */
+#include "operator/row_order.h"
 
 #include "base/hilbert.h"
 
@@ -20,7 +20,7 @@ static bool order_is_there(const uint32_t *key, uint32_t rows)
     return far <= rows / 8;
 }
 
-bool mw__place_order(const uint32_t *key, uint32_t rows, uint32_t **row)
+bool mw__row_order(const uint32_t *key, uint32_t rows, uint32_t **row)
 {
     *row = NULL;
     if (order_is_there(key, rows)) return true;
