@@ -78,9 +78,11 @@ int files_check_output(const char *output, const char *const *inputs, int count)
 
 int files_check_text_output(const char *output)
 {
-    static const char *const endings[] = {".gpx", ".kml", ".kmz",     ".xlsx",  ".ods", ".dbf",
-                                          ".gz",  ".zip", ".las",     ".laz",   ".nc",  ".tif",
-                                          ".ply", ".vtk", ".feather", ".arrow", ".gdb"};
+    static const char *const endings[] = {
+        ".gpx",  ".kml", ".kmz", ".gml", ".tab", ".mif", ".dxf", ".dbf", ".sqlite",  ".gdb",
+        ".xlsx", ".ods", ".pdf", ".png", ".jpg", ".svg", ".gz",  ".zip", ".feather", ".arrow",
+        ".las",  ".laz", ".nc",  ".tif", ".h5",  ".mat", ".npy", ".npz", ".ply",     ".off",
+        ".obj",  ".stl", ".vtk", ".vtu", ".msh", ".2dm", ".gr3", ".slf"};
     if (files_is_standard(output)) return 0;
     size_t length = strlen(output);
     for (size_t i = 0; i < sizeof endings / sizeof *endings; i++) {

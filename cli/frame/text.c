@@ -10,7 +10,7 @@
 static char *text_room(text *t, size_t size)
 {
     if (t->failed) return NULL;
-    if (t->capacity - t->size >= size) return t->bytes + t->size;
+    if (t->bytes && t->capacity - t->size >= size) return t->bytes + t->size;
     size_t capacity = t->capacity < 256 ? 256 : t->capacity;
     while (capacity - t->size < size && capacity <= SIZE_MAX / 2) capacity *= 2;
     char *bytes = capacity - t->size >= size ? realloc(t->bytes, capacity) : NULL;

@@ -9,7 +9,7 @@ export ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0"
 printf '%s\n' "$square" >square.off # on the plane z = x + y
 
 # Outputs whose names say that they are no text are refused before anything is read.
-for name in out.kml out.GPX out.csv.gz out.xlsx ./a.b/out.tif; do
+for name in out.kml out.pdf out.GPX out.csv.gz out.xlsx ./a.b/out.tif; do
     run sample absent.off absent.csv -o $name
     refused 2 "${name//./\\.}: answers are written as text \(CSV\), or as \.gpkg"
     run star absent.off absent.csv -o $name; refused 2 'as text'
