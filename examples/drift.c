@@ -1,12 +1,13 @@
 /* drift.c - particles drift through a strait with an island for a day: a time step of Runge and
  * Kutta's second order locates each of them twice, in one call, beginning at the triangle where it
- * was (options.hints). Whoever meets the island is stranded on its shore; whoever leaves the
- * strait is gone.
+ * was (options.hints). Whoever meets the island is stranded where its way crosses the shore
+ * (mw_segment); whoever leaves the strait is gone.
  *
  *     drift [PARTICLES [CELLS]]      CELLS: of the mesh from west to east */
 #include <meshwalk/meshwalk.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { STEPS = 288 };                         /* of five minutes: a day */
 static const double LENGTH = 120, WIDTH = 60; /* of the strait, km */
@@ -23,7 +24,8 @@ typedef enum state { AFLOAT, STRANDED, GONE } state;
 
 typedef struct swarm {
     size_t count;
-    double *place, *middle, *current; /* x, y each: now, half a step ahead, the current there */
+    /* x, y each: a step ago, now, half a step ahead, and the current there */
+    double *before, *now, *middle, *current;
     mw_location *at;
     uint32_t *hint;
     uint8_t *state; /* of each particle */
@@ -78,8 +80,7 @@ static mw_status strait_make(strait *s, uint32_t columns, mw_error *error)
         mw_arrays arrays = {.points = points, .point_count = n, .triangles = triangles};
         arrays.triangle_count = strait_triangles(columns, rows, points, triangles);
         status = mw_mesh_create(&arrays, NULL, &s->mesh, error);
-        mw_locator_options border = {.border = 1}; /* for mw_nearest_border */
-        if (!status) status = mw_locator_create(s->mesh, &border, &s->locator, error);
+        if (!status) status = mw_locator_create(s->mesh, NULL, &s->locator, error);
     }
     free(triangles);
     free(points);
@@ -91,24 +92,28 @@ static mw_status strait_make(strait *s, uint32_t columns, mw_error *error)
 static int swarm_make(swarm *w, size_t count)
 {
     *w = (swarm){.count = count,
-                 .place = malloc(2 * count * sizeof(double)),
+                 .before = malloc(2 * count * sizeof(double)),
+                 .now = malloc(2 * count * sizeof(double)),
                  .middle = malloc(2 * count * sizeof(double)),
                  .current = malloc(2 * count * sizeof(double)),
                  .at = malloc(count * sizeof(mw_location)),
                  .hint = malloc(count * sizeof(uint32_t)),
                  .state = calloc(count, 1)};
-    if (!w->place || !w->middle || !w->current || !w->at || !w->hint || !w->state) return 0;
+    if (!w->before || !w->now || !w->middle || !w->current || !w->at || !w->hint || !w->state)
+        return 0;
     for (size_t i = 0; i < count; i++) { /* in a patch to the west */
-        w->place[2 * i] = 5 + 10 * ((double)(i * 7919 % 10007) / 10007);
-        w->place[2 * i + 1] = 10 + 40 * ((double)i / (double)count);
+        w->now[2 * i] = 5 + 10 * ((double)(i * 7919 % 10007) / 10007);
+        w->now[2 * i + 1] = 10 + 40 * ((double)i / (double)count);
         w->hint[i] = MW_NONE; /* nothing is known yet */
     }
+    memcpy(w->before, w->now, 2 * count * sizeof *w->now);
     return 1;
 }
 
 static void swarm_release(swarm *w)
 {
-    free(w->place);
+    free(w->before);
+    free(w->now);
     free(w->middle);
     free(w->current);
     free(w->at);
@@ -123,43 +128,50 @@ static double tide_at(double hours)
     return (int)(hours / 6) % 2 ? -swing : swing;
 }
 
-/* The current at all places, by linear interpolation: NaN where there is no water. */
-static mw_status swarm_look(swarm *w, const strait *s, const double *place, mw_error *error)
+/* The current at points, by linear interpolation: NaN where there is no water. */
+static mw_status swarm_look(swarm *w, const strait *s, const double *points, mw_error *error)
 {
     mw_query_options options = {.hints = w->hint};
     mw_value_table table = {.values = s->current, .type = MW_FLOAT64, .count = 2};
     mw_status status =
-        mw_locate_batch(s->locator, place, w->count, 2, &options, w->at, NULL, error);
+        mw_locate_batch(s->locator, points, w->count, 2, &options, w->at, NULL, error);
     return status ? status
                   : mw_interpolate_table(s->mesh, &table, w->at, w->count, NULL, w->current, error);
 }
 
-/* Particle i is at `place`, out of the water. It stays on the shore, or has left the strait. */
-static mw_status swarm_take_out(swarm *w, const strait *s, size_t i, const double place[2],
-                                mw_error *error)
+/* Particle i has left the water on its way. It stays where the way crosses the first border. */
+static mw_status swarm_take_out(swarm *w, const strait *s, size_t i, const double from[2],
+                                const double to[2], mw_error *error)
 {
-    mw_nearest_border_point shore;
+    mw_cursor cursor;
+    mw_segment way;
+    mw_segment_piece piece;
+    double in_water = 0;
+    mw_status status = mw_cursor_init(s->locator, NULL, &cursor, error);
+    if (!status) status = mw_segment_begin(s->locator, &cursor, from, to, &way, error);
+    if (status) return status;
+    while (mw_segment_next(&way, &piece) && !piece.gap) in_water = piece.to;
     w->state[i] = w->at[i].where == MW_IN_HOLE ? STRANDED : GONE;
-    mw_status status = mw_nearest_border(s->locator, place[0], place[1], &shore, error);
-    for (size_t k = 0; k < 2 && !status; k++)
-        w->place[2 * i + k] = w->middle[2 * i + k] = shore.point[k];
-    return status;
+    for (size_t k = 0; k < 2; k++)
+        w->now[2 * i + k] = w->middle[2 * i + k] = from[k] + in_water * (to[k] - from[k]);
+    return MW_OK;
 }
 
-/* Each particle that is afloat moves from where it is as the current at `seen` says. */
-static mw_status swarm_move(swarm *w, const strait *s, const double *seen, double hours,
-                            double tide, double *to, mw_error *error)
+/* Each particle that is afloat moves from where it is as the current at `seen` says, where it has
+ * come from `from`. */
+static mw_status swarm_move(swarm *w, const strait *s, const double *from, const double *seen,
+                            double hours, double tide, double *to, mw_error *error)
 {
     mw_status status = swarm_look(w, s, seen, error);
     for (size_t i = 0; i < w->count && !status; i++) {
         if (w->state[i] != AFLOAT) continue;
         if (w->at[i].triangle == MW_NONE) {
-            status = swarm_take_out(w, s, i, seen + 2 * i, error);
+            status = swarm_take_out(w, s, i, from + 2 * i, seen + 2 * i, error);
             continue;
         }
         double east = w->current[2 * i] + tide, north = w->current[2 * i + 1];
-        to[2 * i] = w->place[2 * i] + hours * east;
-        to[2 * i + 1] = w->place[2 * i + 1] + hours * north;
+        to[2 * i] = w->now[2 * i] + hours * east;
+        to[2 * i + 1] = w->now[2 * i + 1] + hours * north;
     }
     return status;
 }
@@ -170,7 +182,7 @@ static void swarm_report(const swarm *w, double hours)
     double east = 0;
     for (size_t i = 0; i < w->count; i++) {
         count[w->state[i]]++;
-        east += w->state[i] == AFLOAT ? w->place[2 * i] : 0;
+        east += w->state[i] == AFLOAT ? w->now[2 * i] : 0;
     }
     printf("%4.0f h: %zu afloat, at %.1f km on the average; %zu stranded, %zu gone\n", hours,
            count[AFLOAT], count[AFLOAT] ? east / (double)count[AFLOAT] : 0, count[STRANDED],
@@ -185,9 +197,11 @@ static mw_status drift(swarm *w, const strait *s, mw_error *error)
     for (int step = 0; step < STEPS && !status; step++) {
         double now = step * HOURS;
         if (step % (STEPS / 4) == 0) swarm_report(w, now);
-        status = swarm_move(w, s, w->place, HOURS / 2, tide_at(now), w->middle, error);
-        if (!status)
-            status = swarm_move(w, s, w->middle, HOURS, tide_at(now + HOURS / 2), w->place, error);
+        status = swarm_move(w, s, w->before, w->now, HOURS / 2, tide_at(now), w->middle, error);
+        if (status) break;
+        memcpy(w->before, w->now, 2 * w->count * sizeof *w->now);
+        status =
+            swarm_move(w, s, w->before, w->middle, HOURS, tide_at(now + HOURS / 2), w->now, error);
     }
     if (!status) swarm_report(w, STEPS * HOURS);
     return status;
