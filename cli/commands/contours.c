@@ -113,7 +113,10 @@ static int levels_make(contour_levels *l, const contours_settings *s, const doub
     int end = levels_number("interval", s->interval, &interval, &decimals);
     if (end == 0 && s->base) end = levels_number("base", s->base, &base, &of_base);
     if (end) return end;
-    if (!(interval > 0)) return levels_fail("interval", s->interval);
+    if (!(interval > 0)) {
+        complain("option '--interval' wants a positive number, not '%.60s'", s->interval);
+        return END_USAGE;
+    }
     if (of_base > decimals || of_base < 0) decimals = decimals < 0 ? -1 : of_base;
     for (size_t i = 0; i < count; i++) {
         low = values[i] < low ? values[i] : low;

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #define MOST_PIXELS 2147483647.0 /* in a row or a column, for GDAL */
+#define MOST_OF_ALL 1e12         /* in a raster: more is a slip, and fills the disk */
 
 static bool extent_parse(const char *text, double box[4])
 {
@@ -77,7 +78,8 @@ int raster_grid_make(raster_grid *g, const raster_grid_wish *wish, const double 
     /* An extent given need be no multiple: then the last pixels reach beyond it. */
     double columns = ceil((box[2] - box[0]) / size - 1e-9),
            rows = ceil((box[3] - box[1]) / size - 1e-9);
-    if (!(columns >= 1 && columns <= MOST_PIXELS && rows >= 1 && rows <= MOST_PIXELS))
+    if (!(columns >= 1 && columns <= MOST_PIXELS && rows >= 1 && rows <= MOST_PIXELS &&
+          columns * rows <= MOST_OF_ALL))
         return grid_fail_size(wish);
     g->west = box[0];
     g->north = box[3];

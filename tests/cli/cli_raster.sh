@@ -83,6 +83,7 @@ run raster square.off -o out.tif --extent 0,0,1 ; refused 2 "'--extent' wants XM
 run raster square.off -o out.tif --extent 0,0,0,1; refused 2 "'--extent' wants"
 run raster square.off -o out.tif --resolution 1e-12
 refused 4 'a raster with pixels of 1e-12 has too many'
+run raster square.off -o out.tif --resolution 1e-7; refused 4 'a raster with pixels of 1e-07? has too many'
 run raster utm.ply -o out.tif --resolution 1e-11 \
     --extent 500000,4200000,500000.00000001,4200000.00000001
 refused 4 'too small for its coordinates'
