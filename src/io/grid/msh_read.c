@@ -117,7 +117,7 @@ static mw_status msh_read_format(msh_mesh *m, mw_error *error)
     if (!binary) return MW_OK;
     const unsigned char *bytes;
     msh_source(m)->binary = true;
-    status = mw__source_bytes(msh_source(m), 4, &bytes, error);
+    status = mw__value_bytes(&m->values, 4, &bytes, error);
     if (status) return status;
     m->values.binary = true;
     m->values.big = bytes[0] == 0;
@@ -410,7 +410,7 @@ static mw_status msh_skip_lines(msh_mesh *m, const char *end, mw_error *error)
 {
     char *line;
     mw_status status;
-    do status = mw__source_line(msh_source(m), &line, error);
+    do status = mw__value_line(&m->values, &line, error);
     while (!status && line && strncmp(mw__skip_blanks(line), end, strlen(end)) != 0);
     if (!status && !line)
         status = mw__source_fail(msh_source(m), error, "the file ends before %s", end);
@@ -429,7 +429,7 @@ static mw_status msh_skip_section(msh_mesh *m, const char *name, mw_error *error
     m->values.rest = NULL;
     if (!m->values.binary) return msh_skip_lines(m, end, error);
     while (!status && end[matched]) {
-        status = mw__source_bytes(msh_source(m), 1, &byte, error);
+        status = mw__value_bytes(&m->values, 1, &byte, error);
         if (!status) matched = *byte == (unsigned char)end[matched] ? matched + 1 : *byte == '$';
     }
     return status;

@@ -24,6 +24,19 @@ mw_status mw__value_word(mw_value_source *values, char **word, mw_error *error)
     return MW_OK;
 }
 
+mw_status mw__value_line(mw_value_source *values, char **line, mw_error *error)
+{
+    values->rest = NULL;
+    return mw__source_line(values->source, line, error);
+}
+
+mw_status mw__value_bytes(mw_value_source *values, size_t count, const unsigned char **bytes,
+                          mw_error *error)
+{
+    values->rest = NULL;
+    return mw__source_bytes(values->source, count, bytes, error);
+}
+
 char *mw__value_rest(mw_value_source *values)
 {
     char *rest = values->rest;
@@ -59,8 +72,7 @@ mw_status mw__value_double(mw_value_source *values, mw_number_type type, const c
 {
     if (values->binary) {
         const unsigned char *bytes;
-        values->rest = NULL;
-        mw_status status = mw__source_bytes(values->source, type.size, &bytes, error);
+        mw_status status = mw__value_bytes(values, type.size, &bytes, error);
         if (!status) *value = mw__value_of_bytes(bytes, type, values->big);
         return status;
     }
@@ -101,8 +113,7 @@ mw_status mw__value_integer(mw_value_source *values, mw_number_type type, const 
 {
     if (!values->binary) return mw__value_word_integer(values, what, value, error);
     const unsigned char *bytes;
-    values->rest = NULL;
-    mw_status status = mw__source_bytes(values->source, type.size, &bytes, error);
+    mw_status status = mw__value_bytes(values, type.size, &bytes, error);
     if (status) return status;
     uint64_t bits = mw__get_bytes(bytes, type.size, values->big);
     if (type.kind == MW_NUMBER_FLOAT || (type.kind == MW_NUMBER_UNSIGNED && bits > INT64_MAX))

@@ -25,6 +25,11 @@ typedef struct mw_number_type {
 mw_status mw__value_word(mw_value_source *values, char **word, mw_error *error);
 /* What is left of the line; the next call goes on behind it. */
 char *mw__value_rest(mw_value_source *values);
+/* The next line, and the next bytes, whatever is left of the present line. A word or a rest taken
+ * before is no longer good: the source may have moved what it holds. */
+mw_status mw__value_line(mw_value_source *values, char **line, mw_error *error);
+mw_status mw__value_bytes(mw_value_source *values, size_t count, const unsigned char **bytes,
+                          mw_error *error);
 
 /* The next number. `what` names it for messages. Integers beyond 64 bits, and numbers with a
  * fraction where an integer is wanted, are errors. */

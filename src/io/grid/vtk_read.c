@@ -218,11 +218,11 @@ static mw_status vtk_read_scalars(vtk_mesh *m, mw_error *error)
         if (status) return status;
         if (size == 12 && memcmp(next, "LOOKUP_TABLE", 12) == 0) {
             char *line;
-            status = mw__source_line(vtk_source(m), &line, error);
+            status = mw__value_line(&m->values, &line, error);
         }
     } else if (!status) {
         char *line;
-        do status = mw__source_line(vtk_source(m), &line, error);
+        do status = mw__value_line(&m->values, &line, error);
         while (!status && line && !*mw__skip_blanks(line));
         if (!status && line && strncmp(mw__skip_blanks(line), "LOOKUP_TABLE", 12) != 0)
             mw__source_unread_line(vtk_source(m));
@@ -277,7 +277,7 @@ static mw_status vtk_skip_metadata(vtk_mesh *m, mw_error *error)
 {
     char *line;
     mw_status status;
-    do status = mw__source_line(vtk_source(m), &line, error);
+    do status = mw__value_line(&m->values, &line, error);
     while (!status && line && *mw__skip_blanks(line));
     m->values.rest = NULL;
     return status;
@@ -402,12 +402,12 @@ static mw_status vtk_read_header(vtk_mesh *m, mw_error *error)
 {
     char *line, *word;
     static const char mark[] = "# vtk DataFile Version ";
-    mw_status status = mw__source_line(vtk_source(m), &line, error);
+    mw_status status = mw__value_line(&m->values, &line, error);
     if (status) return status;
     if (!line || strncasecmp(line, mark, sizeof mark - 1) != 0)
         return mw__source_fail(vtk_source(m), error, "expected '%s'", mark);
     m->old = line[sizeof mark - 1] < '5';
-    status = mw__source_line(vtk_source(m), &line, error);
+    status = mw__value_line(&m->values, &line, error);
     if (!status) status = mw__value_word(&m->values, &word, error);
     if (status) return status;
     if (!word || (strcasecmp(word, "ASCII") != 0 && strcasecmp(word, "BINARY") != 0))
