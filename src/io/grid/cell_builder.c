@@ -82,7 +82,7 @@ static mw_status cells_build_cell(const mw_cell_builder *cells, size_t i, mw_mes
 {
     int64_t type = cells->types.values[i];
     int64_t begin = i > 0 ? cells->ends.values[i - 1] : 0, end = cells->ends.values[i];
-    const int64_t *corner = cells->corners.values + begin;
+    const int64_t *corner = begin < end ? cells->corners.values + begin : NULL;
     size_t count = (size_t)(end - begin), wanted = cells_corners(type);
     if (end < begin)
         return mw__source_fail(builder->source, error, "cell %zu ends before it begins", i);
