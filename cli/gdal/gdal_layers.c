@@ -58,19 +58,9 @@ static int layers_report_set(const gdal_functions *gdal, GDALDatasetH set, const
 
 int gdal_layers_report(const char *path, const char *wanted, report *r)
 {
+    GDALDatasetH set = gdal_library_open(path, GDAL_OF_VECTOR, "this is not a vector file");
+    if (!set) return END_INPUT;
     const gdal_functions *gdal = gdal_library_load();
-    if (!gdal) {
-        complain("%s: GDAL, which would read it, cannot be loaded (" MW_GDAL ")", path);
-        return END_INPUT;
-    }
-    gdal->CPLErrorReset();
-    GDALDatasetH set = gdal->GDALOpenEx(
-        path, GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, NULL, NULL, NULL);
-    if (!set) {
-        const char *message = gdal->CPLGetLastErrorMsg();
-        complain("%s: GDAL says: %.1000s", path, *message ? message : "this is not a vector file");
-        return END_INPUT;
-    }
     int end = layers_report_set(gdal, set, path, wanted, r);
     gdal->GDALClose(set);
     return end;

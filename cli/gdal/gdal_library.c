@@ -1,4 +1,5 @@
 #include "cli/gdal/gdal_library.h"
+#include "cli/frame/message.h"
 
 #ifdef MW_GDAL
 
@@ -26,6 +27,21 @@ const gdal_functions *gdal_library_load(void)
     gdal.GDALAllRegister();
     loaded = true;
     return &gdal;
+}
+
+GDALDatasetH gdal_library_open(const char *path, unsigned kind, const char *otherwise)
+{
+    const gdal_functions *gdal = gdal_library_load();
+    if (!gdal) {
+        complain("%s: GDAL, which would read it, cannot be loaded (" MW_GDAL ")", path);
+        return NULL;
+    }
+    gdal->CPLErrorReset();
+    GDALDatasetH set =
+        gdal->GDALOpenEx(path, kind | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, NULL, NULL, NULL);
+    const char *message = gdal->CPLGetLastErrorMsg();
+    if (!set) complain("%s: GDAL says: %.1000s", path, *message ? message : otherwise);
+    return set;
 }
 
 bool gdal_library_built(void)

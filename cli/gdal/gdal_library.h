@@ -137,6 +137,10 @@ typedef struct gdal_functions {
 /* Load GDAL, if it is not loaded yet; errors are then kept quiet. NULL if it cannot be loaded. */
 const gdal_functions *gdal_library_load(void);
 
+/* Open a file to read, as GDAL_OF_VECTOR or GDAL_OF_RASTER. NULL after a complaint: what GDAL says,
+ * or else `otherwise`. */
+GDALDatasetH gdal_library_open(const char *path, unsigned kind, const char *otherwise);
+
 #endif
 
 #endif

@@ -239,20 +239,10 @@ static int raster_take_grid(const gdal_functions *gdal, GDALDatasetH set, const 
 
 int gdal_raster_describe(const char *path, gdal_raster_form *form, char **crs)
 {
-    const gdal_functions *gdal = gdal_library_load();
     *crs = NULL;
-    if (!gdal) {
-        complain("%s: GDAL, which would read it, cannot be loaded (" MW_GDAL ")", path);
-        return END_INPUT;
-    }
-    gdal->CPLErrorReset();
-    GDALDatasetH set = gdal->GDALOpenEx(
-        path, GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, NULL, NULL, NULL);
-    if (!set) {
-        const char *message = gdal->CPLGetLastErrorMsg();
-        complain("%s: GDAL says: %.1000s", path, *message ? message : "this is no raster");
-        return END_INPUT;
-    }
+    GDALDatasetH set = gdal_library_open(path, GDAL_OF_RASTER, "this is not a raster");
+    if (!set) return END_INPUT;
+    const gdal_functions *gdal = gdal_library_load();
     int end = raster_take_grid(gdal, set, path, form);
     OGRSpatialReferenceH system = gdal->GDALGetSpatialRef(set);
     if (end == 0 && system) *crs = crs_export(gdal, system);
@@ -280,11 +270,10 @@ static void band_settle(const gdal_functions *gdal, GDALRasterBandH band, double
 
 int gdal_raster_read(const char *path, const gdal_raster_form *form, uint32_t band, double *values)
 {
+    GDALDatasetH set = gdal_library_open(path, GDAL_OF_RASTER, "this is not a raster");
+    if (!set) return END_INPUT;
     const gdal_functions *gdal = gdal_library_load();
-    gdal->CPLErrorReset();
-    GDALDatasetH set = gdal->GDALOpenEx(
-        path, GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, NULL, NULL, NULL);
-    GDALRasterBandH source = set ? gdal->GDALGetRasterBand(set, (int)band + 1) : NULL;
+    GDALRasterBandH source = gdal->GDALGetRasterBand(set, (int)band + 1);
     CPLErr failure = CE_Failure;
     if (source)
         failure =
@@ -294,7 +283,7 @@ int gdal_raster_read(const char *path, const gdal_raster_form *form, uint32_t ba
         complain("%s: GDAL says: %.1000s", path, gdal->CPLGetLastErrorMsg());
     else
         band_settle(gdal, source, values, (size_t)form->columns * form->rows);
-    if (set) gdal->GDALClose(set);
+    gdal->GDALClose(set);
     return failure == CE_None ? 0 : END_INPUT;
 }
 

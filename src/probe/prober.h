@@ -1,7 +1,7 @@
 /* prober.h - the prober, and what the files of this room share. Private.
  *
  * probe_touch.c decides what a line touches. plane_walk.c and probe_race.c walk over the surface
- * [thesis App. G]. probe_certain.c searches the BVH. probe.c is the query. */
+ * [thesis App. G]. probe_certain.c searches the BVH. probe_query.c is the query. */
 #ifndef MW_SRC_PROBE_PROBER_H
 #define MW_SRC_PROBE_PROBER_H
 

@@ -1,4 +1,4 @@
-/* star_names.c - the names of walks and starts. */
+/* star_name_lists.c - the names of walks and starts. */
 #include <meshwalk/star.h>
 #include <string.h>
 

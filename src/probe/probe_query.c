@@ -1,5 +1,5 @@
-/* probe.c - one probe [thesis App. G]. Published mode: the triangle that walks find. Certain mode:
- * a search of the BVH; a short walk from the triangle touched last gives the first bound. */
+/* probe_query.c - one probe [thesis App. G]. Published mode: the triangle that walks find. Certain
+ * mode: a search of the BVH; a short walk from the triangle touched last gives the first bound. */
 #include "base/random.h"
 #include "base/options.h"
 #include "probe/plane_walk.h"
