@@ -5,8 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Component `k` of `count` values of `width` components each. */
 static mw_status cells_add_column(mw_cell_builder *cells, const char *name, const double *values,
-                                  size_t count, size_t width, mw_error *error)
+                                  size_t count, size_t width, size_t k, mw_error *error)
 {
     if (cells->value_count == MW_COLUMN_LIMIT)
         return mw__fail(error, MW_ERROR_LIMIT, "more than %d values per cell", MW_COLUMN_LIMIT);
@@ -21,7 +22,7 @@ static mw_status cells_add_column(mw_cell_builder *cells, const char *name, cons
     columns[n - 1] = mw__alloc(count, sizeof **columns);
     cells->value_count = n;
     if (!names[n - 1] || !columns[n - 1]) return mw__fail_memory(error);
-    for (size_t i = 0; i < count; i++) columns[n - 1][i] = values[i * width];
+    for (size_t i = 0; i < count; i++) columns[n - 1][i] = values[i * width + k];
     return MW_OK;
 }
 
@@ -36,7 +37,7 @@ mw_status mw__cells_add_values(mw_cell_builder *cells, mw_mesh_builder *builder,
         snprintf(numbered, sizeof numbered, "%s_%zu", name, k);
         const char *column = width > 1 ? numbered : name;
         if (of_cells) {
-            status = cells_add_column(cells, column, values + k, count, width, error);
+            status = cells_add_column(cells, column, values, count, width, k, error);
             continue;
         }
         status = mw__build_late_field(builder, column, &field, error);
