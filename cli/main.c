@@ -81,7 +81,7 @@ static int command_run(const command *c, int count, char **arguments)
     if (end == 0 && common->help) {
         end = command_print_help(c, common->help_all);
     } else if (end == 0 && common->threads > MAX_THREADS) {
-        complain("option '--threads' wants at most %d", MAX_THREADS);
+        complain("option '--threads' must be at most %d", MAX_THREADS);
         end = END_USAGE;
     } else if (end == 0) {
         signals_begin();

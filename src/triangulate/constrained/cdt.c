@@ -25,7 +25,7 @@ static mw_status cdt_check_segments(const mw_constraints *given, mw_error *error
     for (size_t i = 0; i < 2 * given->segment_count; i++)
         if (given->segments[i] >= given->point_count)
             return mw__fail(error, MW_ERROR_ARGUMENT,
-                            "segment %zu: %" PRIu32 " is no point; there are %zu", i / 2,
+                            "segment %zu: %" PRIu32 " is not a point; there are %zu", i / 2,
                             given->segments[i], given->point_count);
     for (size_t i = 0; i < given->hole_seed_count; i++)
         if (!isfinite(given->hole_seeds[2 * i]) || !isfinite(given->hole_seeds[2 * i + 1]))
@@ -287,8 +287,8 @@ static mw_status cdt_make_all(mw_cdt *m, bool split, mw_delaunay_report *delauna
     }
     if (status == MW_OK && m->crossing.count)
         status = cdt_fail_crossing(
-            m, split ? ", and so close to others that rounding cannot part them" : "", report,
-            error);
+            m, split ? ", and so close to others that rounded points cannot keep them apart" : "",
+            report, error);
     return status;
 }
 

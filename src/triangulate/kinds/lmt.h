@@ -120,7 +120,7 @@ bool mw__lmt_face_steps(const mw_lmt_face *polygon, uint64_t *steps);
 /* Triangulate with chords of least total length, by dynamic programming [Gilbert 1979; Klincsek
  * 1980]. The chords must hold a triangulation. Writes three corners, counter-clockwise, for each of
  * corner_count - 2 triangles. Steps of the present stage. False when out of memory, or cancelled.
- * */
+ */
 bool mw__lmt_face_fill(const mw_lmt_face *polygon, mw_job *job, uint32_t *corners);
 
 #endif
