@@ -67,6 +67,7 @@ set_tests_properties(fast_math PROPERTIES PASS_REGULAR_EXPRESSION "do not compil
 if(MW_BUILD_CLI)
   add_subdirectory(${PROJECT_SOURCE_DIR}/web/test ${PROJECT_BINARY_DIR}/web/test)
   add_test(NAME install COMMAND ${PROJECT_SOURCE_DIR}/tools/check_install ${PROJECT_BINARY_DIR} ${CMAKE_C_COMPILER})
+  add_test(NAME strangers COMMAND ${PROJECT_SOURCE_DIR}/tools/check_strangers ${PROJECT_BINARY_DIR})
 endif()
 
 # The source of the terrain is rarely at hand: NumPy and Debian's python-matplotlib-data.
