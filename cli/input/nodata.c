@@ -45,7 +45,9 @@ static void nodata_remark(const char *path, const char *field, const nodata_rule
     char digits[32];
     mw_format_double(number, digits);
     complain("%s: remark: %s is %s at %zu %s; --%s %s", path, field, digits, found,
-             found == 1 ? "vertex" : "vertices", rule->option, what);
+             found == 1 ? (rule->place ? rule->place : "vertex")
+                        : (rule->places ? rule->places : "vertices"),
+             rule->option, what);
 }
 
 static void nodata_remark_suspects(const double *values, size_t count, const nodata_rule *rule,

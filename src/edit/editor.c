@@ -427,6 +427,7 @@ mw_status mw__editor_conclude(mw_editor *editor, mw_status status, const mw_chan
     if (status) {
         if (dynamic->under_way) mw__journal_rollback(dynamic);
         mw__editor_update_view(editor);
+        mw__upkeep_resume(&editor->upkeep);
         return status;
     }
     mw__editor_update_view(editor);
@@ -466,7 +467,7 @@ mw_status mw_edit_apply(mw_editor *editor, const mw_edit *edit, mw_change *chang
     if (!editor || !edit)
         return mw__fail(error, MW_ERROR_ARGUMENT, "the editor or the edit is NULL");
     if (edit->kind == MW_EDIT_INSERT && !editor->keeps_log &&
-        !mw__editor_needs_report(editor, change))
+        !mw__editor_needs_report(editor, change, 1))
         return editor_insert_unreported(editor, edit, error);
     const mw_edit copy = *edit; /* the caller may pass an entry of the log, which may move */
     mw_change own = {.vertex = MW_NONE};

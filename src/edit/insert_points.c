@@ -226,9 +226,9 @@ static bool points_begin_step(mw_editor *editor, const point_batch *b, const mw_
     enum { TILES_PER_POINT = 4 }; /* changed by an insertion */
     mw_dynamic_tiling *dynamic = &editor->dynamic;
     const mw_edit first = insertion_edit(b->point[point_batch_index(b, 0)]);
-    bool sure = b->n >= FEW && !editor->progress && !mw__editor_needs_report(editor, change) &&
-                points_are_finite(b) && mw__field_room(editor, b->n) &&
-                reserve_insertions(dynamic, b->n);
+    bool sure = b->n >= FEW && !editor->progress &&
+                !mw__editor_needs_report(editor, change, b->n) && points_are_finite(b) &&
+                mw__field_room(editor, b->n) && reserve_insertions(dynamic, b->n);
     if (!mw__log_room(editor, b->n) ||
         (!sure && !mw__journal_room(dynamic, TILES_PER_POINT * b->n)))
         return false;

@@ -74,7 +74,6 @@ refused 3 "flow.nc: has no field 'w' over time; --field may be of: zeta u"
 run sample flow.nc points.csv --time all --outside nearest
 refused 2 "'--outside' is not for values"
 run sample flow.nc points.csv --time-column t --wide; refused 2 '--wide is for --time'
-run sample flow.nc points.csv --recover; refused 2 "'--recover' is for values over time"
 run sample flow.nc points.csv --time-column hour -q; refused 2 'which of its 4 columns are x,y,hour'
 printf '%s\n' 'OFF' '3 1 0' '0 0 0' '1 0 0' '0 1 0' '3 0 1 2' >three.off
 run sample three.off points.csv --values flow.nc; refused 3 'flow.nc'
