@@ -15,7 +15,7 @@ _meshwalk_options() {
         sample) echo "--field --outside --missing --nodata --status --time --values --time-column --wide --recover $query $stream $common" ;;
         weights) echo "$query --strict --stats --json --layer --where $common" ;;
         apply) echo "--field --missing --strict --stats --json $common" ;;
-        contours) echo "--interval --levels --base --field --nodata --crs $common" ;;
+        contours) echo "--interval --levels --base --polygons --field --nodata --crs $common" ;;
         volume) echo "--base --against --field --against-field --nodata --crs --against-crs --json --strict $common" ;;
         profile) echo "--field --nodata --attribute --layer --columns --crs --lines-crs --strict $common" ;;
         raster)
