@@ -11,6 +11,7 @@
 #include "base/options.h"
 #include "triangulate/constrained/cdt_keep.h"
 #include "triangulate/constrained/cdt_output.h"
+#include "triangulate/constrained/cdt_spans.h"
 #include "triangulate/constrained/cdt_split.h"
 #include "triangulate/delaunay/delaunay.h"
 #include "triangulate/constrained/brio.h"
@@ -60,22 +61,57 @@ void mw__cdt_release(mw_cdt *m)
     free(m->subsegments.item);
     free(m->crossing.item);
     free(m->owner);
+    mw__subsegment_runs_release(&m->runs);
     free(m->kept);
 }
 
 /* --- forcing the stretches in --- */
 
+/* A part came to a subsegment that is there already: it jumps to where it leaves its run, or to its
+ * own other end. False when out of memory. */
+static bool part_jump(mw_cdt *m, const mw_segment_part *part, uint32_t subsegment, uint32_t at,
+                      uint32_t *leave)
+{
+    const bool forwards = at == part->from;
+    const uint32_t to = forwards ? part->to : part->from;
+    *leave = mw__subsegment_runs_leave(&m->runs, m->point, subsegment, at, to);
+    return mw__subsegment_runs_note(&m->runs,
+                                    &(mw_subsegment_span){subsegment, forwards ? at : *leave,
+                                                          forwards ? *leave : at, part->segment});
+}
+
+/* Note a subsegment of a part, made at one of its ends or there already. False when out of
+ * memory. */
+static bool part_note(mw_cdt *m, const mw_segment_part *before, mw_segment_part *part,
+                      const mw_subsegment *subsegment)
+{
+    if (subsegment->number == m->subsegments.count)
+        return mw__subsegment_note(m, subsegment, part->segment) &&
+               mw__subsegment_runs_add(&m->runs, m->point, subsegment->from, subsegment->to);
+    const bool forwards = part->from != before->from;
+    return part_jump(m, before, subsegment->number, forwards ? before->from : before->to,
+                     forwards ? &part->from : &part->to);
+}
+
 /* Force in a part, or as much of it as lies before what it crosses. Returns false when out of
  * memory. */
 static bool part_force(mw_cdt *m, mw_segment_part s)
 {
+    uint32_t last[2] = {MW_NONE, MW_NONE}; /* subsegments before its beginning and behind its end */
     while (s.from != s.to) {
+        const mw_segment_part before = s;
         mw_subsegment subsegment;
         mw_subsegment_result result = mw__insert_subsegment(&m->net, &s.from, &s.to, &subsegment);
         if (result == MW_SUBSEGMENT_CROSSES) return mw__segment_parts_add(&m->crossing, s);
-        if (result != MW_SUBSEGMENT_DONE || !mw__subsegment_note(m, &subsegment, s.segment))
-            return false;
+        if (result != MW_SUBSEGMENT_DONE) return false;
+        const int end = s.from == before.from;
+        if (!part_note(m, &before, &s, &subsegment)) return false;
+        if (last[end] != MW_NONE)
+            mw__subsegment_runs_join(&m->runs, m->point, last[end], subsegment.number);
+        last[end] = subsegment.number;
     }
+    if (last[0] != MW_NONE && last[1] != MW_NONE)
+        mw__subsegment_runs_join(&m->runs, m->point, last[0], last[1]);
     return true;
 }
 
@@ -127,6 +163,7 @@ static mw_status cdt_make(mw_cdt *m, bool all, mw_delaunay_report *report, mw_er
         done = part_force(m, m->parts.item[order[i]]) && mw__job_step(m->job, i, m->parts.count);
     m->crossed += m->net.crossed + m->net.wasted;
     free(order);
+    done = done && mw__cdt_spans_settle(m);
     return done ? MW_OK : mw__fail_memory(error);
 }
 
@@ -139,6 +176,7 @@ static void cdt_unmake(mw_cdt *m)
     m->twin = NULL;
     m->tri = NULL;
     m->subsegments.count = m->crossing.count = m->owner_count = 0;
+    m->runs.count = m->runs.span_count = 0;
 }
 
 /* --- segments that cross --- */
@@ -334,7 +372,8 @@ mw_status mw__cdt_make_partly(mw_cdt *m, mw_error *error)
 {
     mw_status status = cdt_check_arguments(m->given, MW_KEEP_HULL, error);
     if (status == MW_OK) status = cdt_take(m, error);
-    return status ? status : cdt_make(m, true, NULL, error);
+    if (status == MW_OK) status = cdt_make(m, true, NULL, error);
+    return status || mw__cdt_spans_list(m) ? status : mw__fail_memory(error);
 }
 
 mw_status mw_constrained_delaunay(const mw_constraints *constraints,

@@ -13,6 +13,7 @@
  * Marimont 1998], a link that crosses another and passes close by its end is led through that end,
  * and no point is made. Why this ends: see docs/proofs/delaunay.md. */
 #include "triangulate/constrained/cdt_split.h"
+#include "triangulate/constrained/cdt_spans.h"
 
 #include <float.h>
 #include <stdlib.h>
@@ -295,7 +296,8 @@ mw_status mw__cdt_split_crossings(mw_cdt *m, int round, mw_error *error)
     splitter s = {.m = m, .tolerance = round_tolerance(round)};
     mw_subsegment_owners owners = {0};
     mw_segment_parts parts = {0};
-    bool done = splitter_find_cuts(&s) && mw__subsegment_owners_create(&owners, m);
+    bool done =
+        splitter_find_cuts(&s) && mw__cdt_spans_list(m) && mw__subsegment_owners_create(&owners, m);
     if (done) {
         qsort(s.cut, s.cut_count, sizeof *s.cut, cut_compare);
         done = splitter_cut_all(&s, &owners, &parts) && splitter_take_points(&s);
