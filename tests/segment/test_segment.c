@@ -153,32 +153,6 @@ static void test_grids(void **state)
         }
 }
 
-/* Segments that begin beside the end of the one before: with one of its coordinates only. */
-static void test_nearly_a_polyline(void **state)
-{
-    (void)state;
-    enum { SEGMENTS = 300 };
-    uint64_t random = environment_print_seed("test_segment polyline", 7);
-    double ends[4 * SEGMENTS], last[2] = {1, 2};
-    for (int i = 0; i < SEGMENTS; i++) {
-        double x = (double)mw__random_below(&random, 33) / 8,
-               y = (double)mw__random_below(&random, 33) / 8;
-        bool same_x = i % 2;
-        ends[4 * i] = same_x ? last[0] : x;
-        ends[4 * i + 1] = same_x ? y : last[1];
-        ends[4 * i + 2] = same_x ? last[1] : last[0];
-        ends[4 * i + 3] = x;
-        memcpy(last, ends + 4 * i + 2, sizeof last);
-    }
-    arrays m = arrays_grid(4, 0.5, &random);
-    mw_mesh *mesh = arrays_mesh(&m, (mw_mesh_options){.threads = 1});
-    mw_locator *locator = mesh_locator(mesh, (mw_locator_options){.threads = 1});
-    expect_batch(&m, locator, ends, SEGMENTS, 4, 1);
-    mw_locator_destroy(locator);
-    mw_mesh_destroy(mesh);
-    arrays_free(&m);
-}
-
 static void test_scales(void **state)
 {
     (void)state;
@@ -362,15 +336,10 @@ static void test_editor(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_nearly_a_polyline),
-        cmocka_unit_test(test_grids),
-        cmocka_unit_test(test_scales),
-        cmocka_unit_test(test_fan),
-        cmocka_unit_test(test_cut_triangles),
-        cmocka_unit_test(test_widest),
-        cmocka_unit_test(test_memory),
-        cmocka_unit_test(test_refusals),
-        cmocka_unit_test(test_editor),
+        cmocka_unit_test(test_grids),    cmocka_unit_test(test_scales),
+        cmocka_unit_test(test_fan),      cmocka_unit_test(test_cut_triangles),
+        cmocka_unit_test(test_widest),   cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_refusals), cmocka_unit_test(test_editor),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
