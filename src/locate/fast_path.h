@@ -3,9 +3,9 @@
  * Nearly every query walks over a few tiles and ends inside a triangle of the user's, and rounded
  * areas are sure of each turn. Such a query takes the remembering walk in one of its fast forms:
  * one query by walk/remembering_fast.h (query.c), a batch by walk/remembering_vector.h
- * (interleaved.c). Their last areas are the weights, so that the answer is written at once. All
- * else - q on an edge or nearly so, thin tiles, ways that are long - goes on by the walk of the
- * cursor, from the tile where it is met, and by the exact conclusion. */
+ * (interleaved.c). Their last areas are the weights, so that the answer is written at once. Where q
+ * is on an edge or nearly so, or the tile is thin, the exact conclusion is tried in the tile where
+ * the walk ended. All else goes on from there by the walk of the cursor. */
 #ifndef MW_SRC_LOCATE_FAST_PATH_H
 #define MW_SRC_LOCATE_FAST_PATH_H
 
