@@ -1022,7 +1022,7 @@ static void test_wrong_arguments(void **state)
     expect(s, &given, none, MW_ERROR_ARGUMENT, "arrays are missing");
     given = view(s);
     given.point_count = 3;
-    expect(s, &given, none, MW_ERROR_ARGUMENT, "segment 2: 3 is no point; there are 3");
+    expect(s, &given, none, MW_ERROR_ARGUMENT, "segment 2: 3 is not a point; there are 3");
     given.segment_count = 2;
     given.point_count = 3;
     assert_int_equal(mw_constrained_delaunay(&given, &none, NULL, NULL, NULL, &mesh, &error),

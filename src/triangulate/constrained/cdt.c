@@ -1,10 +1,10 @@
 /* cdt.c - constrained Delaunay triangulation of points, lines and polygons [Lee, Lin 1986; Chew
  * 1989].
  *
- * A Delaunay triangulation of the points, the segments forced in one by one (segment_insertion.c),
- * the triangles that are to be kept (cdt_keep.c) and become a mesh (cdt_output.c). Where segments
- * cross and are to be split, points are put there (cdt_split.c) and all is made anew, until nothing
- * crosses. */
+ * First the Delaunay triangulation of the points is made. Then the segments are forced in one by
+ * one (segment_insertion.c), it is decided which triangles are kept (cdt_keep.c), and these become
+ * a mesh (cdt_output.c). If segments cross and are to be split, points are put where they cross
+ * (cdt_split.c), and everything is made anew, until nothing crosses. */
 #include "triangulate/constrained/cdt.h"
 
 #include "base/hilbert.h"
@@ -26,7 +26,7 @@ static mw_status cdt_check_segments(const mw_constraints *given, mw_error *error
     for (size_t i = 0; i < 2 * given->segment_count; i++)
         if (given->segments[i] >= given->point_count)
             return mw__fail(error, MW_ERROR_ARGUMENT,
-                            "segment %zu: %" PRIu32 " is no point; there are %zu", i / 2,
+                            "segment %zu: %" PRIu32 " is not a point; there are %zu", i / 2,
                             given->segments[i], given->point_count);
     for (size_t i = 0; i < given->hole_seed_count; i++)
         if (!isfinite(given->hole_seeds[2 * i]) || !isfinite(given->hole_seeds[2 * i + 1]))
@@ -115,10 +115,10 @@ static bool part_force(mw_cdt *m, mw_segment_part s)
     return true;
 }
 
-/* Parts in a biased randomized order (brio.h), so that long ones are expected to be among the
- * first, and to shield what lies behind them from those that follow; in each round along the
- * Hilbert curve of the triangles, so that what is near is near in memory. NULL when out of
- * memory. */
+/* The parts of segments in a biased randomized order (brio.h): some long ones are expected to come
+ * early, and later parts need not be searched for behind them. In each round the order follows the
+ * Hilbert curve of the triangles, so that neighbours are near each other in memory. NULL when out
+ * of memory. */
 static uint32_t *cdt_order_parts(const mw_cdt *m)
 {
     uint32_t n = (uint32_t)m->parts.count, *order = mw__brio_order(n);
@@ -274,10 +274,10 @@ static bool cdt_take_back(mw_cdt *m, uint32_t *number, uint32_t count, mw_cdt *e
     return true;
 }
 
-/* Whether parts cross has nothing to do with the other points. Where these are many, split the
- * parts without them, until nothing crosses. cdt_make_all, which calls this, does that, and may
- * come here again; but not deep, as each time at most half the points remain. Hardly ever twice:
- * nearly all points are ends then. */
+/* Whether parts cross does not depend on points that are no ends of parts. If there are many such
+ * points, the parts are split without them, until nothing crosses. This calls cdt_make_all, which
+ * called it; the recursion is not deep, as each time at most half the points remain. It hardly ever
+ * happens twice: afterwards nearly all points are ends of parts. */
 static mw_status cdt_split_apart(mw_cdt *m, mw_constrain_report *report, mw_error *error)
 {
     uint32_t *number = mw__alloc(m->point_count, sizeof *number);
@@ -298,9 +298,9 @@ static mw_status cdt_split_apart(mw_cdt *m, mw_constrain_report *report, mw_erro
     return status;
 }
 
-/* Each round puts points where parts cross. Most are then done; but points are rounded, so a part
- * may come to cross another by that, and of many that cross one another each round lets some in,
- * and parts the others. */
+/* Each round puts points where parts cross. Afterwards most parts cross nothing. But points are
+ * rounded, so a part may then cross another one; and of many parts that cross one another, each
+ * round can force in only some, and splits the others. */
 static mw_status cdt_make_all(mw_cdt *m, bool split, mw_delaunay_report *delaunay,
                               mw_constrain_report *report, mw_error *error)
 {
@@ -325,8 +325,8 @@ static mw_status cdt_make_all(mw_cdt *m, bool split, mw_delaunay_report *delauna
     }
     if (status == MW_OK && m->crossing.count)
         status = cdt_fail_crossing(
-            m, split ? ", and so close to others that rounding cannot part them" : "", report,
-            error);
+            m, split ? ", and so close to others that rounded points cannot keep them apart" : "",
+            report, error);
     return status;
 }
 
