@@ -174,8 +174,8 @@ static MW_INLINE void lane_next(lane_schedule *s, lane_group *g, uint32_t k, uin
 
 /* --- steps --- */
 
-/* Answer in the lane's tile, or go on by the walk of the cursor from there. Returns the tile where it
- * ended. */
+/* Answer in the lane's tile, or continue from there by the walk of the cursor. Returns the tile
+ * where it ended. */
 static __attribute__((noinline)) uint32_t lane_finish(const mw_interleaved *of, mw_point q,
                                                       uint32_t query, uint32_t t)
 {

@@ -55,9 +55,9 @@ static mw_location query_outside(const mw_locator *locator, uint32_t mark, mw_po
     return location;
 }
 
-/* q is at vertex v. Write its answer in a triangle that has this vertex: the answer that areas would
- * give there, without reading the corners. Returns false if the triangle may have another vertex at
- * this place. */
+/* q is at vertex v. Write its answer in a triangle that has this vertex: the answer that areas
+ * would give there, without reading the corners. Returns false if the triangle may have another
+ * vertex at this place. */
 static bool query_answer_at_vertex(const mw_locator *locator, uint32_t v, uint32_t triangle,
                                    mw_location *location)
 {
