@@ -16,6 +16,7 @@ _meshwalk_options() {
         weights) echo "$query --strict --stats --json --layer --where $common" ;;
         apply) echo "--field --missing --strict --stats --json $common" ;;
         contours) echo "--interval --levels --base --polygons --field --nodata --crs $common" ;;
+        volume) echo "--base --against --field --against-field --nodata --crs --against-crs --json --strict $common" ;;
         profile) echo "--field --nodata --attribute --layer --columns --crs --lines-crs --strict $common" ;;
         raster)
             echo "--resolution --like --extent --field --derive --nodata --outside --max-edge --vertex-nodata --type"
@@ -139,7 +140,7 @@ _meshwalk() {
         before=${COMP_WORDS[COMP_CWORD - 2]}
     fi
     if ((COMP_CWORD == 1)); then
-        names='info check triangulate locate sample weights apply profile contours raster edit star probe walk convert bench --help --version'
+        names='info check triangulate locate sample weights apply profile contours raster volume edit star probe walk convert bench --help --version'
         mapfile -t COMPREPLY < <(compgen -W "$names" -- "$word")
         return
     fi

@@ -11,6 +11,7 @@
 #include <meshwalk/locate.h>
 #include <meshwalk/segment.h>
 #include <meshwalk/sight.h>
+#include <meshwalk/volume.h>
 #include <meshwalk/operator.h>
 #include <meshwalk/polygons.h>
 #include <meshwalk/borrow.h>

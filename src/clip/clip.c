@@ -204,9 +204,11 @@ static uint32_t clip_follow(clip_work *w, uint32_t i)
     }
     if (w->clip->count >= w->m + 3) return 3;
     clip_add_crossing(w, i, j);
+    w->clip->over |= 1u << j;
     while ((entry = clip_entry(w, j)) == 3 && w->clip->count < w->m + 3) {
         j = clip_next(j, w->m);
         clip_add_q(w, j);
+        w->clip->over |= 1u << j;
     }
     if (w->clip->count >= w->m + 3) return 3;
     clip_add_crossing(w, entry, j);
@@ -224,6 +226,7 @@ static void clip_collect(clip_work *w)
         for (i = 0; i < 3; i++) clip_add_p(w, i);
     } else if (clip_in_p(w->sides, 0)) {
         for (uint32_t j = 0; j < w->m; j++) clip_add_q(w, j);
+        w->clip->over = (1u << w->m) - 1;
     }
 }
 
@@ -231,7 +234,7 @@ uint32_t mw__clip(const mw_point p[3], const mw_point *q, uint32_t m, mw_clip *c
 {
     clip_sides sides;
     bool apart;
-    clip->count = 0;
+    clip->count = clip->over = 0;
     if (!clip_sides_find(&sides, p, q, m, &apart)) return 0;
     clip->double_p = clip_area(p[0], p[1], p[2]);
     clip->double_q = clip_area(q[0], q[1], q[m - 1]);

@@ -37,6 +37,7 @@ typedef struct mw_clip_corner {
 typedef struct mw_clip {
     uint32_t count; /* corners, counter-clockwise; 0: no area in common */
     mw_clip_corner corner[MW_CLIP_SIDES + 3];
+    uint32_t over;             /* bit j: a part of edge j of Q lies inside P, once that has moved */
     double double_p, double_q; /* twice the areas of P and of the triangle of those corners of Q */
 } mw_clip;
 

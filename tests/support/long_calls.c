@@ -6,6 +6,7 @@
 #include <meshwalk/polygons.h>
 #include <meshwalk/weights.h>
 #include <meshwalk/segment.h>
+#include <meshwalk/volume.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,6 +18,13 @@ static void sum_add(uint64_t *sum, uint64_t value)
 {
     *sum = (*sum ^ value) * UINT64_C(0x9e3779b97f4a7c15);
     *sum ^= *sum >> 29;
+}
+
+static void sum_add_number(uint64_t *sum, double value)
+{
+    uint64_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    sum_add(sum, bits);
 }
 
 static void sum_add_mesh(uint64_t *sum, const mw_mesh *mesh)
@@ -489,6 +497,28 @@ static mw_status run_segments(const call_inputs *in, const call_setting *how, ui
     return status;
 }
 
+/* Each vertex is as high as its x. */
+static mw_status run_volume_above(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                                  mw_error *error)
+{
+    mw_volume_info info;
+    mw_volume_options options = {.threads = how->threads, .progress = how->progress};
+    mw_status status = mw_volume_above(in->locator, in->points, 0.5, &options, &info, error);
+    if (!status) sum_add(sum, info.parts), sum_add_number(sum, info.cut);
+    return status;
+}
+
+static mw_status run_volume_between(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                                    mw_error *error)
+{
+    mw_volume_info info;
+    mw_volume_options options = {.threads = how->threads, .progress = how->progress};
+    mw_status status =
+        mw_volume_between(in->locator, in->points, in->locator, in->points, &options, &info, error);
+    if (!status) sum_add(sum, info.parts), sum_add_number(sum, info.cut);
+    return status;
+}
+
 static mw_status run_table(const call_inputs *in, const call_setting *how, uint64_t *sum,
                            mw_error *error)
 {
@@ -918,6 +948,8 @@ const long_call long_calls[] = {
     {"mw_index_create, chains", run_index_chains},
     {"mw_locate_batch", run_batch},
     {"mw_segment_batch", run_segments},
+    {"mw_volume_above", run_volume_above},
+    {"mw_volume_between", run_volume_between},
     {"mw_interpolate_table", run_table},
     {"mw_operator_create", run_operator},
     {"mw_operator_create_from_entries", run_operator_entries},
