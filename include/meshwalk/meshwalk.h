@@ -12,6 +12,7 @@
 #include <meshwalk/segment.h>
 #include <meshwalk/volume.h>
 #include <meshwalk/operator.h>
+#include <meshwalk/remap.h>
 #include <meshwalk/polygons.h>
 #include <meshwalk/borrow.h>
 #include <meshwalk/edit.h>
