@@ -32,6 +32,7 @@ _meshwalk_options() {
             ;;
         walk) echo "--from --to --walk --animate --max-distance --samples --iterations --as --centre --lonlat --weld $common" ;;
         convert) echo "--format --crs $common" ;;
+        view) echo "--points --columns --as --centre --lonlat --weld $common" ;;
         bench) echo "--queries --sizes --enclose --data --engines --tasks --rounds --walk --seeds --no-times --format --plot $common" ;;
     esac
 }
@@ -140,7 +141,7 @@ _meshwalk() {
         before=${COMP_WORDS[COMP_CWORD - 2]}
     fi
     if ((COMP_CWORD == 1)); then
-        names='info check triangulate locate sample weights apply profile contours raster volume edit star probe walk convert bench --help --version'
+        names='info check triangulate locate sample weights apply profile contours raster volume edit star probe walk convert view bench --help --version'
         mapfile -t COMPREPLY < <(compgen -W "$names" -- "$word")
         return
     fi

@@ -53,7 +53,7 @@ typedef struct contour_levels {
 
 static int levels_fail(const char *name, const char *given)
 {
-    complain("option '--%s' wants %s, not '%.60s'", name,
+    complain("option '--%s' must be %s, not '%.60s'", name,
              strcmp(name, "levels") == 0 ? "numbers separated by commas" : "a number", given);
     return END_USAGE;
 }
@@ -118,7 +118,7 @@ static int levels_make(contour_levels *l, const contours_settings *s, const doub
     if (end == 0 && s->base) end = levels_number("base", s->base, &base, &of_base);
     if (end) return end;
     if (!(interval > 0)) {
-        complain("option '--interval' wants a positive number, not '%.60s'", s->interval);
+        complain("option '--interval' must be a positive number, not '%.60s'", s->interval);
         return END_USAGE;
     }
     if (of_base > decimals || of_base < 0) decimals = decimals < 0 ? -1 : of_base;
@@ -275,8 +275,8 @@ static int contours_check(const contours_settings *s, const char *const *operand
     double value;
     int decimals, end = 0;
     if (!s->interval == !s->levels) {
-        complain(s->interval ? "--interval and --levels: only one of them"
-                             : "which levels? --interval D or --levels LIST tells");
+        complain(s->interval ? "give --interval or --levels, not both"
+                             : "which levels? Give --interval D or --levels LIST");
         return END_USAGE;
     }
     if (s->base && !s->interval) {

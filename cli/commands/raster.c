@@ -138,7 +138,7 @@ static int raster_choose_nodata(const raster_settings *s, raster_bands *b)
     if (!s->nodata) return 0;
     b->nodata = strtod(s->nodata, &end);
     if (*s->nodata && !*end && type_holds(b->type, b->nodata)) return 0;
-    complain("option '--nodata' wants a number that a pixel can have, not '%.60s'", s->nodata);
+    complain("option '--nodata' must be a number that a pixel can have, not '%.60s'", s->nodata);
     return END_USAGE;
 }
 
@@ -156,7 +156,8 @@ static int raster_check_settings(const raster_settings *s, const char *mesh, ras
 {
     const char *inputs[] = {mesh, s->like};
     if (s->like && (s->grid.extent || s->grid.resolution > 0))
-        return raster_refuse("--like tells the pixels: --resolution and --extent cannot");
+        return raster_refuse(
+            "--resolution and --extent cannot be used with --like, which sets the pixels");
     int end = raster_grid_check(&s->grid);
     if (end == 0) end = raster_choose_bands(s, &w->bands);
     if (end == 0) end = crs_check_option("crs", s->crs);
@@ -181,7 +182,7 @@ static int raster_take_like(const raster_settings *s, const char *path, raster_w
     if (!s->nodata && !isnan(like->nodata) && type_holds(w->bands.type, like->nodata))
         w->bands.nodata = like->nodata;
     if (w->mesh.crs && w->like_crs && !crs_same(w->mesh.crs, w->like_crs)) {
-        complain("%s is in %s, %s in %s: bring one to the other first", path,
+        complain("%s is in %s, %s in %s: transform one of them first", path,
                  crs_name(w->mesh.crs, names[0]), s->like, crs_name(w->like_crs, names[1]));
         return END_INPUT;
     }
@@ -217,8 +218,8 @@ static void raster_warn(const raster_settings *s, const char *path, const raster
         complain("%s: warning: no pixel has a value: none of their centres lies in the mesh",
                  s->common.output);
     if (b->mistakable > 0)
-        complain("%s: warning: %llu of its pixels have a value that is that of --nodata",
-                 s->common.output, (unsigned long long)b->mistakable);
+        complain("%s: warning: %llu of its pixels have the value of --nodata", s->common.output,
+                 (unsigned long long)b->mistakable);
 }
 
 static int raster_write(const raster_settings *s, const char *path, raster_work *w)

@@ -73,9 +73,15 @@ static const option walk_options[] = {
     {0},
 };
 
-static int walk_option_wants(const char *name, const char *what)
+static int walk_option_needs(const char *name, const char *what)
 {
-    complain("option '--%s' wants %s", name, what);
+    complain("option '--%s' needs %s", name, what);
+    return END_USAGE;
+}
+
+static int walk_option_must_be(const char *name, const char *what)
+{
+    complain("option '--%s' must be %s", name, what);
     return END_USAGE;
 }
 
@@ -88,9 +94,9 @@ static int walk_check_coordinates(const walk_settings *s, const char *name, cons
         return END_USAGE;
     }
     if (at->count == (flat ? 2 : 3)) return 0;
-    return walk_option_wants(name, s->mesh.lonlat ? "LON,LAT with --lonlat"
-                                   : flat         ? "X,Y with --as plane"
-                                                  : "X,Y,Z in space");
+    return walk_option_must_be(name, s->mesh.lonlat ? "LON,LAT with --lonlat"
+                                     : flat         ? "X,Y with --as plane"
+                                                    : "X,Y,Z in space");
 }
 
 static bool walk_writes_picture(const walk_settings *s)
@@ -102,9 +108,9 @@ static int walk_check_name(const walk_settings *s)
 {
     const char *name = walk_choice_name(s->walk);
     if (s->mesh.space == SPACE_SURFACE && s->walk != MW_WALK_AUTO)
-        return walk_option_wants("walk", "--as plane or --as star");
+        return walk_option_needs("walk", "--as plane or --as star");
     if (s->walk == MW_WALK_COUNT && (s->mesh.space != SPACE_PLANE || !walk_writes_picture(s))) {
-        complain("--walk all wants --as plane and a picture: -o FILE.svg");
+        complain("--walk all needs --as plane and a picture: -o FILE.svg");
         return END_USAGE;
     }
     if (s->mesh.space != SPACE_STAR || mw_star_walk_by_name(name) != MW_STAR_WALK_COUNT) return 0;
@@ -126,10 +132,10 @@ static int walk_check_animation(const walk_settings *s, const char *const *opera
 {
     const char *path = s->animate, *output = s->mesh.common.output;
     if (!path) return 0;
-    if (s->walk == MW_WALK_COUNT) return walk_option_wants("animate", "one walk, not --walk all");
-    if (!animation_named(path)) return walk_option_wants("animate", "a .png or .apng file");
+    if (s->walk == MW_WALK_COUNT) return walk_option_must_be("animate", "one walk, not --walk all");
+    if (!animation_named(path)) return walk_option_must_be("animate", "a .png or .apng file");
     if (!files_is_standard(output) && files_same_output(path, output))
-        return walk_option_wants("animate", "another file than --output");
+        return walk_option_must_be("animate", "another file than --output");
     int end = files_check_output(path, operands, 1);
     if (end == 0) end = picture_check(path);
     return end ? end : files_try_output(path, NULL);
@@ -141,9 +147,9 @@ static int walk_check_options(const walk_settings *s, const char *const *operand
     if (end == 0) end = walk_check_coordinates(s, "to", &s->to);
     if (end == 0) end = walk_check_name(s);
     if (end == 0 && s->mesh.space != SPACE_SURFACE) {
-        if (s->max_distance > 0) return walk_option_wants("max-distance", "--as surface");
-        if (s->samples > 0) return walk_option_wants("samples", "--as surface");
-        if (s->iterations > 0) return walk_option_wants("iterations", "--as surface");
+        if (s->max_distance > 0) return walk_option_needs("max-distance", "--as surface");
+        if (s->samples > 0) return walk_option_needs("samples", "--as surface");
+        if (s->iterations > 0) return walk_option_needs("iterations", "--as surface");
     }
     if (end == 0) end = walk_check_output(s->mesh.common.output);
     return end ? end : walk_check_animation(s, operands);
@@ -291,10 +297,10 @@ static int ray_point(const walk_settings *s, const char *name, const coordinates
     const double *centre = s->mesh.centre.at;
     memcpy(point, where->at, 3 * sizeof *point);
     if (s->mesh.lonlat) lonlat_input_directions(where->at, 2, 1, centre, 1, point);
-    if (isnan(point[0])) return walk_option_wants(name, "a latitude from -90 to 90");
+    if (isnan(point[0])) return walk_option_must_be(name, "a latitude from -90 to 90");
     if (memcmp(point, centre, 3 * sizeof *point) != 0) return 0;
-    return walk_option_wants(name,
-                             "another point than the centre: no ray goes from there to there");
+    return walk_option_must_be(name,
+                               "another point than the centre: no ray goes from there to there");
 }
 
 /* The unit vector from the centre towards a point. Halves and the largest coordinate prevent an
@@ -436,7 +442,8 @@ static int walk_as_probe(walk_record *w, const mw_prober *prober)
                                                 w->iteration, w->capacity, &touch),
                                   &end));
     if (touch.state == MW_TOUCH_BAD)
-        return walk_option_wants("to", "another point than --from, and not too far away: a motion");
+        return walk_option_must_be("to",
+                                   "another point than --from, and not too far away: a motion");
     if (touch.state == MW_TOUCH_LIMIT)
         walk_remark(w, "the probe", "touched nothing: its walks ended without a triangle");
     return end ? end : walk_record_line(w);

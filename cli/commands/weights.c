@@ -16,7 +16,7 @@ typedef struct weights_settings {
 static int weights_check(const char *output, const char *const *operands)
 {
     if (!files_is_standard(output)) return files_check_output(output, operands, 2);
-    complain("weights wants an output: -o FILE.nc, or FILE.npz");
+    complain("weights needs an output: -o FILE.nc, or FILE.npz");
     return END_USAGE;
 }
 

@@ -19,7 +19,7 @@ typedef struct crs_heights {
 static void heights_take_unit(crs_heights *h, double metres, const char *name)
 {
     h->metres = metres;
-    snprintf(h->unit, sizeof h->unit, "%.30s", name ? name : "units of its own");
+    snprintf(h->unit, sizeof h->unit, "%.30s", name ? name : "its own units");
 }
 
 static void heights_describe(crs_heights *h, const gdal_functions *gdal,

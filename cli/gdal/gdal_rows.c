@@ -518,7 +518,7 @@ int gdal_rows_close(gdal_rows *r, bool commit)
 
 int gdal_rows_check(const char *path)
 {
-    complain("%s: a program that was built with GDAL writes it", path);
+    complain("%s: only a program built with GDAL can write it", path);
     return END_USAGE;
 }
 

@@ -188,7 +188,7 @@ static int point_query_check_fill(const point_query_settings *settings)
     if (settings->fill != MW_FILL_NO || settings->walk == MW_WALK_AUTO ||
         settings->walk == MW_WALK_BORDER)
         return 0;
-    complain("--fill no wants --walk border, not %s", mw_walk_name((mw_walk_kind)settings->walk));
+    complain("--fill no needs --walk border, not %s", mw_walk_name((mw_walk_kind)settings->walk));
     return END_USAGE;
 }
 

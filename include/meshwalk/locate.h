@@ -29,7 +29,7 @@ typedef enum mw_walk_kind {
 } mw_walk_kind;
 
 /** How the first triangle of a walk is chosen: starts.def lists the ways. 0 lets the query choose.
- * */
+ */
 typedef enum mw_start_kind {
     MW_START_AUTO = 0,
 #define MW_START_ENTRY(id, name, source, index, help) MW_START_##id,

@@ -257,9 +257,10 @@ static mw_status refuse_vertex(const mw_dynamic_tiling *dynamic, uint32_t number
                        gone ? "is not there" : "is in no triangle");
 }
 
-/* The tile where the search for q begins: what the guide names, which is near as a rule. To test
- * whether the last edit was nearer would cost more than it saves. But after a long walk (as when
- * many vertices have come into one cell) that is tested, until it is no longer so. */
+/* The tile where the search for q begins: the one that the guide names, which is near as a rule. To
+ * test whether the tile of the last edit is nearer would cost more than it saves. Only after a long
+ * walk (as when many vertices have come into one cell) that test is made, until walks are short
+ * again. */
 static uint32_t insertion_first_tile(mw_editor *editor, mw_point q)
 {
     const mw_locator *locator = &editor->locator;

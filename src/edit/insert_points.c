@@ -218,8 +218,8 @@ static bool reserve_insertions(mw_dynamic_tiling *dynamic, size_t n)
 }
 
 /* Begin the step. If nobody needs to know what changed, nobody can cancel, and there is room for
- * everything, nothing can fail, and nothing has to be recorded. Unused room takes addresses only,
- * but to reserve it takes time: for a few points, more than their records do. */
+ * everything, nothing can fail, and nothing has to be recorded. Room that stays unused costs no
+ * memory, but reserving it takes time: for a few points, more than recording them. */
 enum { FEW = 100 };
 static bool points_begin_step(mw_editor *editor, const point_batch *b, const mw_change *change)
 {

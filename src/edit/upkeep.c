@@ -17,11 +17,11 @@ static bool index_is_built(const mw_upkeep *u, mw_start_kind start)
     return u->staleness[start].built;
 }
 
-/* Start counting again, after a rebuild. The guide does not follow edits: insertions lengthen the
- * walks from it (to twice as many tiles when there are three times as many vertices), and other
+/* Start counting edits again after a rebuild. The guide does not follow edits: insertions lengthen
+ * the walks from it (to twice as many tiles when there are three times as many vertices), and other
  * edits make its names outdated. With these limits rebuilding the guide takes a seventh of the time
- * of insertions in spatial order, and a twentieth of that of insertions anywhere in a large
- * mesh. */
+ * of insertions in spatial order, and a twentieth of that of insertions anywhere in a large mesh.
+ */
 static void staleness_reset(mw_upkeep *u, mw_start_kind start)
 {
     enum { FEW = 64, EDITS_PER_VERTEX = 4, INSERTIONS_PER_VERTEX = 2, OUTSIDERS = 4 };

@@ -55,9 +55,9 @@ static mw_location query_outside(const mw_locator *locator, uint32_t mark, mw_po
     return location;
 }
 
-/* If two areas vanish q is at a vertex of the tile. Its answer in another triangle that has this
- * vertex: the same as by areas there, without a look at the corners. False where q is on an edge,
- * or the triangle may have another vertex at this place. */
+/* If two areas are zero, q is at a vertex of the tile. Write its answer in another triangle that
+ * has this vertex: the answer that areas would give there, without reading the corners. Returns
+ * false if q is on an edge, or if the triangle may have another vertex at this place. */
 static bool query_answer_at_vertex(const mw_locator *locator, const mw_triangle *tile,
                                    const double area[3], uint32_t triangle, mw_location *location)
 {

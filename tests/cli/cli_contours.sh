@@ -214,11 +214,11 @@ fi
 
 # What is refused.
 run contours gap.off; refused 2 'which levels\?'
-run contours gap.off --interval 1 --levels 2; refused 2 'only one of them'
-run contours gap.off --levels 1,x; refused 2 "'--levels' wants numbers"
+run contours gap.off --interval 1 --levels 2; refused 2 'not both'
+run contours gap.off --levels 1,x; refused 2 "'--levels' must be numbers"
 run contours gap.off --levels ''; refused 2 ''
 for wrong in 0 -1 nan x 1x; do
-    run contours gap.off --interval $wrong; refused 2 "'--interval' wants a (positive )?number"
+    run contours gap.off --interval $wrong; refused 2 "'--interval' must be a (positive )?number"
 done
 run contours gap.off --levels 1 --base 2; refused 2 "'--base' is for --interval"
 run contours gap.off --interval 1e-9; refused 4 'more than 1000000 levels'

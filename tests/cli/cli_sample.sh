@@ -40,7 +40,7 @@ for value in nan -99999; do
     prints $'x,y,z,status\n1,0.5,,missing\n1.75,1,,missing\n0.5,0.5,3,edge\n2,0,,missing\n1,1.5,4.25,inside\n3,0.25,,outside'
     [[ $value == nan ]] && says_nothing
     [[ $value == nan ]] || says \
-        'lost\.off: remark: z is -99999 at 1 vertex; --nodata none would take it for a value'
+        'lost\.off: remark: z is -99999 at 1 vertex; --nodata none would treat it as a value'
     run_on "$lost" sample -q --strict --status --missing nearest --outside nearest lost.off -
     exits 0; says_nothing
     prints $'x,y,z,status\n1,0.5,5,missing\n1.75,1,5,missing\n0.5,0.5,3,edge\n2,0,5,missing\n1,1.5,4.25,inside\n3,0.25,3,missing'
@@ -49,14 +49,14 @@ run_on "$lost" sample --nodata none lost.off -; exits 0; says_nothing; prints_li
 prints_line '^1,0.5,-24997$'
 missing_mesh -9999 >lost.off
 run_on "$lost" sample lost.off -; exits 0; prints_line '^2,0,-9999$'
-says 'lost\.off: remark: z is -9999 at 1 vertex; --nodata -9999 would take it for missing'
+says 'lost\.off: remark: z is -9999 at 1 vertex; --nodata -9999 would treat it as missing'
 run_on "$lost" sample --nodata -9999 lost.off -; exits 0; says_nothing; prints_line '^2,0,$'
 prints_line '^0.5,0.5,3$'
 missing_mesh 0.10000000149011612 >lost.off
 run_on "$lost" sample --nodata 0.1 lost.off -; exits 0; prints_line '^2,0,$'
 for wrong in x 1x ''; do
     run sample --nodata "$wrong" absent.off p.xyz
-    refused 2 "'--nodata' wants"
+    refused 2 "'--nodata' must be"
 done
 
 # Fields: attributes of a .node file, named in the header.

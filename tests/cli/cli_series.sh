@@ -67,7 +67,7 @@ holds "nothing is written then" test ! -e other.nc
 # What is refused.
 run sample flow.nc points.csv --time 7; refused 3 'flow.nc: has 3 steps, from 0: there is no step 7'
 for time in x 2..1 1.. nearest: nearest:nan -1; do
-    run sample flow.nc points.csv "--time=$time"; refused 2 "'--time' wants all, FIRST..LAST or N"
+    run sample flow.nc points.csv "--time=$time"; refused 2 "'--time' must be all, FIRST..LAST or N"
 done
 run sample flow.nc points.csv --time all --field zeta,w
 refused 3 "flow.nc: has no field 'w' over time; --field may be of: zeta u"

@@ -14,11 +14,11 @@ run_on "$points" weights square.off - -o w.npz --strict; exits 1
 run_on "$points" weights square.off - -o w.npz --stats --json; exits 0; says '"outside": 1'
 
 # What is refused, and what is left behind: nothing.
-run_on "$points" weights square.off -; refused 2 'weights wants an output'
+run_on "$points" weights square.off -; refused 2 'weights needs an output'
 run_on "$points" weights square.off - -o square.off; refused 2 'square.off'
 run_on "$points" weights square.off - -o none/w.npz; refused 4 'none/w.npz: '
 run_on "$points" weights none.off - -o w2.npz; refused 3 'none.off: '
-run apply w.npz w.npz; refused 2 'apply wants an output'
+run apply w.npz w.npz; refused 2 'apply needs an output'
 run apply w.npz w.npz -o w.npz; refused 2 'w.npz'
 holds "nothing else was written" test "$(echo *)" == 'square.off w.npz'
 

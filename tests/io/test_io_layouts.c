@@ -316,7 +316,7 @@ static void test_numbers(void **state)
     write_ugrid("a.nc", (ugrid_form){1, 1, false, MW_NETCDF_INT}, "m");
     expect_refused("fvcom", MW_ERROR_INPUT, "a.nc: no mesh in the layout fvcom");
     expect_refused("fvco", MW_ERROR_ARGUMENT, "no layout 'fvco'");
-    expect_refused("ugrid:2", MW_ERROR_ARGUMENT, "behind the colon");
+    expect_refused("ugrid:2", MW_ERROR_ARGUMENT, "after the colon");
     files_clear();
 }
 

@@ -136,7 +136,7 @@ mw_status mw_read_weights(const char *path, const mw_file_options *options, mw_o
     if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "the pointer to the new operator is NULL");
     *out = NULL;
     if (!options) options = &plain;
-    if (!path) return mw__fail(error, MW_ERROR_ARGUMENT, "there is no path of a file of weights");
+    if (!path) return mw__fail(error, MW_ERROR_ARGUMENT, "the path of the file of weights is NULL");
     mw_status status = MW_RESERVED_CHECK(mw_file_options, options, error);
     if (status) return status;
     mw_job job = mw__job(1, options->progress);

@@ -109,7 +109,7 @@ static mw_status applied_check_names(const applied_file *f, const mw_apply_weigh
         if (status) return status;
         if (!variable_is_field(f, v))
             return mw__netcdf_fail(f->in, v, error,
-                                   "has no last dimension of the %u values that the weights want",
+                                   "has no last dimension of the %u values that the weights need",
                                    f->size.columns);
     }
     return MW_OK;
@@ -393,7 +393,8 @@ static mw_status applied_begin(const char *weights, const char *fields, const ch
                                const mw_apply_weights_options *options, mw_error *error)
 {
     if (!weights || !fields || !out)
-        return mw__fail(error, MW_ERROR_ARGUMENT, "weights, fields and output need a path");
+        return mw__fail(error, MW_ERROR_ARGUMENT,
+                        "the path of the weights, the fields or the output is NULL");
     if (options->field_count && !options->fields)
         return mw__fail(error, MW_ERROR_ARGUMENT, "the names of the fields are NULL");
     return MW_RESERVED_CHECK(mw_apply_weights_options, options, error);
