@@ -336,7 +336,7 @@ static uint32_t remap_cells(const mw_remap_mesh *mesh)
     return mesh->face ? (uint32_t)mesh->face_count : mw_mesh_triangle_count(mesh->locator->mesh);
 }
 
-static mw_status remap_make(remap_work *w, mw_remap *out, mw_error *error)
+static mw_status remap_produce(remap_work *w, mw_remap *out, mw_error *error)
 {
     mw_job job = mw__job(w->options->threads, w->options->progress);
     w->columns = w->options->vertices ? mw_mesh_vertex_count(w->source->locator->mesh)
@@ -363,7 +363,7 @@ mw_status mw_remap_to_mesh(const mw_remap_mesh *source, const mw_remap_mesh *tar
     remap_work work = {.source = source, .mesh = target, .options = options};
     mw_status status = remap_begin(&work, remap, error);
     if (!status) status = remap_check_mesh(target, work.options->degrees, error);
-    return status ? status : remap_make(&work, remap, error);
+    return status ? status : remap_produce(&work, remap, error);
 }
 
 mw_status mw_remap_to_pixels(const mw_remap_mesh *source, const mw_remap_pixels *target,
@@ -372,7 +372,7 @@ mw_status mw_remap_to_pixels(const mw_remap_mesh *source, const mw_remap_pixels 
     remap_work work = {.source = source, .pixels = target, .options = options};
     mw_status status = remap_begin(&work, remap, error);
     if (!status) status = remap_check_pixels(target, work.options->degrees, error);
-    return status ? status : remap_make(&work, remap, error);
+    return status ? status : remap_produce(&work, remap, error);
 }
 
 void mw_remap_release(mw_remap *remap)
