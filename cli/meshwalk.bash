@@ -22,6 +22,10 @@ _meshwalk_options() {
             echo "--resolution --like --extent --field --derive --nodata --outside --max-edge --vertex-nodata --type"
             echo "--driver --creation --crs --json $common"
             ;;
+        visible)
+            echo "--from --height --target-height --to --raster --resolution --like --extent --driver --creation --field"
+            echo "--nodata --columns --crs --points-crs $stream $common"
+            ;;
         edit)
             echo "--answers --heights --changes --numbers --log --constraints --undo --delaunay --skip --strict --walk"
             echo "--start --cells --layers --descent --format --stats --json $common"
@@ -141,7 +145,7 @@ _meshwalk() {
         before=${COMP_WORDS[COMP_CWORD - 2]}
     fi
     if ((COMP_CWORD == 1)); then
-        names='info check triangulate locate sample weights apply profile contours raster volume edit star probe walk convert view bench --help --version'
+        names='info check triangulate locate sample weights apply profile contours raster visible volume edit star probe walk convert view bench --help --version'
         mapfile -t COMPREPLY < <(compgen -W "$names" -- "$word")
         return
     fi

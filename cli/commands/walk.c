@@ -213,7 +213,8 @@ static int walk_record_line(walk_record *w)
 static int walk_fail_mesh(const walk_record *w, const char *as, const mw_error *error)
 {
     int end = fail_mesh(w->path, error);
-    if (end == END_INPUT) complain("'meshwalk check%s %s' lists every defect", as, w->path);
+    if (end == END_INPUT)
+        complain("'meshwalk check%s %s' lists every defect, 'meshwalk view' shows it", as, w->path);
     return end;
 }
 

@@ -10,6 +10,7 @@
 #include <meshwalk/triangulate.h>
 #include <meshwalk/locate.h>
 #include <meshwalk/segment.h>
+#include <meshwalk/sight.h>
 #include <meshwalk/volume.h>
 #include <meshwalk/operator.h>
 #include <meshwalk/remap.h>
