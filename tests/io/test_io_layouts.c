@@ -176,7 +176,7 @@ static void test_ugrid(void **state)
 }
 
 /* Packed by gzip, it is read from memory. */
-/* A corner table turned round is recognised by its shape where no attribute names its dimensions. */
+/* A corner table turned round is recognised by its shape if no attribute names its dimension. */
 static void test_turned_by_shape(void **state)
 {
     (void)state;
