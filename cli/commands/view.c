@@ -133,7 +133,7 @@ static int view_check(const view_settings *s, const char *const *operands)
         return END_USAGE;
     }
     if (s->columns && !s->points) {
-        complain("option '--columns' wants --points");
+        complain("option '--columns' needs --points");
         return END_USAGE;
     }
     return files_check_output(s->mesh.common.output, inputs, s->points ? 2 : 1);

@@ -38,7 +38,7 @@ holds "a name is quoted" grep -q 'u003c/script>' name.html
 
 run view -o points.html --points trap.csv trap.off; exits 0
 holds "the points are there" grep -q '"query": {"name": "trap.csv"' points.html
-run view --columns x,y trap.off; exits 2; says 'wants --points'
+run view --columns x,y trap.off; exits 2; says 'needs --points'
 run view -o trap.off trap.off; exits 2; says 'is input and output'
 run view -o trap.csv --points trap.csv trap.off; exits 2; says 'is input and output'
 run view none.off; exits 3; says 'none.off'

@@ -100,6 +100,18 @@ uint32_t WEB_EXPORT(web_picture_visible)(const web_picture *p)
     return p->visible;
 }
 
+/* fmin and fmax are calls in WebAssembly; no value here is NaN but those of bad vertices, which are
+ * in no picture. */
+static double least(double a, double b)
+{
+    return a < b ? a : b;
+}
+
+static double greatest(double a, double b)
+{
+    return a > b ? a : b;
+}
+
 /* --- light ------------------------------------------------------------------------------------ */
 
 static void picture_normal(const double *a, const double *b, const double *c, double lift,
@@ -135,7 +147,7 @@ int WEB_EXPORT(web_picture_light)(web_picture *p, int lit, int in_space, double 
         double light = length > 0 ? (x * n[0] + y * n[1] + z * n[2]) / length : 1;
         if (in_space) light = fabs(light);
         if (!in_space && n[2] < 0) light = -light;
-        p->shade[t] = (float)(DARKEST + (1 - DARKEST) / SUN_HEIGHT * fmax(0, light));
+        p->shade[t] = (float)(DARKEST + (1 - DARKEST) / SUN_HEIGHT * greatest(0, light));
     }
     return 1;
 }
@@ -146,7 +158,7 @@ static uint32_t picture_shaded(uint32_t colour, float light)
 {
     uint32_t shaded = colour & 0xff000000u;
     for (int shift = 0; shift < 24; shift += 8)
-        shaded |= (uint32_t)fminf(255, (float)(colour >> shift & 255) * light) << shift;
+        shaded |= (uint32_t)least(255, (double)(colour >> shift & 255) * (double)light) << shift;
     return shaded;
 }
 
@@ -154,7 +166,7 @@ static uint32_t picture_colour(const web_picture *p, double value)
 {
     if (isnan(value)) return p->palette[MISSING];
     double part = p->high > p->low ? (value - p->low) / (p->high - p->low) : 0.5;
-    return p->palette[(int)(fmax(0, fmin(1, part)) * (COLOURS - 1) + 0.5)];
+    return p->palette[(int)(greatest(0, least(1, part)) * (COLOURS - 1) + 0.5)];
 }
 
 /* A triangle on the screen, and what changes from pixel to pixel. */
@@ -216,11 +228,11 @@ static void facet_row(const web_facet *f, double y, int width, int *first, int *
         const double *a = f->corner[k], *b = f->corner[(k + 1) % 3];
         if ((a[1] <= y) == (b[1] <= y)) continue;
         double x = a[0] + (y - a[1]) / (b[1] - a[1]) * (b[0] - a[0]);
-        low = fmin(low, x);
-        high = fmax(high, x);
+        low = least(low, x);
+        high = greatest(high, x);
     }
-    *first = (int)fmax(0, ceil(low - 0.5));
-    *last = (int)fmin(width, ceil(high - 0.5));
+    *first = (int)greatest(0, ceil(low - 0.5));
+    *last = (int)least(width, ceil(high - 0.5));
 }
 
 static int picture_limit(double value, int most)
@@ -233,8 +245,8 @@ static void facet_draw(web_picture *p, web_facet *f)
     double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
     for (int k = 0; k < 3; k++)
         for (int i = 0; i < 2; i++) {
-            low[i] = fmin(low[i], f->corner[k][i]);
-            high[i] = fmax(high[i], f->corner[k][i]);
+            low[i] = least(low[i], f->corner[k][i]);
+            high[i] = greatest(high[i], f->corner[k][i]);
         }
     if (!(high[0] >= 0 && low[0] <= p->width && high[1] >= 0 && low[1] <= p->height)) return;
     p->visible++;
@@ -242,11 +254,15 @@ static void facet_draw(web_picture *p, web_facet *f)
     double area = (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]);
     int top = picture_limit(ceil(low[1] - 0.5), p->height);
     int bottom = picture_limit(ceil(high[1] - 0.5), p->height);
-    if (area == 0 || top == bottom) return;
-    facet_prepare(p, f, area);
+    if (area == 0) return;
+    bool ready = false; /* most small triangles have no pixel */
     for (int y = top; y < bottom; y++) {
         int first, last;
         facet_row(f, y + 0.5, p->width, &first, &last);
+        if (!ready && first < last) {
+            facet_prepare(p, f, area);
+            ready = true;
+        }
         for (int x = first; x < last; x++) facet_pixel(p, f, x, y);
     }
 }
@@ -292,8 +308,8 @@ uint32_t WEB_EXPORT(web_picture_list)(const web_picture *p, uint32_t *list, uint
             double low = INFINITY, high = -INFINITY;
             for (int k = 0; k < 3; k++) {
                 double at = p->screen[3 * (size_t)file->triangles[3 * t + (size_t)k] + (size_t)i];
-                low = fmin(low, at);
-                high = fmax(high, at);
+                low = least(low, at);
+                high = greatest(high, at);
             }
             inside = high >= 0 && low <= (i ? p->height : p->width);
         }

@@ -33,14 +33,13 @@ class App {
     this.topology = topology;
     byId("file-name").textContent = mesh.name.split("/").pop();
     document.title = `${mesh.name.split("/").pop()} · meshwalk`;
-    const check = mesh.check();
     this.makeLocator();
     this.stage.space = "plane";
     this.stage.show(mesh, topology);
     this.colours.show();
-    this.showVerdict(this.defects.show(check), check.valid);
     this.loopPanel.show(this.describe());
-    this.setSpace(as && as !== "plane" ? "space" : this.likelySpace(check.valid));
+    this.checks = { plane: mesh.check(), space: mesh.hasHeights ? mesh.check(true) : null };
+    this.setSpace(as && as !== "plane" ? "space" : this.likelySpace());
   }
 
   close() {
@@ -55,9 +54,11 @@ class App {
     this.mesh.free();
   }
 
-  /** A closed surface has no sense in the plane. */
-  likelySpace(valid) {
-    return this.mesh.hasHeights && !valid && this.topology.border.length === 0 ? "space" : "plane";
+  /** What folds in the plane but not in space is meant to be a surface. */
+  likelySpace() {
+    const { plane, space } = this.checks;
+    const count = (check) => check.defects.filter(({ kind }) => kind !== "flat").length;
+    return space && !plane.valid && 4 * count(space) < count(plane) ? "space" : "plane";
   }
 
   setSpace(space) {
@@ -65,6 +66,8 @@ class App {
     byId("tools").hidden = space === "space";
     if (space === "space") this.setTool("look");
     this.here.clear();
+    const check = this.checks[space] || this.checks.plane;
+    this.showVerdict(this.defects.show(check, space), check.valid, space);
     this.stage.setSpace(space);
   }
 
@@ -76,10 +79,11 @@ class App {
     }
   }
 
-  showVerdict(defects, valid) {
+  showVerdict(defects, valid, space) {
     const verdict = byId("verdict");
-    verdict.textContent = valid ? "✓ an embedding: every promise holds"
-      : `⚠ ${plural(defects, "defect")}`;
+    const [good, bad] = space === "space" ? ["a sound surface", "as a surface"]
+      : ["an embedding: every promise holds", "in the plane"];
+    verdict.textContent = valid ? `✓ ${good}` : `⚠ ${plural(defects, "defect")} ${bad}`;
     verdict.className = valid ? "good" : "bad";
   }
 
@@ -207,11 +211,13 @@ class App {
 async function main() {
   const dark = window.matchMedia("(prefers-color-scheme: dark)").matches;
   document.documentElement.dataset.theme = dark ? "dark" : "light";
+  await new Promise((resolve) => setTimeout(resolve, 20)); // the page is seen before the work
   const bytes = Uint8Array.from(atob(byId("engine").textContent), (c) => c.charCodeAt(0));
   const meshwalk = await loadMeshwalk(bytes);
   const app = new App(meshwalk);
   const content = readContent(meshwalk, byId("content").textContent);
   byId("content").textContent = "";
+  byId("notice").textContent = content ? "" : "Open a file, or drop it here";
   if (content) {
     app.open(content.mesh, content.as);
     if (content.query) app.points.show(content.query.name, content.query.xy);

@@ -9,7 +9,8 @@ class DefectPanel {
   }
 
   /** Fill the list; returns how many are no mere remarks. */
-  show(check) {
+  show(check, space) {
+    this.space = space;
     const { defects } = check;
     const real = defects.filter((defect) => defect.kind !== "flat").length;
     this.chosen = null;
@@ -19,7 +20,7 @@ class DefectPanel {
     byId("defect-about").innerHTML = "";
     byId("defects").replaceChildren(...defects.slice(0, DEFECTS_SHOWN).map((d) => this.item(d)));
     if (defects.length > DEFECTS_SHOWN) this.tell(`The first ${DEFECTS_SHOWN} of ` +
-      `${plural(defects.length, "defect")}; 'meshwalk check' lists all.`);
+      `${plural(defects.length, "defect")}; 'meshwalk check${this.as()}' lists all.`);
     if (!defects.length) this.tell("None: every promise holds.");
     return real;
   }
@@ -59,10 +60,16 @@ class DefectPanel {
     box.append(head, words);
     if (mended) {
       const hint = document.createElement("code");
-      hint.textContent = `meshwalk check --fix all -o mended.ply ${this.app.mesh.name}`;
+      hint.textContent = `meshwalk check --fix all${this.as()} -o mended.ply ` +
+        this.app.mesh.name;
       box.append("It can be mended: ", hint);
     }
     byId("defect-about").replaceChildren(box);
+  }
+
+  /** The option of the command line for a surface. */
+  as() {
+    return this.space === "space" ? " --as surface" : "";
   }
 
   triangles() {
