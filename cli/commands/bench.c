@@ -64,6 +64,8 @@ const command bench_command = {
                    "(default: "
                    "50000, at most half of the vertices). SET is of uniform, clusters, gaussian, "
                    "arcs and rectangle.\n\n"
+                   "'meshwalk bench ocean' measures how long a mesh in UGRID takes to open, "
+                   "weights to be applied to the steps of a model, and particles to be followed.\n\n"
                    "'meshwalk bench segments' measures the triangles along random segments, in "
                    "batches and one by one.\n\n"
                    "'meshwalk bench worst [TRAP]' measures meshes on which location, or making a "
