@@ -246,7 +246,8 @@ static int contours_check_mesh(const contours_settings *s, const mw_mesh *mesh, 
     mw_locator_destroy(locator);
     if (status != MW_OK) {
         int end = fail_mesh(path, &error);
-        if (end == END_INPUT) complain("'meshwalk check %s' lists every defect", path);
+        if (end == END_INPUT)
+            complain("'meshwalk check %s' lists every defect, 'meshwalk view' shows it", path);
         return end;
     }
     for (uint32_t t = 0; t < mw_mesh_triangle_count(mesh); t++) {

@@ -35,7 +35,7 @@ static const char *walk_choice_name(int i)
 static const char *walk_choice_help(int i)
 {
     return i < MW_WALK_COUNT ? mw_walk_help((mw_walk_kind)i)
-                             : "a picture of each, beside one another";
+                             : "a picture of each, beside one another; with --animate a race";
 }
 
 static const choices walk_choices = {"walk", walk_choice_name, walk_choice_help};
@@ -109,8 +109,9 @@ static int walk_check_name(const walk_settings *s)
     const char *name = walk_choice_name(s->walk);
     if (s->mesh.space == SPACE_SURFACE && s->walk != MW_WALK_AUTO)
         return walk_option_needs("walk", "--as plane or --as star");
-    if (s->walk == MW_WALK_COUNT && (s->mesh.space != SPACE_PLANE || !walk_writes_picture(s))) {
-        complain("--walk all needs --as plane and a picture: -o FILE.svg");
+    bool drawn = walk_writes_picture(s) || (s->animate && !s->mesh.common.output);
+    if (s->walk == MW_WALK_COUNT && (s->mesh.space != SPACE_PLANE || !drawn)) {
+        complain("--walk all needs --as plane and a picture: -o FILE.svg or --animate FILE.png");
         return END_USAGE;
     }
     if (s->mesh.space != SPACE_STAR || mw_star_walk_by_name(name) != MW_STAR_WALK_COUNT) return 0;
@@ -132,7 +133,6 @@ static int walk_check_animation(const walk_settings *s, const char *const *opera
 {
     const char *path = s->animate, *output = s->mesh.common.output;
     if (!path) return 0;
-    if (s->walk == MW_WALK_COUNT) return walk_option_must_be("animate", "one walk, not --walk all");
     if (!animation_named(path)) return walk_option_must_be("animate", "a .png or .apng file");
     if (!files_is_standard(output) && files_same_output(path, output))
         return walk_option_must_be("animate", "another file than --output");
@@ -213,7 +213,8 @@ static int walk_record_line(walk_record *w)
 static int walk_fail_mesh(const walk_record *w, const char *as, const mw_error *error)
 {
     int end = fail_mesh(w->path, error);
-    if (end == END_INPUT) complain("'meshwalk check%s %s' lists every defect", as, w->path);
+    if (end == END_INPUT)
+        complain("'meshwalk check%s %s' lists every defect, 'meshwalk view' shows it", as, w->path);
     return end;
 }
 
@@ -494,6 +495,7 @@ static drawing walk_drawing(const walk_record *w, char *caption)
     return (drawing){.view = views[s->mesh.space],
                      .centre = {s->mesh.centre.at[0], s->mesh.centre.at[1], s->mesh.centre.at[2]},
                      .caption = caption,
+                     .name = walk,
                      .points = w->file->points,
                      .triangles = w->file->triangles,
                      .point_count = w->file->point_count,
@@ -545,6 +547,13 @@ static void walk_record_release(walk_record *w)
     free(w->line);
 }
 
+static int walk_write_all(const walk_settings *s, const drawing *d, size_t count)
+{
+    int end = s->animate ? drawing_write_race(d, count, s->animate) : 0;
+    if (end || !s->mesh.common.output) return end;
+    return drawing_write_sheet(d, count, s->mesh.common.output);
+}
+
 /* Every walk in the plane, one picture beside the other. What is to be said of the points is said
  * once. */
 static int walk_all_and_write(const walk_record *common)
@@ -567,8 +576,8 @@ static int walk_all_and_write(const walk_record *common)
         sheet[count] = walk_drawing(&record[count], caption[count]);
         sheet[count].most_triangles = TRIANGLES;
     }
-    progress_phase("drawing", common->settings->mesh.common.output);
-    if (end == 0) end = drawing_write_sheet(sheet, count, common->settings->mesh.common.output);
+    progress_phase("drawing", common->path);
+    if (end == 0) end = walk_write_all(common->settings, sheet, count);
     while (count-- > 0) walk_record_release(&record[count]);
     return end;
 }

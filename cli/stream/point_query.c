@@ -137,9 +137,13 @@ static int point_query_fail_mesh(const point_query *q, const char *path, bool ar
 {
     int end = fail_mesh(path, error);
     if (end == END_INPUT && q->settings->lines && area)
-        complain("'meshwalk check %s' lists every defect; --fix mends some", path);
+        complain(
+            "'meshwalk check %s' lists every defect, 'meshwalk view' shows it; --fix mends some",
+            path);
     else if (end == END_INPUT && !q->settings->any && area)
-        complain("'meshwalk check %s' lists every defect; --any locates points all the same", path);
+        complain("'meshwalk check %s' lists every defect, 'meshwalk view' shows it; --any locates "
+                 "points all the same",
+                 path);
     return end;
 }
 

@@ -3,9 +3,9 @@
  * Nearly every query walks over a few tiles and ends inside a triangle of the user's, and rounded
  * areas are sure of each turn. Such a query takes the remembering walk in one of its fast forms:
  * one query by walk/remembering_fast.h (query.c), a batch by walk/remembering_vector.h
- * (interleaved.c). Their last areas are the weights, so that the answer is written at once. All
- * other queries (q on an edge or nearly so, thin tiles, long ways) go on from the tile that they
- * have reached, by the walk of the cursor and the exact conclusion. */
+ * (interleaved.c). Their last areas are the weights, so that the answer is written at once. Where q
+ * is on an edge or nearly so, or the tile is thin, the exact conclusion is tried in the tile where
+ * the walk ended. All else goes on from there by the walk of the cursor. */
 #ifndef MW_SRC_LOCATE_FAST_PATH_H
 #define MW_SRC_LOCATE_FAST_PATH_H
 

@@ -10,6 +10,10 @@
 mw_location mw__query_conclude(const mw_locator *locator, const mw_cursor *cursor, mw_walk *walk,
                                mw_verdict verdict, mw_counters *counters);
 
+/* The answer if tile t contains q, without a walk; else false. For cursors of the fast path. */
+bool mw__query_answer_here(const mw_locator *locator, const mw_cursor *cursor, uint32_t t,
+                           mw_point q, mw_location *location);
+
 /* The walk of one query: first tile by the cursor's start; `last` is the tile where the query
  * before it ended; if it is MW_NONE, the start is MW_START_SAMPLE. If the cursor counts, it counts
  * in *work, which must last as long as the walk. */

@@ -208,8 +208,12 @@ holds "frames of a polyhedron" chunks star.png >star.chunks
 run walk --from 9,9 --to 9,8 row.off --animate none.png; exits 0
 run walk --from 1,2 --to 3,4 row.off --animate steps.gif
 refused 2 "'--animate' must be a .png or .apng file"; absent steps.gif
-run walk --from 1,2 --to 3,4 row.off --walk all --animate all.png -o all.svg
-refused 2 "'--animate' must be one walk"
+run walk --from 0.1,0.2 --to 3.9,0.8 row.off --walk all --animate all.png -o all.svg; exits 0
+holds "a race and a sheet" test -s all.svg
+holds "the race has more than one picture" grep -qa acTL all.png
+run walk --from 0.1,0.2 --to 3.9,0.8 row.off --walk all --animate race.png; exits 0; prints ''
+run walk --from 0.1,0.2 --to 3.9,0.8 row.off --walk all --animate race.png -o list.csv
+refused 2 'needs --as plane and a picture'
 run walk --from 1,2 --to 3,4 row.off --animate same.png -o same.png
 refused 2 "'--animate' must be another file"
 run walk --from 1,2 --to 3,4 row.off --animate absent/a.png; exits 4; says 'absent/a.png'

@@ -2,6 +2,7 @@
 #include "engine/engine.h"
 
 #include <stdlib.h>
+#include <zlib.h>
 
 mw_error web_error;
 
@@ -29,6 +30,19 @@ const char *WEB_EXPORT(web_error_message)(void)
 double WEB_EXPORT(web_error_place)(int what)
 {
     return (double)(what == 0 ? web_error.triangle : what == 1 ? web_error.vertex : web_error.line);
+}
+
+/* Unpack zlib's data into `room` bytes. Returns 0 if they are not exactly these. */
+int WEB_EXPORT(web_unpack)(const unsigned char *packed, size_t size, unsigned char *bytes,
+                           size_t room)
+{
+    z_stream s = {
+        .next_in = packed, .avail_in = (uInt)size, .next_out = bytes, .avail_out = (uInt)room};
+    if (inflateInit2(&s, MAX_WBITS) != Z_OK) return 0;
+    int result = Z_OK;
+    while (result == Z_OK && s.avail_out > 0) result = inflate(&s, Z_NO_FLUSH);
+    inflateEnd(&s);
+    return s.avail_out == 0 && (result == Z_OK || result == Z_STREAM_END);
 }
 
 const char *WEB_EXPORT(web_version)(void)

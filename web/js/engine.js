@@ -75,6 +75,18 @@ export class Engine {
     }
   }
 
+  /** Bytes that zlib packed: { size, packed } with base64. */
+  unpack({ size, packed }) {
+    const text = atob(packed);
+    const bytes = Uint8Array.from(text, (letter) => letter.charCodeAt(0));
+    return this.withRoom(bytes.length, (from) => this.withRoom(size, (to) => {
+      this.bytes(from, bytes.length).set(bytes);
+      if (size && !this.call.web_unpack(from, bytes.length, to, size))
+        throw new MeshwalkError("the page is damaged", "input", {});
+      return this.bytes(to, size).slice();
+    }));
+  }
+
   withText(text, work) {
     const bytes = new TextEncoder().encode(text + "\0");
     return this.withRoom(bytes.length, (address) => {

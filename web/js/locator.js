@@ -1,22 +1,20 @@
 // locator.js - points located in a mesh, and walks followed triangle by triangle.
+import { NONE, numberOrNull } from "./numbers.js";
 
-const NONE = 0xffffffff;
 const LOCATION_BYTES = 40;
 const NO_LOCAL = 255;
 const WHERES = ["inside", "edge", "vertex", "outside", "hole", "near", "bad"];
 const STAGES = ["init", "walk", "final", "border"];
 const FILLS = { auto: 0, filled: 1, open: 2 };
 
-const number = (value, none) => (value === none ? null : value);
-
 /** Where a point lies, from the engine's memory. */
 function readLocation(engine, address) {
   const view = engine.view(address, LOCATION_BYTES);
   return {
     where: WHERES[view.getUint8(32)],
-    triangle: number(view.getUint32(24, true), NONE),
-    local: number(view.getUint8(33), NO_LOCAL),
-    hole: number(view.getUint32(28, true), NONE),
+    triangle: numberOrNull(view.getUint32(24, true), NONE),
+    local: numberOrNull(view.getUint8(33), NO_LOCAL),
+    hole: numberOrNull(view.getUint32(28, true), NONE),
     weights: [0, 8, 16].map((at) => view.getFloat64(at, true)),
   };
 }
@@ -89,9 +87,9 @@ export class Locator {
     const at = this.locate([x, y], options);
     return {
       where: WHERES[at.where[0]],
-      triangle: number(at.triangle[0], NONE),
-      local: number(at.local[0], NO_LOCAL),
-      hole: number(at.hole[0], NONE),
+      triangle: numberOrNull(at.triangle[0], NONE),
+      local: numberOrNull(at.local[0], NO_LOCAL),
+      hole: numberOrNull(at.hole[0], NONE),
       weights: Array.from(at.weights),
     };
   }
@@ -117,6 +115,18 @@ export class Locator {
       const [triangle, edge, distance, atX, atY] = engine.doubles(room, 5);
       return { triangle, edge, distance, point: [atX, atY] };
     });
+  }
+
+  /** The pieces of a segment: { from, to, triangle }, with parameters from 0 to 1. */
+  segment(a, b) {
+    const { engine, address } = this;
+    const found = engine.need(engine.call.web_segment_make(address, a[0], a[1], b[0], b[1]));
+    const count = engine.call.web_segment_count(found);
+    const all = count ? engine.doubles(engine.call.web_segment_pieces(found), 3 * count) : [];
+    const pieces = Array.from({ length: count }, (_, i) =>
+      ({ from: all[3 * i], to: all[3 * i + 1], triangle: all[3 * i + 2] }));
+    engine.call.web_segment_free(found);
+    return pieces;
   }
 
   /** Follow a walk from the triangle that contains `from` to the point `to`. */

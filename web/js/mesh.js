@@ -1,6 +1,6 @@
 // mesh.js - meshes: arrays, values, defects, properties.
+import { NONE, numberOrNull } from "./numbers.js";
 
-const NONE = 0xffffffff;
 const DEFECT_BYTES = 20;
 const NO_EDGE = 255;
 
@@ -12,8 +12,6 @@ export const DEFECT_KINDS = ["index", "not-finite", "repeated-vertex", "edge-sha
 const INFO = ["vertices", "triangles", "unusedVertices", "flatTriangles", "clockwiseTriangles",
   "clashingEdges", "borderEdges", "borderLoops", "components", "holes", "oriented", "embedding",
   "convex", "delaunay"];
-
-const number = (value, none) => (value === none ? null : value);
 
 /** A mesh of triangles. Release it with free(). */
 export class Mesh {
@@ -118,11 +116,11 @@ export class Mesh {
     const view = engine.view(at, DEFECT_BYTES);
     return {
       kind: DEFECT_KINDS[view.getUint32(0, true)],
-      triangle: number(view.getUint32(4, true), NONE),
-      other: number(view.getUint32(8, true), NONE),
-      vertex: number(view.getUint32(12, true), NONE),
-      edge: number(view.getUint8(16), NO_EDGE),
-      otherEdge: number(view.getUint8(17), NO_EDGE),
+      triangle: numberOrNull(view.getUint32(4, true), NONE),
+      other: numberOrNull(view.getUint32(8, true), NONE),
+      vertex: numberOrNull(view.getUint32(12, true), NONE),
+      edge: numberOrNull(view.getUint8(16), NO_EDGE),
+      otherEdge: numberOrNull(view.getUint8(17), NO_EDGE),
       text: description,
     };
   }

@@ -163,11 +163,36 @@ export class Locator {
   locateOne(x: number, y: number, options?: QueryOptions): Location;
   /** Values of vertices, interpolated; NaN where there is no triangle. */
   interpolate(values: ArrayLike<number>, locations: Locations): Float64Array;
+  /** The triangles along a segment, in order, with parameters from 0 at `a` to 1 at `b`. */
+  segment(a: [number, number], b: [number, number]):
+    { from: number; to: number; triangle: number }[];
   nearestBorder(x: number, y: number):
     { triangle: number; edge: number; distance: number; point: [number, number] };
   /** Walk from the triangle that contains `from` to the point `to`. */
   follow(from: [number, number], to: [number, number], options?: { walk?: string; seed?: number }):
     Walk;
+  free(): void;
+}
+
+export type Colour = [number, number, number];
+
+/** A picture of a mesh, drawn into pixels. */
+export class Picture {
+  constructor(mesh: Mesh);
+  resize(width: number, height: number): void;
+  /** Colours of values from low to high (256), of missing values, and of a mesh without values. */
+  setPalette(colours: Colour[], missing: Colour, plain: Colour): void;
+  setValues(values: ArrayLike<number> | null, ofTriangles: boolean, low: number, high: number):
+    void;
+  setLight(direction: [number, number, number] | null, inSpace: boolean, lift?: number): void;
+  /** Three rows of four: pixel x, pixel y, depth from x, y, z, 1. Returns red, green, blue, alpha
+   * of each pixel. */
+  draw(matrix: number[], inSpace: boolean): Uint8ClampedArray;
+  /** How many triangles have a part in the last picture. */
+  readonly visible: number;
+  list(most: number): Uint32Array;
+  /** The triangle drawn at a pixel; null: none. */
+  triangleAt(x: number, y: number): number | null;
   free(): void;
 }
 

@@ -2,8 +2,9 @@
 import { Engine, MeshwalkError } from "./engine.js";
 import { Mesh, DEFECT_KINDS } from "./mesh.js";
 import { Locator, Locations } from "./locator.js";
+import { Picture } from "./picture.js";
 
-export { MeshwalkError, Mesh, Locator, Locations, DEFECT_KINDS };
+export { MeshwalkError, Mesh, Locator, Locations, Picture, DEFECT_KINDS };
 
 /** The engine, ready: what reads and makes meshes. */
 export class Meshwalk {
