@@ -13,7 +13,7 @@ _meshwalk_options() {
         triangulate) echo "--constraints --boundary --keep --split --strict --max-edge --from --tolerance --band --kind --weight --hidden --limit --format --columns --class --layer --where --crs --points-crs --constraints-crs --json $common" ;;
         locate) echo "--details --base --polygons --attribute --polygon-layer $query $stream $common" ;;
         sample) echo "--field --outside --missing --nodata --status --time --values --time-column --wide --recover $query $stream $common" ;;
-        weights) echo "$query --strict --stats --json --layer --where $common" ;;
+        weights) echo "$query --method --values --norm --strict --stats --json --layer --where $common" ;;
         apply) echo "--field --missing --strict --stats --json $common" ;;
         contours) echo "--interval --levels --base --polygons --field --nodata --crs $common" ;;
         volume) echo "--base --against --field --against-field --nodata --crs --against-crs --json --strict $common" ;;
@@ -151,7 +151,7 @@ _meshwalk() {
     fi
     names=$(_meshwalk_names "$command" "$before")
     [[ $command == bench && $COMP_CWORD -eq 2 && $word != -* ]] &&
-        names='paper near-vertices peers scale edit worst segments'
+        names='paper near-vertices peers scale edit worst segments ocean'
     [[ $command == bench && $before == paper ]] && names='A1 A2 B1 B2 C1 C2 D1 E1 E2 F1 F2 G1 G2 G3'
     [[ $command == bench && $before == @(peers|scale) ]] &&
         names='uniform grid gaussian clusters arcs rectangle rings slivers offset cadastre lidar'

@@ -13,6 +13,7 @@
 #include <meshwalk/sight.h>
 #include <meshwalk/volume.h>
 #include <meshwalk/operator.h>
+#include <meshwalk/remap.h>
 #include <meshwalk/polygons.h>
 #include <meshwalk/borrow.h>
 #include <meshwalk/edit.h>

@@ -201,10 +201,11 @@ static MW_INLINE bool lane_answer(const mw_interleaved *of, const mw_triangle *t
 }
 
 static MW_INLINE void group_step(lane_schedule *s, lane_group *g, const mw_triangle *tri,
-                                 const mw_point *point, bool chained, mw_vector_bits bits)
+                                 const mw_point *point, double scale, bool chained,
+                                 mw_vector_bits bits)
 {
     mw_vector_areas areas;
-    mw__vector_areas(&areas, &g->walk, tri, point);
+    mw__vector_areas(&areas, &g->walk, tri, point, scale);
     uint32_t left, ended = mw__vector_cross(&areas, &g->walk, &left, bits);
     if (!ended) return;
     double weight[3][LANES];
@@ -261,7 +262,7 @@ static MW_INLINE void group_prefetch_corners(const lane_group *g, const mw_trian
         for (uint32_t v = 0; v < 3; v++) __builtin_prefetch(&point[tri[g->walk.t[k]].v[v]]);
 }
 
-static MW_INLINE void groups_run(lane_schedule *s, uint32_t count, bool chained,
+static MW_INLINE void groups_run(lane_schedule *s, uint32_t count, double scale, bool chained,
                                  mw_vector_bits bits)
 {
     const mw_triangle *tri = s->of->locator->tiling.tri;
@@ -269,7 +270,7 @@ static MW_INLINE void groups_run(lane_schedule *s, uint32_t count, bool chained,
     lane_group groups[GROUPS];
     groups_begin(s, groups, count, chained);
     for (uint32_t i = 0; count;) {
-        group_step(s, &groups[i], tri, point, chained, bits);
+        group_step(s, &groups[i], tri, point, scale, chained, bits);
         if (MW_UNLIKELY(groups[i].alive == 0)) {
             groups[i] = groups[--count];
         } else {
@@ -288,9 +289,16 @@ static MW_INLINE void groups_run(lane_schedule *s, uint32_t count, bool chained,
 static void groups_run_portable(lane_schedule *s, uint32_t groups, bool chained)
 {
     if (chained)
-        groups_run(s, groups, true, mw__vector_bits_portable);
+        groups_run(s, groups, 1, true, mw__vector_bits_portable);
     else
-        groups_run(s, groups, false, mw__vector_bits_portable);
+        groups_run(s, groups, 1, false, mw__vector_bits_portable);
+}
+
+/* In a mesh whose coordinates are too small or too large to be multiplied. */
+static __attribute__((noinline)) void groups_run_scaled(lane_schedule *s, uint32_t groups,
+                                                        bool chained)
+{
+    groups_run(s, groups, s->of->locator->scale, chained, mw__vector_bits_portable);
 }
 
 #ifdef __x86_64__
@@ -299,9 +307,9 @@ __attribute__((target("avx2"))) static void groups_run_avx2(lane_schedule *s, ui
                                                             bool chained)
 {
     if (chained)
-        groups_run(s, groups, true, mw__vector_bits_avx2);
+        groups_run(s, groups, 1, true, mw__vector_bits_avx2);
     else
-        groups_run(s, groups, false, mw__vector_bits_avx2);
+        groups_run(s, groups, 1, false, mw__vector_bits_avx2);
 }
 
 #endif
@@ -315,6 +323,10 @@ void mw__locate_interleaved(const mw_interleaved *of, uint32_t first, uint32_t c
                        .end = first + count,
                        .most_laps =
                            cursor->walk == MW_WALK_REMEMBERING ? cursor->fuel : MW_FAST_STEPS};
+    if (MW_UNLIKELY(of->locator->scale != 1)) {
+        groups_run_scaled(&s, lanes / LANES, of->chained);
+        return;
+    }
 #ifdef __x86_64__
     if (!of->portable && __builtin_cpu_supports("avx2")) {
         groups_run_avx2(&s, lanes / LANES, of->chained);

@@ -5,6 +5,39 @@
 #include <float.h>
 #include <limits.h>
 
+/* The rounded areas by the corners as seen from q, and their bounds. Are they good enough? */
+static MW_INLINE bool location_round_areas(const double x[3], const double y[3], double least,
+                                           double area[3], double bound[3])
+{
+    bool sure = true;
+    for (uint32_t k = 0; k < 3; k++) {
+        uint32_t a = mw__next(k), b = mw__prev(k);
+        double left = x[a] * y[b], right = y[a] * x[b];
+        area[k] = left - right;
+        bound[k] = mw__orient2d_bound(left, right) + least;
+        sure = sure && fabs(area[k]) > bound[k];
+    }
+    double off = bound[0] + bound[1] + bound[2], sum = area[0] + area[1] + area[2];
+    return sure && off < 0x1p-42 * sum;
+}
+
+/* The same after multiplying by a power of two, for corners whose products leave the doubles. What
+ * underflows then is off by less than 2^-1074, and seen from q no corner is farther off than 2. */
+static bool location_scale_areas(const double x[3], const double y[3], double area[3])
+{
+    static const double UNDERFLOW_ERROR = 0x1p-1000;
+    double most = 0, u[3], v[3], bound[3];
+    int exponent;
+    for (uint32_t k = 0; k < 3; k++) most = fmax(most, fmax(fabs(x[k]), fabs(y[k])));
+    if (!(most > 0 && most < INFINITY)) return false;
+    (void)frexp(most, &exponent);
+    for (uint32_t k = 0; k < 3; k++) {
+        u[k] = ldexp(x[k], -exponent);
+        v[k] = ldexp(y[k], -exponent);
+    }
+    return location_round_areas(u, v, UNDERFLOW_ERROR, area, bound);
+}
+
 void mw__location_areas(const mw_point corner[3], mw_point q, double area[3])
 {
     double x[3], y[3], bound[3];
@@ -12,16 +45,14 @@ void mw__location_areas(const mw_point corner[3], mw_point q, double area[3])
         x[k] = corner[k].x - q.x;
         y[k] = corner[k].y - q.y;
     }
-    bool sure = true;
-    for (uint32_t k = 0; k < 3; k++) {
-        uint32_t a = mw__next(k), b = mw__prev(k);
-        double left = x[a] * y[b], right = y[a] * x[b];
-        area[k] = left - right;
-        bound[k] = mw__orient2d_bound(left, right);
-        sure = sure && fabs(area[k]) > bound[k];
+    const bool good = location_round_areas(x, y, 0, area, bound);
+    double sum = area[0] + area[1] + area[2], scaled[3];
+    const bool in_range = sum > 0x1p-900 && sum < 0x1p900;
+    if (MW_LIKELY(good && in_range)) return;
+    if (!in_range && location_scale_areas(x, y, scaled)) {
+        for (uint32_t k = 0; k < 3; k++) area[k] = scaled[k];
+        return;
     }
-    double off = bound[0] + bound[1] + bound[2], sum = area[0] + area[1] + area[2];
-    if (MW_LIKELY(sure && off < 0x1p-42 * sum)) return;
     /* On an edge, or the triangle is so thin that rounded areas would spoil the weights. */
     for (uint32_t k = 0; k < 3; k++)
         if (!(fabs(area[k]) > bound[k] && bound[k] < 0x1p-44 * sum))

@@ -58,7 +58,8 @@ static MW_INLINE void mw__location_write_outside(mw_location *location, uint32_t
 }
 
 /* Areas (twice) of the triangles that q makes with the sides of a triangle, area[k] opposite to
- * corner k: exact in sign, and off by less than 2^-42 of their sum. */
+ * corner k: exact in sign, and off by less than 2^-42 of their sum. Where products of coordinates
+ * leave the doubles, all may be multiplied by one power of two. */
 void mw__location_areas(const mw_point corner[3], mw_point q, double area[3]);
 
 /* The location of q in a triangle that contains it: corners as stored, `user` its number and mark,

@@ -184,6 +184,17 @@ static bool are_slots_numbers(const mw_tiling *tiling)
     return home > probes / 2;
 }
 
+/* The extent becomes about 1, if it is so small or large that this matters. */
+static double extent_scale(const double low[2], const double high[2])
+{
+    enum { ORDINARY = 400, MOST = 1000 };
+    int exponent;
+    double width = high[0] / 2 - low[0] / 2, height = high[1] / 2 - low[1] / 2;
+    (void)frexp(width > height ? width : height, &exponent);
+    if (exponent > -ORDINARY && exponent < ORDINARY) return 1;
+    return ldexp(1, exponent > MOST ? -MOST : exponent < -MOST ? MOST : -exponent);
+}
+
 void mw__locator_measure(mw_locator *locator, mw_job *job)
 {
     static const double origin[2] = {0, 0}, axis[2][2] = {{1, 0}, {0, 1}};
@@ -194,6 +205,7 @@ void mw__locator_measure(mw_locator *locator, mw_job *job)
     locator->tiling.slots_are_numbers = tiling->tile_of && are_slots_numbers(tiling);
     locator->centre = mw__tile_name(tiling, mw__start_centre(tiling, locator->low, locator->high));
     double width = locator->high[0] - locator->low[0], height = locator->high[1] - locator->low[1];
+    locator->scale = extent_scale(locator->low, locator->high);
     locator->near2 = width / mw__sample_count(tiling, MW_SAMPLE_CUBE_ROOT_OF_VERTICES) * height;
     locator->cell2 = width / guide_cells(tiling) * height;
     locator->crossings_per_length = expected_crossings(tiling->tri_count, width, height);

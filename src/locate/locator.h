@@ -16,6 +16,9 @@ struct mw_locator {
     mw_tiling tiling;
     mw_border_tree border_tree; /* edge_count 0 and no boxes without options.border */
     double low[2], high[2];     /* extent of the tiling                             */
+    /* 1, or a power of two by which the fast path multiplies differences of coordinates, where
+     * their products would leave the doubles */
+    double scale;
     /* How queries begin where nothing is said; with start MW_START_AUTO there is none. */
     mw_index guide;
     /* A tile within this squared distance is expected to be nearer than any of a sample. */

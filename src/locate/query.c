@@ -409,6 +409,9 @@ static mw_status query_resolve_start(const mw_query_options *options, mw_start_k
     return MW_OK;
 }
 
+/* mw_cursor.fast: which form of the fast path is tried first */
+enum { FAST_NONE, FAST_PLAIN, FAST_SCALED };
+
 /* Does the start lead near q, so that the walk is short? */
 static bool start_is_near(mw_start_kind start)
 {
@@ -456,7 +459,9 @@ mw_status mw_cursor_init(const mw_locator *locator, const mw_query_options *opti
         .finish = (uint8_t)(options->finish ? options->finish : locator->finish),
         .arithmetic = (uint8_t)options->arithmetic,
         .count = options->counters != 0,
-        .fast = start_is_near(start) && mw__has_fast_path(&locator->tiling, options),
+        .fast = start_is_near(start) && mw__has_fast_path(&locator->tiling, options)
+                    ? locator->scale == 1 ? FAST_PLAIN : FAST_SCALED
+                    : FAST_NONE,
         .live = locator->tiling.tile_of != NULL,
         .asked = options->samples,
         .last_name = locator->centre,
@@ -486,14 +491,45 @@ void mw__cursor_default(const mw_locator *locator, mw_cursor *cursor)
     if (MW_UNLIKELY(cursor->walk == MW_WALK_AUTO)) mw_cursor_init(locator, NULL, cursor, NULL);
 }
 
+/* As mw__query_first_tile. A stream of queries is near where it was: no call for that. */
+static MW_INLINE uint32_t fast_first_tile(const mw_locator *locator, mw_cursor *cursor, mw_point q)
+{
+    uint32_t last = cursor->last;
+    if (!cursor->index && cursor->start == MW_START_LAST) return last;
+    if (!cursor->index && cursor->start == MW_START_AUTO && locator->guide.start != MW_START_AUTO)
+        return mw__locator_guided_tile(locator, last, q);
+    return mw__query_first_tile(locator, cursor, last, q, &cursor->random, NULL);
+}
+
+/* By the fast path; false: it leads to tile cursor->last, but to no answer. */
+static MW_INLINE bool locate_fast_by(const mw_locator *locator, mw_cursor *cursor, mw_point q,
+                                     double scale, mw_location *location)
+{
+    const mw_tiling *tiling = &locator->tiling;
+    uint32_t t = fast_first_tile(locator, cursor, q);
+    double weight[3];
+    const mw_verdict verdict = mw__remembering_fast(tiling, q, scale, &t, weight);
+    cursor->last = t;
+    const mw_triangle *tile = &tiling->tri[t];
+    if (MW_LIKELY(verdict == MW_VERDICT_FOUND && !(tile->user & MW_GHOST))) {
+        mw__location_write_inside(location, tile->user, weight[0], weight[1], weight[2]);
+        return true;
+    }
+    return mw__fast_path_outside(tiling, cursor, tile, verdict == MW_VERDICT_FOUND,
+                                 verdict == MW_VERDICT_LEFT, location);
+}
+
 /* By the walk of the cursor: from tile cursor->last, where the fast path has led, else from where
- * the start says. */
+ * the start says. The fast path that scales is tried here. */
 static __attribute__((noinline)) mw_location locate_by_walk(const mw_locator *locator,
                                                             mw_cursor *cursor, mw_point q)
 {
     mw_work work;
     mw_location location;
     mw__cursor_default(locator, cursor);
+    if (cursor->fast == FAST_SCALED &&
+        locate_fast_by(locator, cursor, q, locator->scale, &location))
+        return location;
     if (cursor->fast && mw__query_answer_here(locator, cursor, cursor->last, q, &location))
         return location;
     mw_walk walk = cursor->fast
@@ -507,33 +543,10 @@ static __attribute__((noinline)) mw_location locate_by_walk(const mw_locator *lo
     return location;
 }
 
-/* As mw__query_first_tile. A stream of queries is near where it was: no call for that. */
-static MW_INLINE uint32_t fast_first_tile(const mw_locator *locator, mw_cursor *cursor, mw_point q)
-{
-    uint32_t last = cursor->last;
-    if (!cursor->index && cursor->start == MW_START_LAST) return last;
-    if (!cursor->index && cursor->start == MW_START_AUTO && locator->guide.start != MW_START_AUTO)
-        return mw__locator_guided_tile(locator, last, q);
-    return mw__query_first_tile(locator, cursor, last, q, &cursor->random, NULL);
-}
-
-/* By the fast path; false: it leads to tile cursor->last, but to no answer. */
 static MW_INLINE bool locate_fast(const mw_locator *locator, mw_cursor *cursor, mw_point q,
                                   mw_location *location)
 {
-    if (MW_UNLIKELY(!cursor->fast)) return false;
-    const mw_tiling *tiling = &locator->tiling;
-    uint32_t t = fast_first_tile(locator, cursor, q);
-    double weight[3];
-    const mw_verdict verdict = mw__remembering_fast(tiling, q, &t, weight);
-    cursor->last = t;
-    const mw_triangle *tile = &tiling->tri[t];
-    if (MW_LIKELY(verdict == MW_VERDICT_FOUND && !(tile->user & MW_GHOST))) {
-        mw__location_write_inside(location, tile->user, weight[0], weight[1], weight[2]);
-        return true;
-    }
-    return mw__fast_path_outside(tiling, cursor, tile, verdict == MW_VERDICT_FOUND,
-                                 verdict == MW_VERDICT_LEFT, location);
+    return MW_LIKELY(cursor->fast == FAST_PLAIN) && locate_fast_by(locator, cursor, q, 1, location);
 }
 
 static __attribute__((noinline)) mw_location locate_live(const mw_locator *locator,

@@ -34,6 +34,11 @@
 #define MW_WEIGHT_SUM_LEAST 0x1p-900
 #define MW_WEIGHT_SUM_MOST 0x1p900
 
+/* Where the products of coordinates leave the doubles, differences are multiplied by a power of two
+ * first; else by 1, a literal, which costs nothing. That is exact, unless it underflows. Then each
+ * difference is off by at most 2^-1075: the bound has SCALED_ERROR times all of them more. */
+#define MW_SCALED_ERROR 0x1p-1000
+
 /* Areas (twice) of the triangles that q makes with the sides of a tile, area[k] opposite to corner
  * k, as mw__location_areas has them where it need not be exact. The bound is that of orient2d, with
  * the products of all three in the place of the two of each: no less than any of theirs. */
@@ -42,14 +47,17 @@ typedef struct mw_rounded_areas {
 } mw_rounded_areas;
 
 static MW_INLINE mw_rounded_areas mw__rounded_areas(const mw_point *point, const mw_triangle *tile,
-                                                    mw_point q)
+                                                    mw_point q, double scale)
 {
     mw_point a = point[tile->v[0]], b = point[tile->v[1]], c = point[tile->v[2]];
-    double ax = a.x - q.x, ay = a.y - q.y, bx = b.x - q.x, by = b.y - q.y, cx = c.x - q.x,
-           cy = c.y - q.y;
+    double ax = (a.x - q.x) * scale, ay = (a.y - q.y) * scale, bx = (b.x - q.x) * scale,
+           by = (b.y - q.y) * scale, cx = (c.x - q.x) * scale, cy = (c.y - q.y) * scale;
     double bc = bx * cy, cb = by * cx, ca = cx * ay, ac = cy * ax, ab = ax * by, ba = ay * bx;
     double bound =
         mw__orient2d_bound(fabs(bc) + fabs(cb) + (fabs(ca) + fabs(ac)), fabs(ab) + fabs(ba));
+    if (scale != 1)
+        bound +=
+            MW_SCALED_ERROR * (fabs(ax) + fabs(ay) + (fabs(bx) + fabs(by)) + (fabs(cx) + fabs(cy)));
     return (mw_rounded_areas){{bc - cb, ca - ac, ab - ba}, bound};
 }
 
@@ -70,14 +78,14 @@ static MW_INLINE bool mw__rounded_weights(const mw_rounded_areas *of, double wei
  * inside it, with these weights; MW_VERDICT_LEFT: beyond an edge of it that is on the hull;
  * MW_VERDICT_UNSURE: rounding cannot tell; MW_VERDICT_OUT_OF_FUEL: too far. Each turn is a jump, so
  * that the processor predicts where to go on: a single walk should not wait for the areas. */
-static MW_INLINE mw_verdict mw__remembering_fast(const mw_tiling *tiling, mw_point q, uint32_t *t,
-                                                 double weight[3])
+static MW_INLINE mw_verdict mw__remembering_fast(const mw_tiling *tiling, mw_point q, double scale,
+                                                 uint32_t *t, double weight[3])
 {
     const mw_triangle *tri = tiling->tri, *tile = &tri[*t];
     mw_verdict verdict = MW_VERDICT_OUT_OF_FUEL;
     for (uint32_t steps = 0; steps < MW_FAST_STEPS; steps++) {
         mw__prefetch_across(tri, tile);
-        const mw_rounded_areas of = mw__rounded_areas(tiling->point, tile, q);
+        const mw_rounded_areas of = mw__rounded_areas(tiling->point, tile, q, scale);
         uint32_t link;
         if (of.area[2] < -of.bound) {
             link = tile->link[0];
@@ -109,7 +117,7 @@ static MW_INLINE uint32_t mw__link_nearer(const mw_tiling *tiling, mw_point q, u
     static const uint8_t edge[8] = {3, 0, 1, 0, 2, 2, 1, 3};
     const mw_triangle *tile = &tiling->tri[t];
     const uint32_t way[4] = {tile->link[0], tile->link[1], tile->link[2], mw__link(t, 0)};
-    const mw_rounded_areas of = mw__rounded_areas(tiling->point, tile, q);
+    const mw_rounded_areas of = mw__rounded_areas(tiling->point, tile, q, 1);
     return way[edge[(uint32_t)(of.area[2] < 0) | (uint32_t)(of.area[0] < 0) << 1 |
                     (uint32_t)(of.area[1] < 0) << 2]];
 }

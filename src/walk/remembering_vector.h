@@ -53,7 +53,7 @@ typedef struct mw_vector_walk {
     uint32_t t[MW_VECTOR_LANES]; /* current tile */
 } mw_vector_walk;
 
-/* mw_rounded_areas of the four tiles. */
+/* mw__rounded_areas of the four tiles. */
 typedef struct mw_vector_areas {
     const mw_triangle *tile[MW_VECTOR_LANES];
     mw_vector area[3], bound;
@@ -61,10 +61,10 @@ typedef struct mw_vector_areas {
 
 typedef double mw_vector_point __attribute__((vector_size(16), aligned(8)));
 
-/* Corner v of each tile, seen from q. */
+/* Corner v of each tile, seen from q, scaled. */
 static MW_INLINE void mw__vector_corner(const mw_vector_areas *of, const mw_vector_walk *w,
-                                        const mw_point *point, uint32_t v, mw_vector *x,
-                                        mw_vector *y)
+                                        const mw_point *point, double scale, uint32_t v,
+                                        mw_vector *x, mw_vector *y)
 {
     mw_vector_point p[MW_VECTOR_LANES];
     mw_vector qx, qy;
@@ -74,18 +74,18 @@ static MW_INLINE void mw__vector_corner(const mw_vector_areas *of, const mw_vect
     memcpy(&qy, w->y, sizeof qy);
     mw_vector even = __builtin_shufflevector(p[0], p[1], 0, 2, 1, 3),
               odd = __builtin_shufflevector(p[2], p[3], 0, 2, 1, 3);
-    *x = __builtin_shufflevector(even, odd, 0, 1, 4, 5) - qx;
-    *y = __builtin_shufflevector(even, odd, 2, 3, 6, 7) - qy;
+    *x = (__builtin_shufflevector(even, odd, 0, 1, 4, 5) - qx) * scale;
+    *y = (__builtin_shufflevector(even, odd, 2, 3, 6, 7) - qy) * scale;
 }
 
 #define MW_VECTOR_MAGNITUDE(a) ((mw_vector)((mw_vector_mask)(a)&INT64_MAX))
 
 static MW_INLINE void mw__vector_areas(mw_vector_areas *of, const mw_vector_walk *w,
-                                       const mw_triangle *tri, const mw_point *point)
+                                       const mw_triangle *tri, const mw_point *point, double scale)
 {
     mw_vector x[3], y[3];
     for (uint32_t k = 0; k < MW_VECTOR_LANES; k++) of->tile[k] = &tri[w->t[k]];
-    for (uint32_t v = 0; v < 3; v++) mw__vector_corner(of, w, point, v, &x[v], &y[v]);
+    for (uint32_t v = 0; v < 3; v++) mw__vector_corner(of, w, point, scale, v, &x[v], &y[v]);
     mw_vector bc = x[1] * y[2], cb = y[1] * x[2], ca = x[2] * y[0], ac = y[2] * x[0],
               ab = x[0] * y[1], ba = y[0] * x[1];
     of->area[0] = bc - cb;
@@ -95,6 +95,8 @@ static MW_INLINE void mw__vector_areas(mw_vector_areas *of, const mw_vector_walk
                                      (MW_VECTOR_MAGNITUDE(ca) + MW_VECTOR_MAGNITUDE(ac)) +
                                      (MW_VECTOR_MAGNITUDE(ab) + MW_VECTOR_MAGNITUDE(ba))) +
                 MW_UNDERFLOW_ERROR;
+    for (uint32_t v = 0; v < 3 && scale != 1; v++)
+        of->bound += MW_SCALED_ERROR * (MW_VECTOR_MAGNITUDE(x[v]) + MW_VECTOR_MAGNITUDE(y[v]));
 }
 
 /* One step of each: cross the first edge beyond which q surely lies. Returns the lanes that ended,

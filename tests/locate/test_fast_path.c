@@ -126,7 +126,8 @@ static void test_what_needs_the_walks(void **state)
 static void test_scales(void **state)
 {
     (void)state;
-    static const double scale[] = {1e-160, 1e-140, 1e-100, 1e100, 1e140, 1e153};
+    static const double scale[] = {1e-290, 1e-160, 1e-140, 1e-122, 1e-119, 1e-100, 1e100,
+                                   1e118,  1e123,  1e140,  1e153,  1e250,  1e300};
     uint64_t random = 22;
     print_message("seed %llu\n", (unsigned long long)random);
     for (size_t i = 0; i < sizeof scale / sizeof *scale; i++) {
