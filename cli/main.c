@@ -15,10 +15,10 @@
 #include <unistd.h>
 
 static const command *const commands[] = {
-    &info_command,     &check_command,   &triangulate_command, &locate_command,
-    &sample_command,   &weights_command, &apply_command,       &profile_command,
-    &contours_command, &raster_command,  &edit_command,        &star_command,
-    &probe_command,    &walk_command,    &bench_command,       &convert_command,
+    &info_command,    &check_command,  &triangulate_command, &locate_command,   &sample_command,
+    &weights_command, &apply_command,  &profile_command,     &contours_command, &raster_command,
+    &visible_command, &volume_command, &edit_command,        &star_command,     &probe_command,
+    &walk_command,    &bench_command,  &convert_command,     &view_command,
 };
 #define COMMAND_COUNT (sizeof commands / sizeof *commands)
 
@@ -81,7 +81,7 @@ static int command_run(const command *c, int count, char **arguments)
     if (end == 0 && common->help) {
         end = command_print_help(c, common->help_all);
     } else if (end == 0 && common->threads > MAX_THREADS) {
-        complain("option '--threads' wants at most %d", MAX_THREADS);
+        complain("option '--threads' must be at most %d", MAX_THREADS);
         end = END_USAGE;
     } else if (end == 0) {
         signals_begin();

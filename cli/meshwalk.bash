@@ -13,13 +13,18 @@ _meshwalk_options() {
         triangulate) echo "--constraints --boundary --keep --split --strict --max-edge --from --tolerance --band --kind --weight --hidden --limit --format --columns --class --layer --where --crs --points-crs --constraints-crs --json $common" ;;
         locate) echo "--details --base --polygons --attribute --polygon-layer $query $stream $common" ;;
         sample) echo "--field --outside --missing --nodata --status --time --values --time-column --wide --recover $query $stream $common" ;;
-        weights) echo "$query --strict --stats --json --layer --where $common" ;;
+        weights) echo "$query --method --values --norm --strict --stats --json --layer --where $common" ;;
         apply) echo "--field --missing --strict --stats --json $common" ;;
-        contours) echo "--interval --levels --base --field --nodata --crs $common" ;;
+        contours) echo "--interval --levels --base --polygons --field --nodata --crs $common" ;;
+        volume) echo "--base --against --field --against-field --nodata --crs --against-crs --json --strict $common" ;;
         profile) echo "--field --nodata --attribute --layer --columns --crs --lines-crs --strict $common" ;;
         raster)
             echo "--resolution --like --extent --field --derive --nodata --outside --max-edge --vertex-nodata --type"
             echo "--driver --creation --crs --json $common"
+            ;;
+        visible)
+            echo "--from --height --target-height --to --raster --resolution --like --extent --driver --creation --field"
+            echo "--nodata --columns --crs --points-crs $stream $common"
             ;;
         edit)
             echo "--answers --heights --changes --numbers --log --constraints --undo --delaunay --skip --strict --walk"
@@ -31,6 +36,7 @@ _meshwalk_options() {
             ;;
         walk) echo "--from --to --walk --animate --max-distance --samples --iterations --as --centre --lonlat --weld $common" ;;
         convert) echo "--format --crs $common" ;;
+        view) echo "--points --columns --as --centre --lonlat --weld $common" ;;
         bench) echo "--queries --sizes --enclose --data --engines --tasks --rounds --walk --seeds --no-times --format --plot $common" ;;
     esac
 }
@@ -139,7 +145,7 @@ _meshwalk() {
         before=${COMP_WORDS[COMP_CWORD - 2]}
     fi
     if ((COMP_CWORD == 1)); then
-        names='info check triangulate locate sample weights apply profile contours raster edit star probe walk convert bench --help --version'
+        names='info check triangulate locate sample weights apply profile contours raster visible volume edit star probe walk convert view bench --help --version'
         mapfile -t COMPREPLY < <(compgen -W "$names" -- "$word")
         return
     fi

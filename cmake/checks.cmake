@@ -65,7 +65,9 @@ add_test(NAME fast_math COMMAND ${CMAKE_C_COMPILER} -ffast-math -fsyntax-only -I
   -I${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/src/predicates/orient2d.c)
 set_tests_properties(fast_math PROPERTIES PASS_REGULAR_EXPRESSION "do not compile it with -ffast-math")
 if(MW_BUILD_CLI)
+  add_subdirectory(${PROJECT_SOURCE_DIR}/web/test ${PROJECT_BINARY_DIR}/web/test)
   add_test(NAME install COMMAND ${PROJECT_SOURCE_DIR}/tools/check_install ${PROJECT_BINARY_DIR} ${CMAKE_C_COMPILER})
+  add_test(NAME strangers COMMAND ${PROJECT_SOURCE_DIR}/tools/check_strangers ${PROJECT_BINARY_DIR})
 endif()
 
 # The source of the terrain is rarely at hand: NumPy and Debian's python-matplotlib-data.

@@ -35,7 +35,7 @@ double option_number(const char *name, const char *text, double low, double high
     char *rest;
     double value = strtod(text, &rest);
     if (rest == text || *rest || !(value >= low && value <= high))
-        fail(END_USAGE, "option '--%s' wants a number from %g to %g, not '%s'", name, low, high,
+        fail(END_USAGE, "option '--%s' must be a number from %g to %g, not '%s'", name, low, high,
              text);
     return value;
 }

@@ -72,7 +72,7 @@ static int size_list_take(const char *word, void *self)
     double size = strtod(word, &rest);
     bool plain = *word && strspn(word, "0123456789e") == strlen(word) && !*rest;
     if (!plain || !(size >= LEAST_SIZE && size <= MOST_SIZE) || size != floor(size)) {
-        complain("option '--sizes' wants numbers from %d to %d separated by commas, not '%s'",
+        complain("option '--sizes' must be numbers from %d to %d separated by commas, not '%s'",
                  LEAST_SIZE, MOST_SIZE, word);
         return END_USAGE;
     }

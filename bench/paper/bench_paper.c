@@ -148,7 +148,7 @@ static int paper_check_file(const char *path, void *self)
 {
     const paper *p = self;
     if (!*path) {
-        complain("option '--data' wants files separated by commas, not '%s'", p->settings->data);
+        complain("option '--data' must be files separated by commas, not '%s'", p->settings->data);
         return END_USAGE;
     }
     int end = files_check_output(p->settings->common.output, &path, 1);

@@ -33,7 +33,7 @@ int paper_plot_check(const bench_settings *s, const paper_table *table)
         return END_USAGE;
     }
     if (files_same_output(s->common.output, s->plot)) {
-        complain("%s: the figures and the plot want files of their own", s->plot);
+        complain("%s: the figures and the plot must go to different files", s->plot);
         return END_USAGE;
     }
     return plot_check(s->plot);

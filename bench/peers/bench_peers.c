@@ -120,7 +120,7 @@ static int peers_check_file(const char *path, void *self)
 {
     const peers_run *r = self;
     if (*path) return files_check_output(r->settings->common.output, &path, 1);
-    complain("option '--data' wants files separated by commas, not '%s'", r->settings->data);
+    complain("option '--data' must be files separated by commas, not '%s'", r->settings->data);
     return END_USAGE;
 }
 
@@ -144,11 +144,11 @@ static int peers_check_plot(const peers_run *r)
     const bench_settings *s = r->settings;
     if (!s->plot) return 0;
     if (s->data || r->sizes.count < 2) {
-        complain("bench scale: a plot wants made sets of two sizes or more");
+        complain("bench scale: a plot needs made sets of at least two sizes");
         return END_USAGE;
     }
     if (files_same_output(s->common.output, s->plot)) {
-        complain("%s: the figures and the plot want files of their own", s->plot);
+        complain("%s: the figures and the plot must go to different files", s->plot);
         return END_USAGE;
     }
     int end = plot_check(s->plot);

@@ -118,7 +118,7 @@ bool engine_library_has_room(engine_library library, size_t vertices)
 {
     double wanted = (double)libraries[library].bytes * (double)vertices, there = available_memory();
     if (wanted <= there || there == 0) return true;
-    complain("%s wants about %.0f GB for %zu vertices, and there are %.0f", libraries[library].name,
+    complain("%s needs about %.0f GB for %zu vertices, but there are %.0f", libraries[library].name,
              wanted / 1e9, vertices, there / 1e9);
     return false;
 }

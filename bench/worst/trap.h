@@ -22,8 +22,7 @@ typedef struct trap_plan {
 const char *trap_name(int trap);
 const char *trap_help(int trap);
 
-/* Make it, and measure it; no figure where so many vertices would take minutes. Returns 0, or an
- * exit code after a complaint. */
+/* Make it, and measure it. Returns 0, or an exit code after a complaint. */
 int trap_measure(int trap, const trap_plan *plan, trap_figures *figures);
 
 #endif

@@ -103,7 +103,7 @@ static int apply_run(const void *settings, const char *const *operands)
 {
     const apply_settings *s = settings;
     if (files_is_standard(s->common.output)) {
-        complain("apply wants an output: -o FILE.nc");
+        complain("apply needs an output: -o FILE.nc");
         return END_USAGE;
     }
     int end = files_check_output(s->common.output, operands, 2);

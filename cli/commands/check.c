@@ -200,9 +200,9 @@ static int check_fix_settings(const check_settings *s, const char *const *operan
 {
     const char *output = s->mesh.common.output;
     if (!s->fix && (s->numbers || s->tolerance > 0 || s->format))
-        return check_refuse("--numbers, --tolerance and --format are about --fix");
+        return check_refuse("--numbers, --tolerance and --format need --fix");
     if (!s->fix) return 0;
-    if (s->mesh.lonlat) return check_refuse("--fix mends no mesh of --lonlat");
+    if (s->mesh.lonlat) return check_refuse("--fix cannot mend a mesh with --lonlat");
     int end = mesh_output_check("check", output, s->format);
     if (end == 0) end = files_check_output(output, operands, 1);
     return end ? end : side_outputs_check(numbers, 1, output, operands, 1);
@@ -231,7 +231,7 @@ static void check_fix_tell(const check_settings *s, const char *path, const mend
 }
 
 /* Check what was mended, write it, then tell about it. One of the files may take standard output.
- * */
+ */
 static int check_fix_write(const check_settings *s, const char *path, const mended_mesh *m,
                            const mw_mesh_file *file, bool temporary)
 {

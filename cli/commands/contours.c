@@ -7,6 +7,7 @@
 #include "cli/gdal/mesh_crs.h"
 #include "cli/input/mesh_field.h"
 #include "cli/lines/contour_lines.h"
+#include "cli/lines/contour_polygons.h"
 #include "cli/lines/row_output.h"
 #include "cli/output/csv_row.h"
 
@@ -20,6 +21,7 @@
 typedef struct contours_settings {
     common_settings common;
     const char *interval, *levels, *base, *field, *nodata, *crs;
+    bool polygons;
 } contours_settings;
 
 static const option contours_options[] = {
@@ -29,6 +31,8 @@ static const option contours_options[] = {
      "these levels, separated by commas: 0,2.5,10", NULL},
     {"base", 0, OPTION_TEXT, offsetof(contours_settings, base), "B",
      "with --interval: count the multiples from B (default: 0)", NULL},
+    {"polygons", 0, OPTION_FLAG, offsetof(contours_settings, polygons), NULL,
+     "instead of lines, the polygons between them: the parts of MESH in each band of values", NULL},
     {"field", 0, OPTION_TEXT, offsetof(contours_settings, field), "NAME",
      "the value: z or a field of MESH (default: z)", NULL},
     {"nodata", 0, OPTION_TEXT, offsetof(contours_settings, nodata), "V",
@@ -49,7 +53,7 @@ typedef struct contour_levels {
 
 static int levels_fail(const char *name, const char *given)
 {
-    complain("option '--%s' wants %s, not '%.60s'", name,
+    complain("option '--%s' must be %s, not '%.60s'", name,
              strcmp(name, "levels") == 0 ? "numbers separated by commas" : "a number", given);
     return END_USAGE;
 }
@@ -114,7 +118,7 @@ static int levels_make(contour_levels *l, const contours_settings *s, const doub
     if (end == 0 && s->base) end = levels_number("base", s->base, &base, &of_base);
     if (end) return end;
     if (!(interval > 0)) {
-        complain("option '--interval' wants a positive number, not '%.60s'", s->interval);
+        complain("option '--interval' must be a positive number, not '%.60s'", s->interval);
         return END_USAGE;
     }
     if (of_base > decimals || of_base < 0) decimals = decimals < 0 ? -1 : of_base;
@@ -166,26 +170,96 @@ static int contours_write_line(void *self, const contour_line *line)
     return end;
 }
 
+static int contours_write_polygon(void *self, const contour_polygon *polygon)
+{
+    contours_writer *w = self;
+    text *out = &w->out.text;
+    uint64_t number = w->lines++;
+    int end = 0;
+    size_t rows = w->table ? polygon->first[polygon->ring_count] : 1;
+    for (size_t i = 0, ring = 0; end == 0 && i < rows; i++) {
+        const double *p = polygon->points + 2 * i;
+        ring += i == polygon->first[ring + 1];
+        text_printf(out, "%llu", (unsigned long long)number);
+        csv_row_double(out, true, polygon->low);
+        csv_row_double(out, true, polygon->high);
+        if (w->table) csv_row_count(out, true, (uint32_t)ring);
+        if (w->table) csv_row_double(out, true, p[0]);
+        if (w->table) csv_row_double(out, true, p[1]);
+        csv_row_end(out);
+        end = w->table ? row_output_row(&w->out, p)
+                       : row_output_polygon(&w->out, polygon->points, polygon->first,
+                                            polygon->ring_count);
+    }
+    return end;
+}
+
+static int contours_open(const contours_settings *s, contours_writer *w, const char *crs)
+{
+    text header = {0};
+    int end;
+    const char *path = s->common.output;
+    bool quiet = s->common.quiet;
+    text_string(&header, s->polygons ? "polygon,min,max" : "line,elevation,closed");
+    if (w->table) text_string(&header, s->polygons ? ",ring,x,y" : ",x,y");
+    text_string(&header, "\n");
+    if (w->table)
+        end = row_output_open(&w->out, path, &header, s->polygons ? "irrirr" : "irirr", crs, quiet);
+    else if (s->polygons)
+        end = row_output_open_polygons(&w->out, path, &header, "irr", crs, quiet);
+    else
+        end = row_output_open_lines(&w->out, path, &header, "iri", crs, quiet);
+    text_release(&header);
+    return end;
+}
+
 static int contours_write(const contours_settings *s, const mw_mesh *mesh, const double *values,
                           const contour_levels *levels, const char *path, const char *crs)
 {
     contours_writer w = {.table = !gdal_rows_known(s->common.output)};
-    text header = {0};
-    text_string(&header, w.table ? "line,elevation,closed,x,y\n" : "line,elevation,closed\n");
-    int end =
-        w.table
-            ? row_output_open(&w.out, s->common.output, &header, "irirr", crs, s->common.quiet)
-            : row_output_open_lines(&w.out, s->common.output, &header, "iri", crs, s->common.quiet);
+    int end = contours_open(s, &w, crs);
     progress_phase("tracing", path);
     if (end == 0)
-        end = contour_lines_trace(mesh, values, levels->values, levels->count, contours_write_line,
-                                  &w);
+        end = s->polygons ? contour_polygons_make(mesh, values, levels->values, levels->count,
+                                                  contours_write_polygon, &w)
+                          : contour_lines_trace(mesh, values, levels->values, levels->count,
+                                                contours_write_line, &w);
     int closed = row_output_close(&w.out, end == 0);
-    text_release(&header);
     if (end == 0) end = closed;
     if (end == 0 && w.lines == 0 && !s->common.quiet)
-        complain("%s: remark: no line of these levels crosses the mesh", path);
+        complain(s->polygons ? "%s: remark: no triangle has a value at each vertex"
+                             : "%s: remark: no line of these levels crosses the mesh",
+                 path);
     return end;
+}
+
+/* Polygons of triangles that overlap would overlap, and one without area has no side. */
+static int contours_check_mesh(const contours_settings *s, const mw_mesh *mesh, const char *path)
+{
+    mw_locator *locator;
+    mw_error error;
+    uint32_t v[3];
+    double p[3][2];
+    const mw_locator_options options = {
+        .fill = MW_FILL_NO, .threads = s->common.threads, .progress = progress_of_call()};
+    mw_status status = mw_locator_create(mesh, &options, &locator, &error);
+    mw_locator_destroy(locator);
+    if (status != MW_OK) {
+        int end = fail_mesh(path, &error);
+        if (end == END_INPUT)
+            complain("'meshwalk check %s' lists every defect, 'meshwalk view' shows it", path);
+        return end;
+    }
+    for (uint32_t t = 0; t < mw_mesh_triangle_count(mesh); t++) {
+        mw_mesh_triangle(mesh, t, v);
+        for (int k = 0; k < 3; k++) mw_mesh_vertex(mesh, v[k], p[k]);
+        if (mw_orient2d(p[0], p[1], p[2]) != 0) continue;
+        complain("%s: triangle %u has no area, which --polygons cannot have; 'meshwalk check "
+                 "--fix drop' takes such triangles away",
+                 path, t);
+        return END_INPUT;
+    }
+    return 0;
 }
 
 static int contours_of_mesh(const contours_settings *s, const mw_mesh *mesh, const char *path,
@@ -202,8 +276,8 @@ static int contours_check(const contours_settings *s, const char *const *operand
     double value;
     int decimals, end = 0;
     if (!s->interval == !s->levels) {
-        complain(s->interval ? "--interval and --levels: only one of them"
-                             : "which levels? --interval D or --levels LIST tells");
+        complain(s->interval ? "give --interval or --levels, not both"
+                             : "which levels? Give --interval D or --levels LIST");
         return END_USAGE;
     }
     if (s->base && !s->interval) {
@@ -246,6 +320,7 @@ static int contours_run(const void *settings, const char *const *operands)
     if (end == 0) end = nodata_parse("nodata", s->nodata, &field.nodata);
     if (end == 0 && s->levels) end = levels_parse(&levels, s->levels);
     if (end == 0) end = contours_read(s, operands[0], &field, &mesh, &crs);
+    if (end == 0 && s->polygons) end = contours_check_mesh(s, mesh, operands[0]);
     if (end == 0) end = contours_of_mesh(s, mesh, operands[0], crs, &levels);
     free(levels.values);
     free(crs);
@@ -259,15 +334,17 @@ const command contours_command = {
     .name = "contours",
     .operands = "MESH",
     .operand_count = 1,
-    .summary = "the lines of equal height of a mesh",
+    .summary = "the lines of equal height of a mesh, or bands between them",
     .description =
         "Writes lines of a vector file, by the ending of the output, with the attributes line, "
         "elevation and closed; or a row for each point of each line: line,elevation,closed,x,y. "
         "Every line is closed or goes from border to border. A vertex at the level counts as above "
         "it, so flat triangles at the level lie above it, and the line runs along them. Higher "
-        "ground lies to the left of a line.",
+        "ground lies to the left of a line. With --polygons, it writes the parts of MESH from one "
+        "level up to the next, with the attributes polygon, min and max, or the rows "
+        "polygon,min,max,ring,x,y.",
     .options = tables,
-    .essential = "interval levels base field output",
+    .essential = "interval levels polygons field output",
     .settings_size = sizeof(contours_settings),
     .run = contours_run,
 };

@@ -144,7 +144,8 @@ static int edit_check_settings(const edit_settings *s, const char *const *operan
 static int edit_fail_mesh(const char *path, const mw_error *error)
 {
     int end = fail_mesh(path, error);
-    if (end == END_INPUT) complain("'meshwalk check %s' lists every defect", path);
+    if (end == END_INPUT)
+        complain("'meshwalk check %s' lists every defect, 'meshwalk view' shows it", path);
     return end;
 }
 

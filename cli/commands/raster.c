@@ -7,6 +7,7 @@
 #include "cli/frame/report.h"
 #include "cli/gdal/gdal_crs.h"
 #include "cli/raster/raster_bands.h"
+#include "cli/raster/raster_like.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -89,8 +90,7 @@ typedef struct raster_work {
     raster_mesh_settings wish;
     raster_mesh mesh;
     raster_grid grid;
-    gdal_raster_form like;
-    char *like_crs;
+    raster_like like;
     raster_scan *scan;
     raster_bands bands;
     gdal_raster *raster;
@@ -138,7 +138,7 @@ static int raster_choose_nodata(const raster_settings *s, raster_bands *b)
     if (!s->nodata) return 0;
     b->nodata = strtod(s->nodata, &end);
     if (*s->nodata && !*end && type_holds(b->type, b->nodata)) return 0;
-    complain("option '--nodata' wants a number that a pixel can have, not '%.60s'", s->nodata);
+    complain("option '--nodata' must be a number that a pixel can have, not '%.60s'", s->nodata);
     return END_USAGE;
 }
 
@@ -156,7 +156,8 @@ static int raster_check_settings(const raster_settings *s, const char *mesh, ras
 {
     const char *inputs[] = {mesh, s->like};
     if (s->like && (s->grid.extent || s->grid.resolution > 0))
-        return raster_refuse("--like tells the pixels: --resolution and --extent cannot");
+        return raster_refuse(
+            "--resolution and --extent cannot be used with --like, which sets the pixels");
     int end = raster_grid_check(&s->grid);
     if (end == 0) end = raster_choose_bands(s, &w->bands);
     if (end == 0) end = crs_check_option("crs", s->crs);
@@ -167,36 +168,13 @@ static int raster_check_settings(const raster_settings *s, const char *mesh, ras
 
 /* --- the grid --------------------------------------------------------------------------------- */
 
-/* The pixels of another raster, whose system has to be that of the mesh. */
-static int raster_take_like(const raster_settings *s, const char *path, raster_work *w)
-{
-    char names[2][CRS_NAME];
-    const gdal_raster_form *like = &w->like;
-    w->grid = (raster_grid){.west = like->corner[0],
-                            .north = like->corner[1],
-                            .width = like->size[0],
-                            .height = like->size[1],
-                            .columns = like->columns,
-                            .rows = like->rows};
-    if (!s->nodata && !isnan(like->nodata) && type_holds(w->bands.type, like->nodata))
-        w->bands.nodata = like->nodata;
-    if (w->mesh.crs && w->like_crs && !crs_same(w->mesh.crs, w->like_crs)) {
-        complain("%s is in %s, %s in %s: bring one to the other first", path,
-                 crs_name(w->mesh.crs, names[0]), s->like, crs_name(w->like_crs, names[1]));
-        return END_INPUT;
-    }
-    if (!w->mesh.crs != !w->like_crs && !s->common.quiet)
-        complain("%s: warning: its coordinate system is not known, and %s is in %s: the mesh is "
-                 "taken as it is",
-                 w->mesh.crs ? s->like : path, w->mesh.crs ? path : s->like,
-                 crs_name(w->mesh.crs ? w->mesh.crs : w->like_crs, names[0]));
-    return raster_grid_complete(&w->grid);
-}
-
 static int raster_make_grid(const raster_settings *s, const char *path, raster_work *w)
 {
     raster_grid_wish wish = s->grid;
-    if (s->like) return raster_take_like(s, path, w);
+    double nodata = w->like.form.nodata;
+    if (s->like && !s->nodata && !isnan(nodata) && type_holds(w->bands.type, nodata))
+        w->bands.nodata = nodata;
+    if (s->like) return raster_like_grid(&w->like, &w->grid, path, w->mesh.crs, s->common.quiet);
     if (wish.resolution == 0)
         wish.resolution = raster_grid_resolution(w->mesh.area, w->mesh.vertices);
     return raster_grid_make(&w->grid, &wish, w->mesh.extent);
@@ -217,8 +195,8 @@ static void raster_warn(const raster_settings *s, const char *path, const raster
         complain("%s: warning: no pixel has a value: none of their centres lies in the mesh",
                  s->common.output);
     if (b->mistakable > 0)
-        complain("%s: warning: %llu of its pixels have a value that is that of --nodata",
-                 s->common.output, (unsigned long long)b->mistakable);
+        complain("%s: warning: %llu of its pixels have the value of --nodata", s->common.output,
+                 (unsigned long long)b->mistakable);
 }
 
 static int raster_write(const raster_settings *s, const char *path, raster_work *w)
@@ -236,7 +214,7 @@ static int raster_write(const raster_settings *s, const char *path, raster_work 
                              .type = b->type,
                              .nodata = b->nodata,
                              .names = names,
-                             .crs = w->mesh.crs ? w->mesh.crs : w->like_crs,
+                             .crs = w->mesh.crs ? w->mesh.crs : w->like.crs,
                              .driver = s->driver,
                              .creation = s->creation};
     int end = raster_scan_create(&w->scan, w->mesh.locator, w->mesh.mesh, g);
@@ -288,7 +266,7 @@ static int raster_run(const void *settings, const char *const *operands)
         .max_edge = s->max_edge,
         .border = s->outside == OUTSIDE_NEAREST};
     int end = raster_check_settings(s, operands[0], &w);
-    if (end == 0 && s->like) end = gdal_raster_describe(s->like, &w.like, &w.like_crs);
+    if (end == 0) end = raster_like_read(&w.like, s->like);
     if (end == 0) end = raster_mesh_read(&w.mesh, operands[0], &w.wish);
     if (end == 0) end = raster_make_grid(s, operands[0], &w);
     if (end == 0) end = raster_write(s, operands[0], &w);
@@ -296,7 +274,7 @@ static int raster_run(const void *settings, const char *const *operands)
     raster_scan_release(w.scan);
     raster_grid_release(&w.grid);
     raster_mesh_release(&w.mesh);
-    free(w.like_crs);
+    raster_like_release(&w.like);
     return end;
 }
 

@@ -44,7 +44,7 @@ static const choices missing_choices = {"way of --missing", missing_name, missin
 
 static const option sample_options[] = {
     {"field", 0, OPTION_TEXT, offsetof(sample_settings, field), "NAME",
-     "the value to sample: z or a field of MESH (default: z)", NULL},
+     "the value to sample: z or a field of MESH, also one of triangles (default: z)", NULL},
     {"outside", 0, OPTION_CHOICE, offsetof(sample_settings, outside), "NAME",
      "what a point outside the mesh gets (default: empty):", &outside_choices},
     {"missing", 0, OPTION_CHOICE, offsetof(sample_settings, missing), "NAME",
@@ -69,14 +69,16 @@ static const option sample_options[] = {
     {"wide", 0, OPTION_FLAG, offsetof(sample_settings, series.wide), NULL,
      "with --time: one row for each point, a column for each field and step", NULL},
     {"recover", 0, OPTION_FLAG, offsetof(sample_settings, series.recover), NULL,
-     "over time: make values at faces continuous; at a vertex the mean of its faces, by area",
+     "make values at triangles or faces continuous; at a vertex the mean of those around it, by "
+     "area",
      NULL},
     {0},
 };
 
 /* What the rows are made from. */
 typedef struct sampled_field {
-    const double *values; /* one for each vertex; NaN where it is missing */
+    const double *values;    /* one for each vertex; NaN where it is missing */
+    const double *triangles; /* instead of these one for each triangle; or NULL */
     point_query_values at_points;
     int outside, missing;
     bool status;
@@ -133,6 +135,7 @@ static double sample_value_outside(const point_query *q, const sampled_field *s,
     mw_nearest_border_point hit;
     if (mw_nearest_border(q->locator, point[0], point[1], &hit, NULL) != MW_OK) return NAN;
     *triangle = hit.triangle;
+    if (s->triangles) return s->triangles[hit.triangle];
     double value =
         s->outside == OUTSIDE_LINEAR ? sample_plane_value(q, s->values, hit.triangle, point) : NAN;
     return isfinite(value) ? value : sample_border_value(q, s->values, &hit);
@@ -145,11 +148,11 @@ static bool sample_row(const point_query *q, const void *self, const double poin
     double value = NAN;
     uint32_t triangle = where->triangle;
     if (triangle != MW_NONE)
-        value = point_query_value(&s->at_points, where);
+        value = s->triangles ? s->triangles[triangle] : point_query_value(&s->at_points, where);
     else if (s->outside != OUTSIDE_EMPTY && where->where != MW_BAD)
         value = sample_value_outside(q, s, point, &triangle);
     bool missing = isnan(value) && triangle != MW_NONE;
-    if (missing && s->missing == MISSING_NEAREST)
+    if (missing && s->missing == MISSING_NEAREST && !s->triangles)
         value = sample_nearest_corner(q, s->values, triangle, point);
     csv_row_double(out, !isnan(value), value);
     if (s->status) csv_row_word(out, missing ? "missing" : mw_where_name((mw_where)where->where));
@@ -177,25 +180,24 @@ static int sample_series(const sample_settings *s, const char *const *operands)
     return series_sample(&s->query, &series, operands);
 }
 
-static int sample_run(const void *settings, const char *const *operands)
+/* Values that do not depend on time. Returns the exit code. */
+static int sample_field(const sample_settings *s, const char *const *operands)
 {
-    const sample_settings *s = settings;
-    const series_settings *over = &s->series;
-    if (over->time || over->values || over->time_column) return sample_series(s, operands);
-    if (over->wide || over->recover) {
-        complain("option '--%s' is for values over time: --time", over->wide ? "wide" : "recover");
-        return END_USAGE;
-    }
     const char *field = s->field ? s->field : "z";
+    double *triangles = NULL;
     point_query q;
     const char *const answers[] = {field, s->status ? "status" : NULL, NULL};
     sampled_field rows = {.outside = s->outside, .missing = s->missing, .status = s->status};
-    mesh_field_choice choice = {.field = field, .quiet = s->query.stream.common.quiet};
+    mesh_field_choice choice = {.field = field,
+                                .quiet = s->query.stream.common.quiet,
+                                .recover = s->series.recover,
+                                .triangles = &triangles};
     int end = nodata_parse("nodata", s->nodata, &choice.nodata);
     if (end) return end;
     end = point_query_open(&q, &s->query, operands, s->outside != OUTSIDE_EMPTY, mesh_field_load,
                            &choice);
-    if (end == 0) {
+    rows.triangles = triangles;
+    if (end == 0 && !triangles) {
         rows.values = mw_mesh_field(q.mesh, field);
         rows.at_points.field = rows.values;
         rows.at_points.at_points = malloc(QUERY_BLOCK_SIZE * sizeof(double));
@@ -206,7 +208,20 @@ static int sample_run(const void *settings, const char *const *operands)
         end = point_query_run(&q, operands[1], answers, s->status ? "rt" : "r", sample_row, &rows);
     point_query_release(&q);
     free(rows.at_points.at_points);
+    free(triangles);
     return end;
+}
+
+static int sample_run(const void *settings, const char *const *operands)
+{
+    const sample_settings *s = settings;
+    const series_settings *over = &s->series;
+    if (over->time || over->values || over->time_column) return sample_series(s, operands);
+    if (over->wide) {
+        complain("option '--wide' is for values over time: --time");
+        return END_USAGE;
+    }
+    return sample_field(s, operands);
 }
 
 static const option *const tables[] = {sample_options, point_query_options, query_stream_options,

@@ -405,35 +405,36 @@ static int triangulate_refuse(const char *why)
 static int triangulate_check_combination(const triangulate_settings *s, const char *points)
 {
     if (s->boundary && s->keep)
-        return triangulate_refuse("--boundary tells what to keep: --keep cannot");
+        return triangulate_refuse(
+            "--keep cannot be used with --boundary, which decides what to keep");
     if (!s->from && (s->tolerance > 0 || s->band))
-        return triangulate_refuse("--tolerance and --band are about --from");
-    if (s->from && points) return triangulate_refuse("--from RASTER stands in the place of POINTS");
-    if (s->from && s->tolerance == 0) return triangulate_refuse("--from wants --tolerance Z");
+        return triangulate_refuse("--tolerance and --band need --from");
+    if (s->from && points) return triangulate_refuse("give POINTS or --from RASTER, not both");
+    if (s->from && s->tolerance == 0) return triangulate_refuse("--from needs --tolerance Z");
     if (s->from && s->kind != MW_KIND_DELAUNAY)
         return triangulate_refuse("--from is for --kind delaunay only");
     if (s->from && s->max_edge > 0)
-        return triangulate_refuse("--from and --max-edge exclude each other");
+        return triangulate_refuse("--from and --max-edge cannot be used together");
     if (!points && !s->from && !s->constraints && !s->boundary)
         return triangulate_refuse(
-            "wants POINTS, or --from RASTER, or --constraints FILE, or --boundary FILE");
+            "needs POINTS, or --from RASTER, or --constraints FILE, or --boundary FILE");
     if (!points && (s->columns || s->classes || s->layer || s->where || s->crs.points))
-        return triangulate_refuse("--columns, --class, --layer, --where and --points-crs are "
-                                  "about POINTS, which are missing");
+        return triangulate_refuse("--columns, --class, --layer, --where and --points-crs need "
+                                  "POINTS, which are missing");
     if (!s->constraints && !s->boundary && (s->keep || s->split || s->strict))
-        return triangulate_refuse("--keep, --split and --strict are about --constraints");
+        return triangulate_refuse("--keep, --split and --strict need --constraints");
     if (!s->constraints && !s->boundary && s->crs.constraints)
-        return triangulate_refuse("--constraints-crs is about --constraints");
+        return triangulate_refuse("--constraints-crs needs --constraints");
     if ((s->constraints || s->boundary) && s->kind != MW_KIND_DELAUNAY)
         return triangulate_refuse("--constraints and --boundary are for --kind delaunay only");
     if (!s->weight && s->kind == MW_KIND_REGULAR)
-        return triangulate_refuse("--kind regular wants --weight COLUMN");
+        return triangulate_refuse("--kind regular needs --weight COLUMN");
     if ((s->weight || s->hidden) && s->kind != MW_KIND_REGULAR)
-        return triangulate_refuse("--weight and --hidden are about --kind regular");
+        return triangulate_refuse("--weight and --hidden need --kind regular");
     if (s->hidden && files_is_standard(s->hidden))
-        return triangulate_refuse("--hidden wants a file");
+        return triangulate_refuse("--hidden must be a file, not standard output");
     if (s->limit && s->kind != MW_KIND_MIN_WEIGHT && s->kind != MW_KIND_MIN_MAX_ANGLE)
-        return triangulate_refuse("--limit is about --kind min-weight and min-max-angle");
+        return triangulate_refuse("--limit needs --kind min-weight or min-max-angle");
     return 0;
 }
 
@@ -502,7 +503,7 @@ static int triangulate_read_raster(const triangulate_settings *s, triangulate_wo
     vertex_table *v = &w->vertices;
     int end = dem_read(&w->dem, s->from, s->band ? s->band : 1);
     if (end == 0 && w->dem.crs && s->crs.mesh && !crs_same(w->dem.crs, s->crs.mesh)) {
-        complain("%s: is in another system than --crs says: gdalwarp brings it there", s->from);
+        complain("%s: is in another system than --crs says; gdalwarp transforms it", s->from);
         end = END_INPUT;
     }
     if (end == 0) end = dem_begin(&w->dem, &v->file.points, &v->file.point_count);

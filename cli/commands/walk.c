@@ -35,7 +35,7 @@ static const char *walk_choice_name(int i)
 static const char *walk_choice_help(int i)
 {
     return i < MW_WALK_COUNT ? mw_walk_help((mw_walk_kind)i)
-                             : "a picture of each, beside one another";
+                             : "a picture of each, beside one another; with --animate a race";
 }
 
 static const choices walk_choices = {"walk", walk_choice_name, walk_choice_help};
@@ -73,9 +73,15 @@ static const option walk_options[] = {
     {0},
 };
 
-static int walk_option_wants(const char *name, const char *what)
+static int walk_option_needs(const char *name, const char *what)
 {
-    complain("option '--%s' wants %s", name, what);
+    complain("option '--%s' needs %s", name, what);
+    return END_USAGE;
+}
+
+static int walk_option_must_be(const char *name, const char *what)
+{
+    complain("option '--%s' must be %s", name, what);
     return END_USAGE;
 }
 
@@ -88,9 +94,9 @@ static int walk_check_coordinates(const walk_settings *s, const char *name, cons
         return END_USAGE;
     }
     if (at->count == (flat ? 2 : 3)) return 0;
-    return walk_option_wants(name, s->mesh.lonlat ? "LON,LAT with --lonlat"
-                                   : flat         ? "X,Y with --as plane"
-                                                  : "X,Y,Z in space");
+    return walk_option_must_be(name, s->mesh.lonlat ? "LON,LAT with --lonlat"
+                                     : flat         ? "X,Y with --as plane"
+                                                    : "X,Y,Z in space");
 }
 
 static bool walk_writes_picture(const walk_settings *s)
@@ -102,9 +108,10 @@ static int walk_check_name(const walk_settings *s)
 {
     const char *name = walk_choice_name(s->walk);
     if (s->mesh.space == SPACE_SURFACE && s->walk != MW_WALK_AUTO)
-        return walk_option_wants("walk", "--as plane or --as star");
-    if (s->walk == MW_WALK_COUNT && (s->mesh.space != SPACE_PLANE || !walk_writes_picture(s))) {
-        complain("--walk all wants --as plane and a picture: -o FILE.svg");
+        return walk_option_needs("walk", "--as plane or --as star");
+    bool drawn = walk_writes_picture(s) || (s->animate && !s->mesh.common.output);
+    if (s->walk == MW_WALK_COUNT && (s->mesh.space != SPACE_PLANE || !drawn)) {
+        complain("--walk all needs --as plane and a picture: -o FILE.svg or --animate FILE.png");
         return END_USAGE;
     }
     if (s->mesh.space != SPACE_STAR || mw_star_walk_by_name(name) != MW_STAR_WALK_COUNT) return 0;
@@ -126,10 +133,9 @@ static int walk_check_animation(const walk_settings *s, const char *const *opera
 {
     const char *path = s->animate, *output = s->mesh.common.output;
     if (!path) return 0;
-    if (s->walk == MW_WALK_COUNT) return walk_option_wants("animate", "one walk, not --walk all");
-    if (!animation_named(path)) return walk_option_wants("animate", "a .png or .apng file");
+    if (!animation_named(path)) return walk_option_must_be("animate", "a .png or .apng file");
     if (!files_is_standard(output) && files_same_output(path, output))
-        return walk_option_wants("animate", "another file than --output");
+        return walk_option_must_be("animate", "another file than --output");
     int end = files_check_output(path, operands, 1);
     if (end == 0) end = picture_check(path);
     return end ? end : files_try_output(path, NULL);
@@ -141,9 +147,9 @@ static int walk_check_options(const walk_settings *s, const char *const *operand
     if (end == 0) end = walk_check_coordinates(s, "to", &s->to);
     if (end == 0) end = walk_check_name(s);
     if (end == 0 && s->mesh.space != SPACE_SURFACE) {
-        if (s->max_distance > 0) return walk_option_wants("max-distance", "--as surface");
-        if (s->samples > 0) return walk_option_wants("samples", "--as surface");
-        if (s->iterations > 0) return walk_option_wants("iterations", "--as surface");
+        if (s->max_distance > 0) return walk_option_needs("max-distance", "--as surface");
+        if (s->samples > 0) return walk_option_needs("samples", "--as surface");
+        if (s->iterations > 0) return walk_option_needs("iterations", "--as surface");
     }
     if (end == 0) end = walk_check_output(s->mesh.common.output);
     return end ? end : walk_check_animation(s, operands);
@@ -207,7 +213,8 @@ static int walk_record_line(walk_record *w)
 static int walk_fail_mesh(const walk_record *w, const char *as, const mw_error *error)
 {
     int end = fail_mesh(w->path, error);
-    if (end == END_INPUT) complain("'meshwalk check%s %s' lists every defect", as, w->path);
+    if (end == END_INPUT)
+        complain("'meshwalk check%s %s' lists every defect, 'meshwalk view' shows it", as, w->path);
     return end;
 }
 
@@ -291,10 +298,10 @@ static int ray_point(const walk_settings *s, const char *name, const coordinates
     const double *centre = s->mesh.centre.at;
     memcpy(point, where->at, 3 * sizeof *point);
     if (s->mesh.lonlat) lonlat_input_directions(where->at, 2, 1, centre, 1, point);
-    if (isnan(point[0])) return walk_option_wants(name, "a latitude from -90 to 90");
+    if (isnan(point[0])) return walk_option_must_be(name, "a latitude from -90 to 90");
     if (memcmp(point, centre, 3 * sizeof *point) != 0) return 0;
-    return walk_option_wants(name,
-                             "another point than the centre: no ray goes from there to there");
+    return walk_option_must_be(name,
+                               "another point than the centre: no ray goes from there to there");
 }
 
 /* The unit vector from the centre towards a point. Halves and the largest coordinate prevent an
@@ -436,7 +443,8 @@ static int walk_as_probe(walk_record *w, const mw_prober *prober)
                                                 w->iteration, w->capacity, &touch),
                                   &end));
     if (touch.state == MW_TOUCH_BAD)
-        return walk_option_wants("to", "another point than --from, and not too far away: a motion");
+        return walk_option_must_be("to",
+                                   "another point than --from, and not too far away: a motion");
     if (touch.state == MW_TOUCH_LIMIT)
         walk_remark(w, "the probe", "touched nothing: its walks ended without a triangle");
     return end ? end : walk_record_line(w);
@@ -487,6 +495,7 @@ static drawing walk_drawing(const walk_record *w, char *caption)
     return (drawing){.view = views[s->mesh.space],
                      .centre = {s->mesh.centre.at[0], s->mesh.centre.at[1], s->mesh.centre.at[2]},
                      .caption = caption,
+                     .name = walk,
                      .points = w->file->points,
                      .triangles = w->file->triangles,
                      .point_count = w->file->point_count,
@@ -538,6 +547,13 @@ static void walk_record_release(walk_record *w)
     free(w->line);
 }
 
+static int walk_write_all(const walk_settings *s, const drawing *d, size_t count)
+{
+    int end = s->animate ? drawing_write_race(d, count, s->animate) : 0;
+    if (end || !s->mesh.common.output) return end;
+    return drawing_write_sheet(d, count, s->mesh.common.output);
+}
+
 /* Every walk in the plane, one picture beside the other. What is to be said of the points is said
  * once. */
 static int walk_all_and_write(const walk_record *common)
@@ -560,8 +576,8 @@ static int walk_all_and_write(const walk_record *common)
         sheet[count] = walk_drawing(&record[count], caption[count]);
         sheet[count].most_triangles = TRIANGLES;
     }
-    progress_phase("drawing", common->settings->mesh.common.output);
-    if (end == 0) end = drawing_write_sheet(sheet, count, common->settings->mesh.common.output);
+    progress_phase("drawing", common->path);
+    if (end == 0) end = walk_write_all(common->settings, sheet, count);
     while (count-- > 0) walk_record_release(&record[count]);
     return end;
 }

@@ -3,6 +3,8 @@
 #include "cli/frame/files.h"
 #include "cli/frame/message.h"
 #include "cli/frame/progress.h"
+#include "cli/gdal/gdal_crs.h"
+#include "cli/remap/remap_weights.h"
 #include "cli/stream/located_points.h"
 
 #include <inttypes.h>
@@ -11,12 +13,43 @@
 
 typedef struct weights_settings {
     point_query_settings query;
+    int method, values, norm;
 } weights_settings;
+
+enum { METHOD_LINEAR = 0, METHOD_CONSERVATIVE };
+
+static const char *method_name(int i)
+{
+    return (const char *[]){"linear", "conservative", NULL}[i];
+}
+static const char *method_help(int i)
+{
+    return (const char *[]){"values at points, interpolated linearly in triangles",
+                            "means over the cells of a mesh or raster, which keep sums"}[i];
+}
+static const choices weights_methods = {"method", method_name, method_help};
+
+static const char *cell_value_name(int i)
+{
+    return (const char *[]){"faces", "vertices", NULL}[i];
+}
+static const choices weights_values = {"place of --values", cell_value_name, NULL};
+
+static const char *norm_name(int i)
+{
+    return (const char *[]){"dstarea", "fracarea", NULL}[i];
+}
+static const char *norm_help(int i)
+{
+    return (const char *[]){"the mean over the whole cell, 0 where nothing is: sums are kept",
+                            "the mean over the part of the cell that MESH covers"}[i];
+}
+static const choices weights_norms = {"way of --norm", norm_name, norm_help};
 
 static int weights_check(const char *output, const char *const *operands)
 {
     if (!files_is_standard(output)) return files_check_output(output, operands, 2);
-    complain("weights wants an output: -o FILE.nc, or FILE.npz");
+    complain("weights needs an output: -o FILE.nc, or FILE.npz");
     return END_USAGE;
 }
 
@@ -78,8 +111,43 @@ static int weights_make(const point_query *q, const located_points *p, const cha
     return end;
 }
 
+/* --- cells --- */
+
+/* Options that are for points only. */
+static int weights_refuse_points_options(const weights_settings *s)
+{
+    const query_stream_settings *stream = &s->query.stream;
+    const char *wrong = stream->source.columns ? "columns"
+                        : stream->source.layer ? "layer"
+                        : stream->source.where ? "where"
+                        : s->query.any         ? "any"
+                                               : NULL;
+    if (s->query.tolerance > 0) wrong = "tolerance";
+    if (!wrong) return 0;
+    complain("option '--%s' is for points, not for --method conservative", wrong);
+    return END_USAGE;
+}
+
+static int weights_of_cells(const weights_settings *s, const char *const *operands)
+{
+    const query_stream_settings *stream = &s->query.stream;
+    const remap_settings settings = {.common = &stream->common,
+                                     .crs = s->query.crs,
+                                     .grid_crs = stream->source.crs,
+                                     .vertices = s->values,
+                                     .covered = s->norm,
+                                     .strict = stream->strict,
+                                     .stats = stream->stats,
+                                     .json = stream->json};
+    int end = weights_refuse_points_options(s);
+    if (end == 0) end = crs_check_option("crs", s->query.crs);
+    if (end == 0) end = crs_check_option("points-crs", stream->source.crs);
+    return end ? end : remap_weights_run(&settings, operands);
+}
+
 static int weights_run(const void *settings, const char *const *operands)
 {
+    const weights_settings *all = settings;
     /* The query writes no rows: the output is ours. */
     point_query_settings s = ((const weights_settings *)settings)->query;
     const char *output = s.stream.common.output;
@@ -87,6 +155,11 @@ static int weights_run(const void *settings, const char *const *operands)
     located_points p = {0};
     int end = weights_check(output, operands);
     if (end) return end;
+    if (all->method == METHOD_CONSERVATIVE) return weights_of_cells(all, operands);
+    if (all->values || all->norm) {
+        complain("option '--%s' is for --method conservative", all->values ? "values" : "norm");
+        return END_USAGE;
+    }
     s.stream.common.output = NULL;
     end = point_query_open(&q, &s, operands, false, NULL, NULL);
     if (end == 0) end = located_points_read(&p, &q, operands[1], NULL);
@@ -97,6 +170,13 @@ static int weights_run(const void *settings, const char *const *operands)
 }
 
 static const option weights_options[] = {
+    {"method", 0, OPTION_CHOICE, offsetof(weights_settings, method), "NAME",
+     "what the weights do (default: linear):", &weights_methods},
+    {"values", 0, OPTION_CHOICE, offsetof(weights_settings, values), "PLACE",
+     "--method conservative: what MESH has values at (default: faces):", &weights_values},
+    {"norm", 0, OPTION_CHOICE, offsetof(weights_settings, norm), "NAME",
+     "--method conservative: what cells get that MESH covers in part (default: dstarea):",
+     &weights_norms},
     {"strict", 0, OPTION_FLAG, offsetof(weights_settings, query.stream.strict), NULL,
      "exit with 1 if a point is in no triangle", NULL},
     {"stats", 0, OPTION_FLAG, offsetof(weights_settings, query.stream.stats), NULL,
@@ -116,7 +196,7 @@ static const option *const tables[] = {weights_options, point_query_options, com
 
 const command weights_command = {
     .name = "weights",
-    .operands = "MESH POINTS",
+    .operands = "MESH POINTS|GRID",
     .operand_count = 2,
     .summary = "write the weights that interpolate values at points",
     .description =
@@ -124,9 +204,13 @@ const command weights_command = {
         "with "
         "which weights: as netCDF in the layout of ESMF's weight files, which xESMF, uxarray and "
         "meshwalk apply read, or, to a name that ends in .npz, as a sparse matrix of SciPy. A "
-        "point in no triangle has no weights; its status is in the variable status_b.",
+        "point in no triangle has no weights; its status is in the variable status_b. With "
+        "--method "
+        "conservative, GRID is another mesh or a raster that GDAL reads, and its cells get the "
+        "means "
+        "of the cells of MESH by the areas that they have in common.",
     .options = tables,
-    .essential = "columns points-crs tolerance stats output",
+    .essential = "method columns points-crs stats output",
     .settings_size = sizeof(weights_settings),
     .run = weights_run,
 };

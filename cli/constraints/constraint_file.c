@@ -32,7 +32,7 @@ static int constraint_file_read_any(const char *path, const gdal_constraints_opt
     if (gdal_library_built() && (unknown || path_is_directory(path)))
         return gdal_constraints_read(path, options, file);
     int end = fail_reading(&error);
-    if (unknown) complain("a program that was built with GDAL reads other vector files too");
+    if (unknown) complain("a program built with GDAL reads other vector files too");
     return end;
 }
 
@@ -135,7 +135,7 @@ int constraint_file_fail_crossing(const char *path, const mw_constraint_file *fi
         snprintf(second, sizeof second, "%s %" PRIu32, what, other);
     complain("%s: %s %" PRIu32 " crosses %s near %.9g %.9g; %s", path, what, one, second, at[0],
              at[1],
-             split ? "others are so close there that rounding cannot part them"
+             split ? "others are so close there that rounded points cannot keep them apart"
                    : "--split puts a vertex there");
     return END_INPUT;
 }

@@ -12,10 +12,10 @@ static int values_fail_name(const char *path, const char *name, size_t length,
     for (size_t i = 0; i < count; i++) text_printf(&list, "%s%s", i ? ", " : "", names[i]);
     int size = list.size < 1000 ? (int)list.size : 1000;
     if (count > 0 && !list.failed)
-        complain("%s: has no attribute '%.*s', but: %.*s", path, (int)length, name, size,
+        complain("%s: has no attribute '%.*s'; it has: %.*s", path, (int)length, name, size,
                  list.bytes);
     else
-        complain("%s: has no attribute '%.*s', and no others", path, (int)length, name);
+        complain("%s: has no attributes, so not '%.*s' either", path, (int)length, name);
     text_release(&list);
     return END_INPUT;
 }

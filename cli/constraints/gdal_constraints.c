@@ -304,7 +304,7 @@ static int layers_fail(const gdal_constraints_options *o, GDALDatasetH set, cons
     if (names.failed || names.size == 0)
         complain("%s: GDAL finds no layer in it", path);
     else if (o->layer)
-        complain("%s: has no layer '%s', but: %.*s", path, o->layer, size, names.bytes);
+        complain("%s: has no layer '%s'; it has: %.*s", path, o->layer, size, names.bytes);
     else
         complain("%s: which layer has the %s? %s may be one of: %.*s", path,
                  o->lines ? "lines" : "polygons", o->lines ? "--layer" : "--polygon-layer", size,

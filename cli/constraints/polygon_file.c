@@ -25,7 +25,7 @@ static mw_status domain_make(const mw_constraint_file *c, const common_settings 
 }
 
 /* Write the border edges of a mesh as segments of polygon 0. Without `segments` they are counted.
- * */
+ */
 static size_t domain_border(const mw_mesh *mesh, uint32_t *segments)
 {
     size_t count = 0;

@@ -36,7 +36,7 @@ typedef struct feature_hit {
 
 /* The features at a point, ascending. `room` may hold them; if they are more, *hits is memory that
  * the caller frees. Returns how many; SIZE_MAX if memory runs out. Several threads may call this.
- * */
+ */
 enum { FEATURE_ROOM = 64 };
 size_t polygon_file_at(const polygon_file *file, const double point[2], const mw_location *at,
                        feature_hit room[FEATURE_ROOM], feature_hit **hits);

@@ -290,7 +290,7 @@ static void drawing_draw(cairo_t *c, const void *self)
 /* Scenes in rows, each in a field of the same size. */
 typedef struct sheet {
     scene *scenes;
-    size_t count, columns;
+    size_t count, columns, rows;
     double width, height; /* of a field */
 } sheet;
 
@@ -306,23 +306,36 @@ static void drawing_draw_sheet(cairo_t *c, const void *self)
     }
 }
 
+/* False: out of memory. To be released in any case. */
+static bool sheet_make(sheet *all, const drawing *d, size_t count)
+{
+    *all = (sheet){.scenes = calloc(count, sizeof *all->scenes),
+                   .columns = (size_t)ceil(sqrt((double)count))};
+    bool made = all->scenes;
+    while (made && all->count < count) {
+        made = scene_make(&all->scenes[all->count], &d[all->count]);
+        all->width = fmax(all->width, scene_page_width(&all->scenes[all->count]));
+        all->height = fmax(all->height, scene_page_height(&all->scenes[all->count]));
+        all->count++;
+    }
+    all->rows = (count + all->columns - 1) / all->columns;
+    return made;
+}
+
+static void sheet_release(sheet *all)
+{
+    for (size_t i = 0; i < all->count; i++) scene_release(&all->scenes[i]);
+    free(all->scenes);
+}
+
 int drawing_write_sheet(const drawing *d, size_t count, const char *path)
 {
-    sheet all = {.scenes = calloc(count, sizeof *all.scenes),
-                 .columns = (size_t)ceil(sqrt((double)count))};
-    bool made = all.scenes;
-    while (made && all.count < count) {
-        made = scene_make(&all.scenes[all.count], &d[all.count]);
-        all.width = fmax(all.width, scene_page_width(&all.scenes[all.count]));
-        all.height = fmax(all.height, scene_page_height(&all.scenes[all.count]));
-        all.count++;
-    }
-    size_t rows = made ? (count + all.columns - 1) / all.columns : 0;
-    int end = made ? picture_write(path, (double)all.columns * all.width, (double)rows * all.height,
-                                   drawing_draw_sheet, &all)
+    sheet all;
+    bool made = sheet_make(&all, d, count);
+    int end = made ? picture_write(path, (double)all.columns * all.width,
+                                   (double)all.rows * all.height, drawing_draw_sheet, &all)
                    : fail_memory();
-    for (size_t i = 0; i < all.count; i++) scene_release(&all.scenes[i]);
-    free(all.scenes);
+    sheet_release(&all);
     return end;
 }
 
@@ -377,7 +390,118 @@ int drawing_write_animation(const drawing *d, const char *path)
     return end;
 }
 
+/* --- races ------------------------------------------------------------------------------------ */
+
+/* Sizes in pixels, times in milliseconds. */
+enum { MOST_RACERS = 64 };
+enum { RACE_WIDTH = 168, RACE_FRAMES = 60, RACE_TIME = 12000, RACE_END = 4000, RACE_CAPTION = 32 };
+
+typedef struct race {
+    sheet all;
+    double scale, height; /* of a field, with its caption */
+    size_t steps;         /* visits that each frame adds */
+    uint32_t frames;
+} race;
+
+static int race_compare_lengths(const void *a, const void *b)
+{
+    const size_t *p = a, *q = b;
+    return (*p > *q) - (*p < *q);
+}
+
+/* How many steps the race shows: three times the median, if a walk takes more. */
+static size_t race_length(const drawing *d, size_t count)
+{
+    size_t lengths[MOST_RACERS], racers = count < MOST_RACERS ? count : MOST_RACERS;
+    for (size_t i = 0; i < racers; i++) lengths[i] = d[i].path_count;
+    qsort(lengths, racers, sizeof *lengths, race_compare_lengths);
+    size_t most = 3 * lengths[racers / 2], longest = lengths[racers - 1];
+    return longest < most ? longest : most;
+}
+
+static void race_write_caption(cairo_t *c, const scene *s, double y)
+{
+    char words[64];
+    bool done = s->seen == s->d->path_count;
+    snprintf(words, sizeof words, "%zu triangle%s%s", s->seen, s->seen == 1 ? "" : "s",
+             done ? ": there" : " ...");
+    cairo_select_font_face(c, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_BOLD);
+    cairo_set_font_size(c, 10);
+    cairo_set_source_rgb(c, 0, 0, 0);
+    cairo_move_to(c, 5, y + 11);
+    cairo_show_text(c, s->d->name);
+    cairo_select_font_face(c, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
+    if (done)
+        cairo_set_source_rgb(c, green[0] / 2, green[1] / 2, green[2] / 2);
+    else
+        cairo_set_source_rgb(c, vermilion[0], vermilion[1], vermilion[2]);
+    cairo_move_to(c, 5, y + 24);
+    cairo_show_text(c, words);
+}
+
+/* A field: the picture without its own caption, which is too small to be read, then that of the
+ * race. */
+static void race_draw_field(cairo_t *c, const race *r, scene *s)
+{
+    double picture = (scene_page_height(s) - CAPTION) * r->scale;
+    cairo_save(c);
+    cairo_rectangle(c, 0, 0, RACE_WIDTH, picture);
+    cairo_clip(c);
+    cairo_scale(c, r->scale, r->scale);
+    drawing_draw(c, s);
+    cairo_restore(c);
+    race_write_caption(c, s, picture);
+}
+
+static void race_draw(cairo_t *c, uint32_t frame, void *self)
+{
+    race *r = self;
+    for (size_t i = 0; i < r->all.count; i++) {
+        scene *s = &r->all.scenes[i];
+        size_t seen = (frame + 1) * r->steps;
+        s->seen = seen < s->d->path_count ? seen : s->d->path_count;
+        cairo_save(c);
+        cairo_translate(c, (double)(i % r->all.columns) * RACE_WIDTH,
+                        (double)(i / r->all.columns) * r->height);
+        race_draw_field(c, r, s);
+        cairo_restore(c);
+    }
+}
+
+static uint16_t race_milliseconds(uint32_t frame, void *self)
+{
+    const race *r = self;
+    double each = fmin(400, fmax(60, (double)RACE_TIME / r->frames));
+    return frame + 1 < r->frames ? (uint16_t)each : RACE_END;
+}
+
+int drawing_write_race(const drawing *d, size_t count, const char *path)
+{
+    race r;
+    size_t length = race_length(d, count);
+    bool made = sheet_make(&r.all, d, count);
+    r.steps = (length + RACE_FRAMES - 1) / RACE_FRAMES;
+    r.frames = length ? (uint32_t)((length + r.steps - 1) / r.steps) : 1;
+    r.scale = made ? RACE_WIDTH / r.all.width : 1;
+    r.height = made ? (r.all.height - CAPTION) * r.scale + RACE_CAPTION : 1;
+    animation a = {.width = (double)r.all.columns * RACE_WIDTH,
+                   .height = (double)r.all.rows * r.height,
+                   .frames = r.frames,
+                   .draw = race_draw,
+                   .milliseconds = race_milliseconds,
+                   .self = &r};
+    int end = made ? animation_write(&a, path) : fail_memory();
+    sheet_release(&r.all);
+    return end;
+}
+
 #else
+
+int drawing_write_race(const drawing *d, size_t count, const char *path)
+{
+    (void)d, (void)count;
+    return picture_check(path);
+}
 
 int drawing_write_animation(const drawing *d, const char *path)
 {

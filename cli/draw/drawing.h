@@ -14,4 +14,8 @@ int drawing_write_sheet(const drawing *d, size_t count, const char *path);
 /* One step by step, as an animated PNG. */
 int drawing_write_animation(const drawing *d, const char *path);
 
+/* Several side by side, step by step, with the numbers of triangles visited so far: small, as an
+ * animated PNG. The walks end in it that take no more than three times as many steps as others. */
+int drawing_write_race(const drawing *d, size_t count, const char *path);
+
 #endif

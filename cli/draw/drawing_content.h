@@ -20,6 +20,7 @@ typedef struct drawing {
     drawing_view view;
     double centre[3]; /* VIEW_STAR */
     const char *caption;
+    const char *name;          /* of the walk */
     const double *points;      /* x, y, z of each vertex */
     const uint32_t *triangles; /* three vertices each    */
     size_t point_count, triangle_count;

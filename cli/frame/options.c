@@ -158,7 +158,7 @@ static int parse_choice(const option *o, const char *value, int *number)
 
 static int option_bad_value(const option *o, const char *value, const char *wanted)
 {
-    complain("option '--%s' wants %s, not '%s'", o->name, wanted, value);
+    complain("option '--%s' must be %s, not '%s'", o->name, wanted, value);
     return END_USAGE;
 }
 
@@ -222,8 +222,8 @@ int options_limit(const char *name, uint32_t value, uint32_t most, const char *w
     char digits[16];
     if (value <= most) return 0;
     snprintf(digits, sizeof digits, "%" PRIu32, most);
-    complain("option '--%s' wants at most %s, not '%" PRIu32 "'", name, written ? written : digits,
-             value);
+    complain("option '--%s' must be at most %s, not '%" PRIu32 "'", name,
+             written ? written : digits, value);
     return END_USAGE;
 }
 
@@ -237,7 +237,7 @@ static const char *option_argument(const option *o, const char *attached, char *
 {
     if (attached) return attached;
     if ((*word)[1]) return *++*word;
-    complain("option '--%s' wants an argument: %s", o->name, o->argument);
+    complain("option '--%s' needs an argument: %s", o->name, o->argument);
     return NULL;
 }
 
@@ -283,7 +283,7 @@ static int parse_letters(const command *c, char ***word, void *settings)
 
 int options_fail_operands(const command *c, int found)
 {
-    complain("%s: wants %s, not %d argument%s; usage: meshwalk %s [options] %s", c->name,
+    complain("%s: expected %s, found %d argument%s; usage: meshwalk %s [options] %s", c->name,
              c->operands, found, found == 1 ? "" : "s", c->name, c->operands);
     return END_USAGE;
 }

@@ -13,13 +13,13 @@ typedef struct crs_heights {
     bool known;    /* by the system, which has three axes */
     double metres; /* the unit of heights; or of the plane, if heights are not known */
     bool plane;    /* is that so? */
-    char name[CRS_NAME], unit[40];
+    char name[CRS_NAME], unit[CRS_UNIT];
 } crs_heights;
 
 static void heights_take_unit(crs_heights *h, double metres, const char *name)
 {
     h->metres = metres;
-    snprintf(h->unit, sizeof h->unit, "%.30s", name ? name : "units of its own");
+    snprintf(h->unit, sizeof h->unit, "%.30s", name ? name : "its own units");
 }
 
 static void heights_describe(crs_heights *h, const gdal_functions *gdal,
@@ -78,7 +78,55 @@ void crs_warn_of_heights(const char *path, const char *from, const char *to)
                  path, a.unit, crs_name(from, names[0]), crs_name(to, names[1]), b.unit);
 }
 
+int crs_check_heights(const char *a_path, const char *a, const char *b_path, const char *b,
+                      bool quiet)
+{
+    crs_heights of_a = heights_of(a), of_b = heights_of(b);
+    if (of_a.known && of_b.known &&
+        (strcmp(of_a.name, of_b.name) != 0 || units_differ(&of_a, &of_b))) {
+        complain("%s has heights '%s' in %s, %s '%s' in %s: bring one to the other first", a_path,
+                 of_a.name, of_a.unit, b_path, of_b.name, of_b.unit);
+        return END_INPUT;
+    }
+    if (of_a.known != of_b.known && !quiet)
+        complain("%s: warning: tells nothing of its heights, and those of %s are '%s' in %s: they "
+                 "are taken to be the same",
+                 of_a.known ? b_path : a_path, of_a.known ? a_path : b_path,
+                 of_a.known ? of_a.name : of_b.name, of_a.known ? of_a.unit : of_b.unit);
+    return 0;
+}
+
+bool crs_unit(const char *crs, char unit[CRS_UNIT])
+{
+    const gdal_functions *gdal = gdal_library_load();
+    OGRSpatialReferenceH system = gdal ? crs_parse(gdal, crs, false) : NULL;
+    char *name = NULL;
+    bool known = system && gdal->OSRIsProjected(system);
+    if (known) gdal->OSRGetLinearUnits(system, &name);
+    if (known && name) snprintf(unit, CRS_UNIT, "%.30s", name);
+    if (system) gdal->OSRRelease(system);
+    return known && name;
+}
+
 #else
+
+int crs_check_heights(const char *a_path, const char *a, const char *b_path, const char *b,
+                      bool quiet)
+{
+    (void)a_path;
+    (void)a;
+    (void)b_path;
+    (void)b;
+    (void)quiet;
+    return 0;
+}
+
+bool crs_unit(const char *crs, char unit[CRS_UNIT])
+{
+    (void)crs;
+    (void)unit;
+    return false;
+}
 
 void crs_warn_of_heights(const char *path, const char *from, const char *to)
 {

@@ -52,7 +52,7 @@ static const char *crs_text_name(const char *crs, char name[CRS_NAME])
 int crs_check_option(const char *option, const char *crs)
 {
     if (!crs || crs_known(crs)) return 0;
-    complain("option '--%s' wants a coordinate system, as EPSG:2056 or WKT, not '%.60s'", option,
+    complain("option '--%s' must be a coordinate system, as EPSG:2056 or WKT, not '%.60s'", option,
              crs);
     return END_USAGE;
 }

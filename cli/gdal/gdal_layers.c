@@ -72,7 +72,7 @@ int gdal_layers_report(const char *path, const char *wanted, report *r)
 {
     (void)wanted;
     (void)r;
-    complain("%s: is no mesh; a program that was built with GDAL tells its layers", path);
+    complain("%s: is not a mesh; a program built with GDAL lists its layers", path);
     return END_INPUT;
 }
 

@@ -94,6 +94,7 @@ bool gdal_library_built(void);
     F(OGR_F_SetFieldString)                                                                        \
     F(OGR_F_SetGeometryDirectly)                                                                   \
     F(OGR_G_CreateGeometry)                                                                        \
+    F(OGR_G_AddGeometryDirectly)                                                                   \
     F(OGR_G_SetPoint)                                                                              \
     F(OGR_G_SetPoint_2D)                                                                           \
     F(GDALClose)                                                                                   \

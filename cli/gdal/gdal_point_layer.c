@@ -124,7 +124,7 @@ static int point_layer_fail_layer(const point_layer *p, const char *wanted)
     int end = names.failed ? fail_memory() : wanted ? END_INPUT : END_USAGE;
     int size = names.size < 1000 ? (int)names.size : 1000;
     if (!names.failed && wanted)
-        complain("%s: has no layer '%s', but: %.*s", p->path, wanted, size,
+        complain("%s: has no layer '%s'; it has: %.*s", p->path, wanted, size,
                  names.bytes ? names.bytes : "");
     else if (!names.failed)
         complain("%s: which layer has the points? --layer may be one of: %.*s", p->path, size,

@@ -158,7 +158,7 @@ int gdal_points_open(gdal_points **points, const char *path, const char *layer, 
     (void)layer;
     (void)where;
     *points = NULL;
-    complain("%s: is no table of text; a program that was built with GDAL reads it", path);
+    complain("%s: is not a text table; a program built with GDAL can read it", path);
     return END_INPUT;
 }
 

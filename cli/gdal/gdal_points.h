@@ -1,5 +1,5 @@
 /* gdal_points.h - points from any vector file that GDAL reads, with their attributes, as a table.
- * */
+ */
 #ifndef MW_CLI_GDAL_GDAL_POINTS_H
 #define MW_CLI_GDAL_GDAL_POINTS_H
 

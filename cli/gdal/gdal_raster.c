@@ -77,7 +77,8 @@ int gdal_raster_check(const char *path, const char *driver)
         return END_USAGE;
     }
     if (!name) {
-        complain("%s: no format of rasters has this ending, as .tif has; --driver names one", path);
+        complain("%s: no raster format has this ending; use .tif, or name a format by --driver",
+                 path);
         return END_USAGE;
     }
     if (driver_writes_rasters(gdal, gdal->GDALGetDriverByName(name)))
@@ -219,11 +220,13 @@ static int raster_take_grid(const gdal_functions *gdal, GDALDatasetH set, const 
     double transform[6];
     if (gdal->GDALGetRasterCount(set) == 0 ||
         gdal->GDALGetGeoTransform(set, transform) != CE_None) {
-        complain("%s: this raster has no position on the map", path);
+        complain("%s: this raster is not georeferenced", path);
         return END_INPUT;
     }
     if (transform[2] != 0 || transform[4] != 0 || transform[1] <= 0 || transform[5] >= 0) {
-        complain("%s: its rows do not run east and its columns south; gdalwarp turns it", path);
+        complain(
+            "%s: its rows do not run east, or its columns do not run south; gdalwarp can turn it",
+            path);
         return END_INPUT;
     }
     int has = 0;
@@ -301,7 +304,7 @@ int gdal_raster_read(const char *path, const gdal_raster_form *form, uint32_t ba
 int gdal_raster_check(const char *path, const char *driver)
 {
     (void)driver;
-    complain("%s: a program that was built with GDAL writes it", path ? path : "rasters");
+    complain("%s: only a program built with GDAL can write it", path ? path : "rasters");
     return END_USAGE;
 }
 
@@ -333,7 +336,7 @@ int gdal_raster_describe(const char *path, gdal_raster_form *form, char **crs)
 {
     (void)form;
     *crs = NULL;
-    complain("%s: a program that was built with GDAL reads it", path);
+    complain("%s: only a program built with GDAL can read it", path);
     return END_INPUT;
 }
 

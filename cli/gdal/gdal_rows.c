@@ -54,7 +54,9 @@ struct gdal_rows {
     uint64_t written, committed;
     bool warned;
     const vector_format *format;
-    size_t line_count; /* points of the line of the row that is written */
+    size_t line_count;        /* points of the line of the row that is written */
+    const size_t *ring_first; /* of the polygon of the row that is written: its rings */
+    size_t ring_count;
 };
 
 /* --- rows ------------------------------------------------------------------------------------- */
@@ -205,6 +207,10 @@ static int rows_read_header(gdal_rows *r)
 static int rows_check_lonlat(const gdal_rows *r)
 {
     char name[CRS_NAME];
+    if (r->form.polygons) {
+        complain("%s: %s holds no polygons; .gpkg does", r->target.path, r->format->driver);
+        return END_USAGE;
+    }
     if (!r->form.crs || crs_is_lonlat(r->form.crs)) return 0;
     complain("%s: %s holds longitudes and latitudes, and the points are in %s; .gpkg holds both",
              r->target.path, r->format->driver, crs_name(r->form.crs, name));
@@ -265,7 +271,8 @@ static OGRLayerH rows_create_set(gdal_rows *r, const char *name, OGRSpatialRefer
                               0, GDT_Unknown, (char **)(uintptr_t)create);
     if (!r->set) return NULL;
     return gdal->GDALDatasetCreateLayer(r->set, name, crs,
-                                        r->form.lines             ? wkbLineString
+                                        r->form.polygons          ? wkbPolygon
+                                        : r->form.lines           ? wkbLineString
                                         : r->form.dimensions == 3 ? wkbPoint25D
                                                                   : wkbPoint,
                                         (char **)(uintptr_t)options);
@@ -390,15 +397,35 @@ static int feature_set_point(gdal_rows *r, OGRFeatureH feature, const double *p)
     return 0;
 }
 
+static OGRGeometryH line_create(const gdal_functions *gdal, OGRwkbGeometryType type,
+                                const double *points, size_t count)
+{
+    OGRGeometryH line = gdal->OGR_G_CreateGeometry(type);
+    /* from the end, so that it grows once */
+    for (size_t i = count; i-- > 0;)
+        gdal->OGR_G_SetPoint_2D(line, (int)i, points[2 * i], points[2 * i + 1]);
+    return line;
+}
+
 static int feature_set_line(gdal_rows *r, OGRFeatureH feature, const double *points)
 {
-    const gdal_functions *gdal = r->gdal;
-    OGRGeometryH line = gdal->OGR_G_CreateGeometry(wkbLineString);
     rows_warn_of_lonlat(r, points);
-    /* from the end, so that it grows once */
-    for (size_t i = r->line_count; i-- > 0;)
-        gdal->OGR_G_SetPoint_2D(line, (int)i, points[2 * i], points[2 * i + 1]);
-    gdal->OGR_F_SetGeometryDirectly(feature, line);
+    r->gdal->OGR_F_SetGeometryDirectly(feature,
+                                       line_create(r->gdal, wkbLineString, points, r->line_count));
+    return 0;
+}
+
+static int feature_set_polygon(gdal_rows *r, OGRFeatureH feature, const double *points)
+{
+    const gdal_functions *gdal = r->gdal;
+    OGRGeometryH polygon = gdal->OGR_G_CreateGeometry(wkbPolygon);
+    rows_warn_of_lonlat(r, points);
+    for (size_t k = 0; k < r->ring_count; k++) {
+        size_t first = r->ring_first[k], count = r->ring_first[k + 1] - first;
+        gdal->OGR_G_AddGeometryDirectly(
+            polygon, line_create(gdal, wkbLinearRing, points + 2 * first, count));
+    }
+    gdal->OGR_F_SetGeometryDirectly(feature, polygon);
     return 0;
 }
 
@@ -418,8 +445,9 @@ static int rows_write_feature(gdal_rows *r, const double *point)
     for (size_t i = r->form.dropped; end == 0 && i < r->count; i++)
         end = feature_set_field(r, feature, &r->columns[i], &r->cells[i]);
     if (end == 0)
-        end = r->form.lines ? feature_set_line(r, feature, point)
-                            : feature_set_point(r, feature, point);
+        end = r->form.polygons ? feature_set_polygon(r, feature, point)
+              : r->form.lines  ? feature_set_line(r, feature, point)
+                               : feature_set_point(r, feature, point);
     if (end == 0) {
         gdal->CPLErrorReset();
         if (gdal->OGR_L_CreateFeature(r->layer, feature) != OGRERR_NONE)
@@ -469,6 +497,18 @@ int gdal_rows_write_line(gdal_rows *r, const char *bytes, size_t size, const dou
     return gdal_rows_write(r, bytes, size, points, 0);
 }
 
+int gdal_rows_write_polygon(gdal_rows *r, const char *bytes, size_t size, const double *points,
+                            const size_t *first, size_t ring_count)
+{
+    if (first[ring_count] > INT_MAX) {
+        complain("%s: a polygon has more than %d points", r->target.path, INT_MAX);
+        return END_RESOURCE;
+    }
+    r->ring_first = first;
+    r->ring_count = ring_count;
+    return gdal_rows_write(r, bytes, size, points, 0);
+}
+
 /* Files beside an older Shapefile would be taken for some of the new one. */
 static void rows_remove_sidecars(const gdal_rows *r)
 {
@@ -510,7 +550,7 @@ int gdal_rows_close(gdal_rows *r, bool commit)
 
 int gdal_rows_check(const char *path)
 {
-    complain("%s: a program that was built with GDAL writes it", path);
+    complain("%s: only a program built with GDAL can write it", path);
     return END_USAGE;
 }
 
@@ -544,6 +584,14 @@ int gdal_rows_write_line(gdal_rows *rows, const char *bytes, size_t size, const 
                          size_t count)
 {
     (void)count;
+    return gdal_rows_write(rows, bytes, size, points, 0);
+}
+
+int gdal_rows_write_polygon(gdal_rows *rows, const char *bytes, size_t size, const double *points,
+                            const size_t *first, size_t ring_count)
+{
+    (void)first;
+    (void)ring_count;
     return gdal_rows_write(rows, bytes, size, points, 0);
 }
 

@@ -24,6 +24,7 @@ typedef struct gdal_rows_form {
     const char *crs;     /* of the points, see gdal_crs.h; NULL: not known */
     bool quiet;          /* no remarks */
     bool lines;          /* the rows have a line each, for gdal_rows_write_line */
+    bool polygons;       /* the rows have a polygon each, for gdal_rows_write_polygon */
 } gdal_rows_form;
 
 typedef struct gdal_rows gdal_rows;
@@ -43,6 +44,11 @@ int gdal_rows_write(gdal_rows *rows, const char *bytes, size_t size, const doubl
  * complaint. */
 int gdal_rows_write_line(gdal_rows *rows, const char *bytes, size_t size, const double *points,
                          size_t count);
+
+/* The same with a polygon: ring k has the points first[k] .. first[k + 1] - 1, the last of which is
+ * the first again; the first ring is the outline. */
+int gdal_rows_write_polygon(gdal_rows *rows, const char *bytes, size_t size, const double *points,
+                            const size_t *first, size_t ring_count);
 
 /* Finish the file, or remove it if not `commit`. Returns 0, or an exit code after a complaint.
  * NULL is allowed. */

@@ -152,7 +152,7 @@ uint64_t gdal_transform_points(gdal_transform *t, double *points, size_t count, 
 
 int gdal_transform_check(const char *what)
 {
-    complain("%s: a program that was built with GDAL transforms points", what);
+    complain("%s: only a program built with GDAL transforms points", what);
     return END_INPUT;
 }
 
@@ -161,7 +161,7 @@ int gdal_transform_open(gdal_transform **transform, const gdal_transform_ends *e
     char names[2][CRS_NAME];
     *transform = NULL;
     *rough = false;
-    complain("%s is in %s, %s in %s: a program that was built with GDAL transforms it", ends->of,
+    complain("%s is in %s, %s in %s: only a program built with GDAL can transform it", ends->of,
              crs_name(ends->from, names[0]), ends->in, crs_name(ends->to, names[1]));
     return END_INPUT;
 }

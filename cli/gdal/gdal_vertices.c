@@ -35,7 +35,7 @@ struct gdal_vertices {
 static int vertices_fail_columns(const gdal_vertices *v, const char *item, int length,
                                  const char *why)
 {
-    complain("%s: --columns: '%.*s' %s; it wants x, y and columns of the layer", v->layer.path,
+    complain("%s: --columns: '%.*s' %s; expected x, y and columns of the layer", v->layer.path,
              length, item, why);
     return END_INPUT;
 }
@@ -79,10 +79,10 @@ static int vertices_choose(gdal_vertices *v, const char *list)
         size_t length = strcspn(item, ",");
         size_t column = vertices_find_column(v, item, length);
         int shown = length < 60 ? (int)length : 60;
-        if (column == SIZE_MAX) return vertices_fail_columns(v, item, shown, "is no column");
+        if (column == SIZE_MAX) return vertices_fail_columns(v, item, shown, "is not a column");
         for (size_t k = 0; k < v->width; k++)
             if (v->values[k].column == column)
-                return vertices_fail_columns(v, item, shown, "is there twice");
+                return vertices_fail_columns(v, item, shown, "is named twice");
         if (v->width < 2 && column != v->width)
             return vertices_fail_columns(v, item, shown, "is where x or y should be");
         vertices_add(v, column);
@@ -253,7 +253,7 @@ int gdal_vertices_open(gdal_vertices **vertices, const char *path,
 {
     (void)options;
     *vertices = NULL;
-    complain("%s: is no table of text; a program that was built with GDAL reads it", path);
+    complain("%s: is not a text table; a program built with GDAL can read it", path);
     return END_INPUT;
 }
 

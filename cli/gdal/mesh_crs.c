@@ -13,7 +13,7 @@ int mesh_crs_settle(const char *path, const char *option, const char *of_file, b
     const char *chosen = option ? option : of_file;
     *crs = NULL;
     if (option && of_file && !quiet && !crs_same(option, of_file))
-        complain("%s: warning: it says that it is in %s, --crs that it is in %s, which counts",
+        complain("%s: warning: its file says that it is in %s, but --crs says %s, which is used",
                  name, crs_name(of_file, names[0]), crs_name(option, names[1]));
     if (!option && of_file && !crs_known(of_file)) {
         if (!quiet)

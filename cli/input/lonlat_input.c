@@ -9,7 +9,7 @@ static int lonlat_fail_vertex(const char *path, size_t vertex, const double *p)
     char longitude[32], latitude[32];
     mw_format_double(p[0], longitude);
     mw_format_double(p[1], latitude);
-    complain("%s: vertex %zu: %s, %s is no longitude and latitude in degrees", path, vertex,
+    complain("%s: vertex %zu: %s, %s are not a longitude and a latitude in degrees", path, vertex,
              longitude, latitude);
     return END_INPUT;
 }

@@ -2,23 +2,69 @@
 #include "cli/frame/message.h"
 #include "cli/frame/text.h"
 
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
-static int mesh_field_fail(const char *path, const mw_mesh_file *file, const char *field)
+/* The number of a field of triangles; SIZE_MAX: there is none of this name. */
+static size_t mesh_field_of_triangles(const mw_mesh_file *file, const char *field)
 {
+    size_t i = 0;
+    while (i < file->triangle_field_count && strcmp(file->triangle_field_names[i], field) != 0) i++;
+    return i < file->triangle_field_count ? i : SIZE_MAX;
+}
+
+static int mesh_field_fail(const char *path, const mw_mesh_file *file,
+                           const mesh_field_choice *choice)
+{
+    const bool triangles = choice->recover || choice->triangles;
     text names = {0};
     if (file->has_z) text_string(&names, " z");
     for (size_t i = 0; i < file->field_count; i++) text_printf(&names, " %s", file->field_names[i]);
+    for (size_t i = 0; triangles && i < file->triangle_field_count; i++)
+        text_printf(&names, " %s", file->triangle_field_names[i]);
     int end = END_INPUT;
     if (names.failed)
         end = fail_memory();
+    else if (mesh_field_of_triangles(file, choice->field) != SIZE_MAX)
+        complain("%s: '%s' is a field of triangles; values at vertices are needed here", path,
+                 choice->field);
     else if (names.size == 0)
         complain("%s: has neither heights nor fields: there is nothing to sample", path);
     else
-        complain("%s: has no field '%s'; --field may be one of:%.*s", path, field, (int)names.size,
-                 names.bytes);
+        complain("%s: has no field '%s'; --field may be one of:%.*s", path, choice->field,
+                 (int)names.size, names.bytes);
     text_release(&names);
+    return end;
+}
+
+static int mesh_field_recover(mw_mesh *mesh, const char *path, const char *field,
+                              const double *values)
+{
+    mw_error error;
+    double *vertices = malloc(mw_mesh_vertex_count(mesh) * sizeof *vertices + 1);
+    if (!vertices) return fail_memory();
+    mw_status status = mw_recover_vertex_values(mesh, values, NULL, vertices, &error);
+    if (status == MW_OK) status = mw_mesh_set_field(mesh, field, vertices, 1, &error);
+    free(vertices);
+    return status == MW_OK ? 0 : fail_mesh(path, &error);
+}
+
+static int mesh_field_take_triangles(mw_mesh *mesh, const char *path,
+                                     const mesh_field_choice *choice, const double *values)
+{
+    nodata_rule rule = choice->nodata;
+    rule.place = "triangle";
+    rule.places = "triangles";
+    double *copy = nodata_copy(values, 1, mw_mesh_triangle_count(mesh), &rule, path, choice->field,
+                               choice->quiet);
+    if (!copy) return fail_memory();
+    if (!choice->recover) {
+        *choice->triangles = copy;
+        return 0;
+    }
+    const int end = mesh_field_recover(mesh, path, choice->field, copy);
+    free(copy);
     return end;
 }
 
@@ -47,7 +93,10 @@ int mesh_field_load(mw_mesh *mesh, const char *path, const mw_mesh_file *file, c
         values = file->points + 2;
         stride = 3;
     }
-    if (!values) return mesh_field_fail(path, file, field);
+    const size_t triangles = values ? SIZE_MAX : mesh_field_of_triangles(file, field);
+    if (triangles != SIZE_MAX && (choice->recover || choice->triangles))
+        return mesh_field_take_triangles(mesh, path, choice, file->triangle_fields[triangles]);
+    if (!values) return mesh_field_fail(path, file, choice);
     if (file->step_count > 1 && stride == 1 && !choice->quiet)
         complain("%s: warning: has values at %zu times; '%s' is that of the first ('meshwalk "
                  "sample --time' takes others)",

@@ -1,4 +1,5 @@
-/* mesh_field.h - the values that a mesh's file has at the vertices: heights, or a field. */
+/* mesh_field.h - the values that a mesh's file has at the vertices, heights or a field, or at
+ * the triangles. */
 #ifndef MW_CLI_INPUT_MESH_FIELD_H
 #define MW_CLI_INPUT_MESH_FIELD_H
 
@@ -11,10 +12,15 @@ typedef struct mesh_field_choice {
     const char *field; /* "z", or the name of a field */
     nodata_rule nodata;
     bool quiet;
+    bool recover; /* values of triangles become values of vertices, continuous ones */
+    /* Where values of triangles go: one for each triangle, for free(); NULL: they are refused
+     * without `recover`. Then the mesh gets no field. */
+    double **triangles;
 } mesh_field_choice;
 
-/* Copy the field from the file of a mesh to the mesh, NaN for values that are missing. `self` is a
- * mesh_field_choice. Returns 0, or an exit code after a complaint. */
+/* Copy the field from the file of a mesh to the mesh, NaN for values that are missing. A field of
+ * vertices comes before one of triangles of the same name. `self` is a mesh_field_choice. Returns
+ * 0, or an exit code after a complaint. */
 int mesh_field_load(mw_mesh *mesh, const char *path, const mw_mesh_file *file, const void *self);
 
 #endif

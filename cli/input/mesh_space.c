@@ -34,7 +34,7 @@ const option mesh_space_options[] = {
 
 static int mesh_space_option_wants(const char *name, const char *as)
 {
-    complain("option '--%s' wants --as %s", name, as);
+    complain("option '--%s' needs --as %s", name, as);
     return END_USAGE;
 }
 

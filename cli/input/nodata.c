@@ -22,7 +22,7 @@ int nodata_parse(const char *option, const char *argument, nodata_rule *rule)
     if (rule->none) return 0;
     rule->value = strtod(argument, &end);
     if (end != argument && *end == 0) return 0;
-    complain("option '--%s' wants a number or none, not '%s'", option, argument);
+    complain("option '--%s' must be a number or none, not '%s'", option, argument);
     return END_USAGE;
 }
 
@@ -45,7 +45,9 @@ static void nodata_remark(const char *path, const char *field, const nodata_rule
     char digits[32];
     mw_format_double(number, digits);
     complain("%s: remark: %s is %s at %zu %s; --%s %s", path, field, digits, found,
-             found == 1 ? "vertex" : "vertices", rule->option, what);
+             found == 1 ? (rule->place ? rule->place : "vertex")
+                        : (rule->places ? rule->places : "vertices"),
+             rule->option, what);
 }
 
 static void nodata_remark_suspects(const double *values, size_t count, const nodata_rule *rule,
@@ -55,7 +57,7 @@ static void nodata_remark_suspects(const double *values, size_t count, const nod
         size_t found = values_count(values, count, suspects[i]);
         char digits[32], what[96];
         mw_format_double(suspects[i], digits);
-        snprintf(what, sizeof what, "%s would take it for missing", digits);
+        snprintf(what, sizeof what, "%s would treat it as missing", digits);
         if (found > 0) nodata_remark(path, field, rule, found, suspects[i], what);
     }
 }
@@ -72,7 +74,7 @@ double *nodata_copy(const double *values, size_t stride, size_t count, const nod
     if (quiet || rule->given) return copy;
     if (found > 0)
         nodata_remark(path, field, rule, found, rule->value,
-                      "none would take it for a value, not for a missing one");
+                      "none would treat it as a value, not as missing");
     nodata_remark_suspects(copy, count, rule, path, field);
     return copy;
 }

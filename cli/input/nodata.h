@@ -7,7 +7,8 @@
 
 /* Which number means that a value is missing. NaN always does. */
 typedef struct nodata_rule {
-    const char *option; /* that tells it, without --; for messages */
+    const char *place, *places; /* what has values; NULL: vertex, vertices */
+    const char *option;         /* that tells it, without --; for messages */
     double value;
     bool given; /* by the option; else the number is that of ADCIRC, -99999 */
     bool none;  /* no number does */
@@ -17,10 +18,10 @@ typedef struct nodata_rule {
  * END_USAGE after a complaint. */
 int nodata_parse(const char *option, const char *argument, nodata_rule *rule);
 
-/* Copy a value for each vertex, with NaN in place of the number that means that it is missing; a
- * float of that number is meant, too. Tells on standard error, unless `quiet`, which values are
- * taken for missing without the option, and which look as if they were meant so. Returns the copy,
- * for free(); NULL if memory runs out. */
+/* Copy a value for each vertex (or triangle), with NaN in place of the number that means that it
+ * is missing; a float of that number is meant, too. Tells on standard error, unless `quiet`, which
+ * values are taken for missing without the option, and which look as if they were meant so. Returns
+ * the copy, for free(); NULL if memory runs out. */
 double *nodata_copy(const double *values, size_t stride, size_t count, const nodata_rule *rule,
                     const char *path, const char *field, bool quiet);
 

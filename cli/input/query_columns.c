@@ -158,7 +158,7 @@ static int columns_complain(text *t, int end)
 static int columns_fail_count(const query_columns *wanted, size_t width)
 {
     text t = {0};
-    text_printf(&t, "option '--columns' wants %zu columns, ", wanted->count);
+    text_printf(&t, "option '--columns' must name %zu columns, ", wanted->count);
     text_column_list(&t, wanted->names, wanted->count, ",");
     text_printf(&t, ", not %zu", width);
     return columns_complain(&t, END_USAGE);
@@ -205,7 +205,7 @@ static int columns_fail_unclear(const query_columns *wanted, const char *file,
     } else {
         text_string(&t, "They have no names");
     }
-    text_string(&t, "; --columns tells, by names or by numbers from 1");
+    text_string(&t, "; use --columns, with names or with numbers from 1");
     text_string(&t, wanted->hint ? wanted->hint : "");
     return columns_complain(&t, END_USAGE);
 }

@@ -40,7 +40,7 @@ typedef struct query_columns {
  *   3. all columns, if there are no others and none is known as a coordinate of another kind;
  *   4. the first columns of a file without names whose path ends in .xyz.
  * Returns 0 when the reader reads those, or an exit code after a complaint if none of this holds.
- * */
+ */
 int query_columns_find(const query_columns *wanted, const char *path, mw_point_reader *reader,
                        bool chosen, size_t index[MAX_QUERY_COLUMNS], bool *lonlat);
 

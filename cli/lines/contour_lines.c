@@ -1,6 +1,7 @@
 #include "cli/lines/contour_lines.h"
 #include "cli/frame/message.h"
 #include "cli/frame/progress.h"
+#include "cli/lines/contour_point.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -108,20 +109,8 @@ static bool tracer_add_point(contour_tracer *c, const double p[2])
 /* Where the level crosses an edge: the same point from both sides. */
 static bool tracer_add_crossing(contour_tracer *c, const uint32_t v[3], unsigned k)
 {
-    uint32_t low = v[k], high = v[(k + 1) % 3];
-    if (tracer_is_above(c, low)) {
-        low = high;
-        high = v[k];
-    }
-    double a[2], b[2], p[2], below = c->values[low], above = c->values[high];
-    mw_mesh_vertex(c->mesh, low, a);
-    mw_mesh_vertex(c->mesh, high, b);
-    double t = (c->level / 2 - below / 2) / (above / 2 - below / 2);
-    for (int i = 0; i < 2; i++) {
-        double across = b[i] - a[i]; /* not rounded off an edge along an axis */
-        p[i] = isfinite(across) ? a[i] + across * t : a[i] * (1 - t) + b[i] * t;
-        if (above == c->level) p[i] = b[i];
-    }
+    double p[2];
+    contour_point(c->mesh, c->values, c->level, v[k], v[(k + 1) % 3], p);
     return tracer_add_point(c, p);
 }
 

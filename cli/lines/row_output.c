@@ -14,7 +14,10 @@ int row_output_check(const char *path)
     return gdal_rows_known(path) ? gdal_rows_check(path) : files_check_text_output(path);
 }
 
-static int row_output_begin(row_output *o, const text *header, const char *kinds, bool lines)
+/* What each row has. */
+enum { ROW_POINT = 0, ROW_LINE, ROW_POLYGON };
+
+static int row_output_begin(row_output *o, const text *header, const char *kinds, int geometry)
 {
     mw_error error;
     gdal_rows_form form = {.header = header->bytes,
@@ -25,7 +28,8 @@ static int row_output_begin(row_output *o, const text *header, const char *kinds
                            .answers = kinds,
                            .crs = o->crs,
                            .quiet = o->quiet,
-                           .lines = lines};
+                           .lines = geometry == ROW_LINE,
+                           .polygons = geometry == ROW_POLYGON};
     if (gdal_rows_known(o->path)) return gdal_rows_open(&o->rows, o->path, &form);
     int end = prj_output_check(o->path, o->crs, o->quiet);
     if (end) return end;
@@ -42,14 +46,21 @@ int row_output_open(row_output *o, const char *path, const text *header, const c
     o->room = ROWS_AT_A_TIME;
     o->points = malloc(2 * o->room * sizeof *o->points);
     if (!o->points || header->failed) return fail_memory();
-    return row_output_begin(o, header, kinds, false);
+    return row_output_begin(o, header, kinds, ROW_POINT);
 }
 
 int row_output_open_lines(row_output *o, const char *path, const text *header, const char *kinds,
                           const char *crs, bool quiet)
 {
     *o = (row_output){.path = path, .crs = crs, .quiet = quiet};
-    return header->failed ? fail_memory() : row_output_begin(o, header, kinds, true);
+    return header->failed ? fail_memory() : row_output_begin(o, header, kinds, ROW_LINE);
+}
+
+int row_output_open_polygons(row_output *o, const char *path, const text *header, const char *kinds,
+                             const char *crs, bool quiet)
+{
+    *o = (row_output){.path = path, .crs = crs, .quiet = quiet};
+    return header->failed ? fail_memory() : row_output_begin(o, header, kinds, ROW_POLYGON);
 }
 
 static int row_output_flush(row_output *o)
@@ -76,6 +87,15 @@ int row_output_line(row_output *o, const double *points, size_t count)
 {
     if (o->text.failed) return fail_memory();
     int end = gdal_rows_write_line(o->rows, o->text.bytes, o->text.size, points, count);
+    text_clear(&o->text);
+    return end;
+}
+
+int row_output_polygon(row_output *o, const double *points, const size_t *first, size_t ring_count)
+{
+    if (o->text.failed) return fail_memory();
+    int end =
+        gdal_rows_write_polygon(o->rows, o->text.bytes, o->text.size, points, first, ring_count);
     text_clear(&o->text);
     return end;
 }

@@ -30,15 +30,21 @@ int row_output_check(const char *path);
  * Close it in both cases. */
 int row_output_open(row_output *o, const char *path, const text *header, const char *kinds,
                     const char *crs, bool quiet);
-/* The same for rows with a line each, of a vector file only. */
+/* The same for rows with a line or a polygon each, of a vector file only. */
 int row_output_open_lines(row_output *o, const char *path, const text *header, const char *kinds,
                           const char *crs, bool quiet);
+
+int row_output_open_polygons(row_output *o, const char *path, const text *header, const char *kinds,
+                             const char *crs, bool quiet);
 
 /* Append a row, which the caller has written to o->text with its end. */
 int row_output_row(row_output *o, const double point[2]);
 
 /* Write the row that stands in o->text, with a line of `count` points, x and y each. */
 int row_output_line(row_output *o, const double *points, size_t count);
+
+/* The same with a polygon, as gdal_rows_write_polygon takes it. */
+int row_output_polygon(row_output *o, const double *points, const size_t *first, size_t ring_count);
 
 /* Finish the output, or remove it if not `commit`. */
 int row_output_close(row_output *o, bool commit);

@@ -29,7 +29,7 @@ int mesh_output_check(const char *command_name, const char *output, int format)
     if (!output)
         complain("%s: -o MESH is missing: where should the mesh go?", command_name);
     else if (files_is_standard(output) && format == FORMAT_BY_ENDING)
-        complain("%s: a mesh on standard output wants --format", command_name);
+        complain("%s: a mesh on standard output needs --format", command_name);
     else if (format == FORMAT_BY_ENDING && !mw_mesh_format_of_path(output))
         complain("%s: no mesh format has this ending; name one with --format (off, ply, ...)",
                  output);

@@ -66,9 +66,9 @@ int prj_output_write(const char *output, const char *crs, bool quiet)
     char *wkt = same ? NULL : crs_wkt(crs);
     if (!wkt) {
         if (!same && !quiet)
-            complain(
-                "%s: remark: its system, %.60s, is not written beside it: it cannot be told as WKT",
-                output, crs);
+            complain("%s: remark: its system, %.60s, is not written beside it: it cannot be "
+                     "written as WKT",
+                     output, crs);
         return 0;
     }
     text t = {0};

@@ -333,7 +333,9 @@ static int greedy_leave_out(const mw_mesh *mesh, const uint8_t *empty, const cha
     for (uint32_t t = 0; end == 0 && t < count; t++)
         if (!empty[t]) mw_mesh_triangle(mesh, t, triangles + 3 * (size_t)n++);
     if (end == 0 && n == 0) {
-        complain("%s: no triangle is left: its pixels with a height hold no area", path);
+        complain("%s: no triangle is left: its pixels with a height lie on one line, or are fewer "
+                 "than three",
+                 path);
         end = END_INPUT;
     }
     const mw_arrays arrays = {.points = points,
@@ -404,7 +406,7 @@ static int greedy_finish(greedy_tin *g, greedy_result *r, const common_settings 
     if (end == 0) end = greedy_verify(g, &left, *out, REMEDY_NONE, report);
     greedy_result_release(&left);
     if (end || report->largest <= g->tolerance) return end;
-    complain("%s: a pixel is missed by %g", g->dem->path, report->largest);
+    complain("%s: the mesh is off by %g at a pixel", g->dem->path, report->largest);
     return END_RESOURCE;
 }
 

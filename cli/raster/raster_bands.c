@@ -30,8 +30,9 @@ uint32_t raster_bands_parse(const char *list, raster_band bands[BAND_COUNT])
         for (uint32_t i = 0; i < count; i++)
             if (bands[i] == band) band = BAND_COUNT;
         if (band == BAND_COUNT) {
-            complain("option '--derive' wants some of slope,aspect,hillshade,triangle, not '%.60s'",
-                     list);
+            complain(
+                "option '--derive' must be some of slope,aspect,hillshade,triangle, not '%.60s'",
+                list);
             return 0;
         }
         bands[count++] = band;

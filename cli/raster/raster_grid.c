@@ -24,7 +24,7 @@ int raster_grid_check(const raster_grid_wish *wish)
 {
     double box[4];
     if (!wish->extent || extent_parse(wish->extent, box)) return 0;
-    complain("option '--extent' wants XMIN,YMIN,XMAX,YMAX, not '%.80s'", wish->extent);
+    complain("option '--extent' must be XMIN,YMIN,XMAX,YMAX, not '%.80s'", wish->extent);
     return END_USAGE;
 }
 

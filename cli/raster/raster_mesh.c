@@ -71,7 +71,8 @@ static int raster_mesh_locate(raster_mesh *m, const char *path, const raster_mes
         .border = s->border, .threads = s->common->threads, .progress = progress_of_call()};
     if (mw_locator_create(m->mesh, &options, &m->locator, &error) == MW_OK) return 0;
     int end = fail_mesh(path, &error);
-    if (end == END_INPUT) complain("'meshwalk check %s' lists every defect", path);
+    if (end == END_INPUT)
+        complain("'meshwalk check %s' lists every defect, 'meshwalk view' shows it", path);
     return end;
 }
 

@@ -41,8 +41,9 @@ int series_check_time(const char *time)
     double instant;
     if (strcmp(time, "all") == 0 || instant_parse(time, &instant)) return 0;
     if (steps_parse(time, &first, &last) && first <= last) return 0;
-    complain("option '--time' wants all, FIRST..LAST or N (steps, from 0), or nearest:T, not '%s'",
-             time);
+    complain(
+        "option '--time' must be all, FIRST..LAST or N (steps, from 0), or nearest:T, not '%s'",
+        time);
     return END_USAGE;
 }
 

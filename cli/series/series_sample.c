@@ -273,7 +273,7 @@ static void run_remark_time(const series_run *r)
     const mw_series_info *info = r->choice.info;
     if (r->query_settings->stream.common.quiet) return;
     complain("%s: remark: %zu of %zu steps; times are in %s%s%s", r->choice.path, run_steps(r),
-             info->step_count, *info->time_unit ? info->time_unit : "a unit that it does not tell",
+             info->step_count, *info->time_unit ? info->time_unit : "an unknown unit",
              *info->calendar ? ", calendar " : "", info->calendar);
 }
 

@@ -13,8 +13,7 @@ int series_values_open(series_values *v, const series_choice *choice, const seri
     *v = (series_values){.choice = choice, .at = at};
     v->values = malloc(most * sizeof *v->values + 1);
     v->vertices = malloc(vertices * sizeof *v->vertices + 1);
-    v->area = malloc(vertices * sizeof *v->area + 1);
-    if (!v->values || !v->vertices || !v->area) return fail_memory();
+    if (!v->values || !v->vertices) return fail_memory();
     const mw_operator_options options = {.threads = at->threads};
     if (mw_operator_create(at->mesh, at->located, at->count, &options, &v->weights, &error) !=
         MW_OK)
@@ -27,42 +26,11 @@ void series_values_release(series_values *v)
     mw_operator_destroy(v->weights);
     free(v->values);
     free(v->vertices);
-    free(v->area);
 }
 
 static size_t values_face(const series_points *at, uint32_t triangle)
 {
     return at->face ? at->face[triangle] : triangle;
-}
-
-static double values_area(const mw_mesh *mesh, const uint32_t v[3])
-{
-    double a[2], b[2], c[2];
-    mw_mesh_vertex(mesh, v[0], a);
-    mw_mesh_vertex(mesh, v[1], b);
-    mw_mesh_vertex(mesh, v[2], c);
-    return fabs(mw_orient2d(a, b, c));
-}
-
-/* At each vertex the mean of the faces there, by the areas of their triangles. Faces without a
- * value do not count. */
-static void values_recover(series_values *v)
-{
-    const series_points *at = v->at;
-    const uint32_t n = mw_mesh_vertex_count(at->mesh);
-    for (uint32_t i = 0; i < n; i++) v->vertices[i] = v->area[i] = 0;
-    for (uint32_t t = 0; t < mw_mesh_triangle_count(at->mesh); t++) {
-        uint32_t corner[3];
-        const double value = v->values[values_face(at, t)];
-        if (isnan(value)) continue;
-        mw_mesh_triangle(at->mesh, t, corner);
-        const double area = values_area(at->mesh, corner);
-        for (int k = 0; k < 3; k++) {
-            v->vertices[corner[k]] += area * value;
-            v->area[corner[k]] += area;
-        }
-    }
-    for (uint32_t i = 0; i < n; i++) v->vertices[i] /= v->area[i]; /* NaN without any */
 }
 
 static int values_weigh(const series_values *v, const double *vertices, double *result)
@@ -84,7 +52,8 @@ int series_values_read(series_values *v, size_t k, size_t step, double *result)
         return fail_reading(&error);
     if (!faces) return values_weigh(v, v->values, result);
     if (at->recover) {
-        values_recover(v);
+        if (mw_recover_vertex_values(at->mesh, v->values, at->face, v->vertices, &error) != MW_OK)
+            return fail_query(&error);
         return values_weigh(v, v->vertices, result);
     }
     for (size_t i = 0; i < at->count; i++) {

@@ -21,7 +21,6 @@ typedef struct series_values {
     mw_operator *weights;
     double *values;   /* of a field at a step, as the file has them */
     double *vertices; /* recovered */
-    double *area;     /* of the triangles at each vertex that have a value */
 } series_values;
 
 /* Returns 0, or an exit code after a complaint; release in both cases. */

@@ -75,7 +75,7 @@ static const char *extent_suspicion(const extent_box *mesh, const extent_box *po
     /* small numbers meet by chance */
     if (degrees && mesh_degrees && points->count < FEW) return NULL;
     if (extents_meet(&exchanged, mesh))
-        return "with x and y exchanged they would meet: --columns tells which is which";
+        return "with x and y exchanged they would meet: --columns says which is which";
     if (degrees && extents_meet(&east, mesh)) return "with 360 degrees more in x they would meet";
     if (degrees && extents_meet(&west, mesh)) return "with 360 degrees less in x they would meet";
     if (extents_meet(&feet, mesh))

@@ -1,5 +1,5 @@
 /* extent_remark.h - compares where points lie with where the mesh lies, if most of them missed it.
- * */
+ */
 #ifndef MW_CLI_STREAM_EXTENT_REMARK_H
 #define MW_CLI_STREAM_EXTENT_REMARK_H
 

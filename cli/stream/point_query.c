@@ -137,9 +137,13 @@ static int point_query_fail_mesh(const point_query *q, const char *path, bool ar
 {
     int end = fail_mesh(path, error);
     if (end == END_INPUT && q->settings->lines && area)
-        complain("'meshwalk check %s' lists every defect; --fix mends some", path);
+        complain(
+            "'meshwalk check %s' lists every defect, 'meshwalk view' shows it; --fix mends some",
+            path);
     else if (end == END_INPUT && !q->settings->any && area)
-        complain("'meshwalk check %s' lists every defect; --any locates points all the same", path);
+        complain("'meshwalk check %s' lists every defect, 'meshwalk view' shows it; --any locates "
+                 "points all the same",
+                 path);
     return end;
 }
 
@@ -188,7 +192,7 @@ static int point_query_check_fill(const point_query_settings *settings)
     if (settings->fill != MW_FILL_NO || settings->walk == MW_WALK_AUTO ||
         settings->walk == MW_WALK_BORDER)
         return 0;
-    complain("--fill no wants --walk border, not %s", mw_walk_name((mw_walk_kind)settings->walk));
+    complain("--fill no needs --walk border, not %s", mw_walk_name((mw_walk_kind)settings->walk));
     return END_USAGE;
 }
 

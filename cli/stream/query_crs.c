@@ -50,7 +50,7 @@ static const char *crs_told(const query_crs_settings *s, const char *points,
     if (!s->option) return of_file;
     if (of_file && !s->quiet && !crs_same(of_file, s->option))
         complain(
-            "%s: warning: it says that it is in %s, --points-crs that it is in %s, which counts",
+            "%s: warning: its file says that it is in %s, but --points-crs says %s, which is used",
             points, crs_name(of_file, names[0]), crs_name(s->option, names[1]));
     return s->option;
 }
@@ -80,12 +80,12 @@ static void warn_of_unknown(const query_crs_settings *s, const char *points, con
     if (known == s->mesh_crs)
         complain("%s: warning: its coordinate system is not known, and %s is in %s: the points are "
                  "taken as they are; "
-                 "--points-crs tells their system, or 'same'",
+                 "--points-crs names their system, or 'same'",
                  points, s->mesh, crs_name(known, name));
     else
         complain("%s: warning: its coordinate system is not known, and %s is in %s: the points are "
                  "taken as they are; "
-                 "--crs tells that of the mesh",
+                 "--crs names that of the mesh",
                  s->mesh, points, crs_name(known, name));
 }
 
@@ -96,7 +96,7 @@ static int query_crs_suppose_lonlat(query_crs *c, const query_crs_settings *s, c
     c->of_rows = CRS_LONLAT;
     if (!s->quiet && !crs_same(CRS_LONLAT, s->mesh_crs))
         complain("%s: remark: its longitudes and latitudes are taken as WGS 84 (" CRS_LONLAT
-                 "); --points-crs tells "
+                 "); --points-crs names "
                  "another system",
                  points);
     return query_crs_join(c, s, points, s->mesh_crs);

@@ -30,7 +30,7 @@ static located_file located_file_of(const char *path, const char *name, const ch
     located_file f = {path && files_is_standard(path) ? "standard input" : path,
                       given ? given : of_file, name};
     if (path && given && of_file && !quiet && !crs_same(given, of_file))
-        complain("%s: warning: it says that it is in %s, --%s that it is in %s, which counts",
+        complain("%s: warning: its file says that it is in %s, but --%s says %s, which is used",
                  f.path, crs_name(of_file, names[0]), name, crs_name(given, names[1]));
     if (path && !given && of_file && !crs_known(of_file)) {
         if (!quiet)
@@ -47,7 +47,7 @@ static void warn_of_unknown_crs(const located_file *unknown, const located_file 
     if (!quiet)
         complain("%s: warning: its coordinate system is not known, and %s is in %s: its points are "
                  "taken as they are; "
-                 "--%s tells",
+                 "--%s names it",
                  unknown->path, known->path, crs_name(known->crs, name), unknown->option);
 }
 
@@ -92,7 +92,7 @@ static void suppose_lonlat(located_file *points, const char *other, bool quiet)
     points->crs = CRS_LONLAT;
     if (!quiet && !crs_same(other, CRS_LONLAT))
         complain("%s: remark: its longitudes and latitudes are taken as WGS 84 (" CRS_LONLAT
-                 "); --points-crs tells "
+                 "); --points-crs names "
                  "another system",
                  points->path);
 }

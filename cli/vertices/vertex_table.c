@@ -83,7 +83,7 @@ typedef struct point_columns {
 } point_columns;
 
 /* Tell which columns become no fields since they hold texts, and where the first of these stands.
- * */
+ */
 static void columns_tell_texts(const point_columns *c)
 {
     enum { MOST = 6 };
@@ -113,7 +113,7 @@ static int columns_fail_height(const point_columns *c)
     int64_t place = 0;
     vertex_source_has_texts(c->source, c->height, &place);
     complain("%s:%s%" PRId64
-             ": column '%s', the height, holds no number there; --columns chooses another",
+             ": column '%s', the height, has no number there; --columns chooses another",
              c->path, vertex_source_has_features(c->source) ? " feature " : "", place,
              vertex_source_column(c->source, c->height));
     return END_INPUT;

@@ -34,6 +34,10 @@ typedef struct mw_marked_edge {
  * one another, whatever the files. A program that calls libnetcdf itself must not do so while
  * another thread is in such a call.
  *
+ * HDF5, on which netCDF-4 is built, may bring its process down over a damaged file. So a netCDF-4
+ * file is opened in a child of fork() first, and refused if that does not come to an end: the
+ * process gets a SIGCHLD, or more.
+ *
  * @param text  receives the version, ended by NUL, empty if there is none; NULL is allowed
  * @param size  bytes of `text`
  * @return the length of the whole version; 0: libnetcdf is not found, and netCDF files are refused

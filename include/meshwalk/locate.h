@@ -29,7 +29,7 @@ typedef enum mw_walk_kind {
 } mw_walk_kind;
 
 /** How the first triangle of a walk is chosen: starts.def lists the ways. 0 lets the query choose.
- * */
+ */
 typedef enum mw_start_kind {
     MW_START_AUTO = 0,
 #define MW_START_ENTRY(id, name, source, index, help) MW_START_##id,
@@ -521,6 +521,22 @@ MW_API mw_status mw_nearest_border(const mw_locator *locator, double x, double y
  */
 MW_API void mw_interpolate(const mw_mesh *mesh, const double *values, const mw_location *locations,
                            size_t n, double *result);
+
+/**
+ * Make values at triangles or faces continuous: each vertex gets the mean of the triangles around
+ * it, weighted by area.
+ *
+ * @param mesh    the mesh
+ * @param values  one value per triangle, or per face; NaN: it has none, and does not count
+ * @param faces   the face of each triangle, as mw_mesh_file.faces; NULL: value i is of triangle i
+ * @param result  receives one value per vertex, for mw_interpolate(); NaN where no triangle has one
+ * @param error   NULL, or receives the message of a failure
+ * @return MW_OK; MW_ERROR_ARGUMENT for NULL; MW_ERROR_MEMORY.
+ *
+ * Thread-safe. O(triangles); allocates 8 bytes a vertex.
+ */
+MW_API mw_status mw_recover_vertex_values(const mw_mesh *mesh, const double *values,
+                                          const uint32_t *faces, double *result, mw_error *error);
 
 /** The type of the values of a table. */
 typedef enum mw_value_type { MW_FLOAT64 = 0, MW_FLOAT32 } mw_value_type;

@@ -65,7 +65,7 @@ typedef enum mw_defect_kind {
     MW_DEFECT_OPEN_EDGE,
     MW_DEFECT_THROUGH_CENTRE, /**< the plane of `triangle` passes through the centre */
     /** `triangle` turns its back to the centre, seen from its neighbour `other` at `edge`, if any.
-     * */
+     */
     MW_DEFECT_BACK_FACING,
     MW_DEFECT_COVERED, /**< a ray from the centre meets both `triangle` and `other` */
     MW_DEFECT_COUNT

@@ -10,7 +10,10 @@
 #include <meshwalk/triangulate.h>
 #include <meshwalk/locate.h>
 #include <meshwalk/segment.h>
+#include <meshwalk/sight.h>
+#include <meshwalk/volume.h>
 #include <meshwalk/operator.h>
+#include <meshwalk/remap.h>
 #include <meshwalk/polygons.h>
 #include <meshwalk/borrow.h>
 #include <meshwalk/edit.h>

@@ -260,7 +260,7 @@ MW_API size_t mw_probe_path(const mw_prober *prober, mw_probe_cursor *cursor, co
  */
 typedef struct mw_nearest_surface_point {
     /** The caller's number; MW_NONE if the query is not finite or no usable triangle is in reach.
-     * */
+     */
     uint32_t triangle;
     /** In mesh units; infinite beyond the largest double. NaN, as what follows, without a
      * triangle. */

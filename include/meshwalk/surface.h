@@ -75,7 +75,7 @@ MW_API uint32_t mw_surface_vertex_count(const mw_surface *surface);
 MW_API uint32_t mw_surface_triangle_count(const mw_surface *surface);
 
 /** Copy x, y, z of a vertex. `vertex` must be less than the number of vertices; it is not checked.
- * */
+ */
 MW_API void mw_surface_vertex(const mw_surface *surface, uint32_t vertex, double point[3]);
 
 /** Copy the vertices of a triangle, as given. `triangle` must be less than the number of

@@ -62,7 +62,7 @@ MW_API mw_status mw_delaunay(const double *points, size_t n, size_t stride,
                              mw_delaunay_report *report, mw_mesh **out, mw_error *error);
 
 /* --- other kinds of triangulation ---------------------------------------------------------------
- * */
+ */
 
 /** The kinds of triangulation: kinds.def lists them. */
 typedef enum mw_triangulation_kind {
@@ -160,7 +160,7 @@ MW_API mw_status mw_triangulate(mw_triangulation_kind kind, const double *points
 /* --- constraints ------------------------------------------------------------------------------ */
 
 /** Points, and the segments that must be edges of their triangulation. Read during the call only.
- * */
+ */
 typedef struct mw_constraints {
     const double *points; /**< x, y of point i at points[i * stride] and the double after it */
     size_t point_count;

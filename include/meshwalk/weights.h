@@ -26,6 +26,11 @@ typedef struct mw_weight_positions {
     const mw_location *located; /**< the location of each row: its status is kept, as status_b */
     int degrees;                /**< 1: x and y are longitude and latitude */
     const char *title;          /**< of the file */
+    const double *column_areas; /**< area of each column: area_a */
+    const double *row_areas;    /**< area of each row: area_b */
+    const double *column_fractions; /**< frac_a of each column */
+    const double *row_fractions;    /**< frac_b of each row */
+    const char *method;             /**< map_method; NULL: linear interpolation in triangles */
 } mw_weight_positions;
 
 /**
@@ -33,8 +38,8 @@ typedef struct mw_weight_positions {
  * scipy.sparse.save_npz() writes a csr_array. The file appears when it is complete.
  *
  * Beside the weights ESMF's layout has the positions and, of columns (_a) and rows (_b), mask (1; 0
- * for a row without entries), area (0: not known) and frac (the sum of the row's weights; 1 for a
- * column that some row uses, else 0).
+ * for a row without entries), area and frac. Where positions do not tell these, area is 0 and frac
+ * the sum of the row's weights; for a column 1 if some row uses it, else 0.
  *
  * @param path     the file, no pipe
  * @param weights  the operator

@@ -194,7 +194,7 @@ class Surface(_core.Surface):
             first = int(np.argmax(wrong))
             longitude, latitude = rows[first]
             raise ValueError(
-                f"lonlat[{first}] is no longitude and latitude in degrees: {longitude}, {latitude}"
+                f"lonlat[{first}] is not a longitude and latitude: {longitude}, {latitude}"
             )
         return cls(points, triangles, fields, weld=weld)
 

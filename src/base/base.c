@@ -73,8 +73,8 @@ static void *alloc_aligned(size_t alignment, size_t bytes)
 }
 
 /* Queries read arrays at random positions: with pages of 4 KiB nearly every miss of the cache is
- * one of the table of pages, too. So where an array fills some, large pages are asked for; a system
- * that has none to give need not hear. */
+ * one of the table of pages, too. So an array that is large enough asks for large pages. The
+ * request is only advice: a system without large pages ignores it. */
 void *mw__alloc_lines(size_t count, size_t size)
 {
     enum { LINE = 64, PAGE = 1 << 21, PAGES = 2 };

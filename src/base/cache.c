@@ -29,9 +29,9 @@ static size_t third_level_bytes(void)
     return 0;
 }
 
-/* The third level is told as a whole, some systems tell that of all processors together; a core's
- * share of it is not. It is eight second-level caches or so: 256 KiB and 2 MiB, 512 KiB and 4 MiB,
- * 2 MiB and 16 MiB. */
+/* The system reports the size of the whole third-level cache, some systems that of all processors
+ * together. This is the share of one core: about eight second-level caches (256 KiB and 2 MiB, 512
+ * KiB and 4 MiB, 2 MiB and 16 MiB). */
 mw_caches mw__caches(void)
 {
     size_t second = second_level_bytes(), third = third_level_bytes();

@@ -11,7 +11,7 @@
 #endif
 
 /* Processors that this process may use. A container or taskset(1) may allow fewer than there are.
- * */
+ */
 static uint32_t processor_count(void)
 {
 #ifdef __linux__

@@ -9,8 +9,8 @@
 
 #define MW_SORT_WORTHWHILE 64 /* fewer queries are not sorted by `auto` */
 
-/* First member of what a room knows of its batch. Points, locations, hints and seed are those of
- * one block while it is answered; its queries are numbered from 0, and the random numbers of a
+/* What each room's own record of a batch begins with. Points, locations, hints and seed are those
+ * of one block while it is answered; its queries are numbered from 0, and the random numbers of a
  * query come from the seed and its number. */
 typedef struct mw_batch mw_batch;
 struct mw_batch {

@@ -1,9 +1,10 @@
 /* borrowed_locate.c - one query: first triangle, walk, conclusion, and the rule of ties.
  *
- * No answer rests on a link alone. That a triangle contains q is decided by its own three corners.
- * That it is the lowest one follows from the triangles round the edge or vertex that q is on,
- * which are asked for q themselves; that there is none, from the mesh being convex. Where the
- * links do not lead all round, or the mesh is not known to be convex, all triangles are looked at.
+ * No answer rests on a link alone. Whether a triangle contains q is decided by its own three
+ * corners. Whether it is the lowest one is decided by the triangles round the edge or vertex that q
+ * is on; each of them is tested for q itself. That no triangle contains q follows from the mesh
+ * being convex. If the links do not lead all round, or the mesh is not known to be convex, all
+ * triangles are tested.
  */
 #include "borrow/borrowed_locate.h"
 
@@ -76,9 +77,9 @@ static mw_location borrowed_scan(const mw_borrowed *mesh, mw_point q, mw_counter
     return mw__location_nowhere(MW_OUTSIDE);
 }
 
-/* From triangle *t over its edge opposite to vertex number `off`, to one that has vertex `at`,
- * too. Returns the vertex that was not met before; MW_NONE: there is no such triangle, which
- * *broken tells from a border. */
+/* Go from triangle *t over its edge opposite to vertex number `off` to the neighbour, which has
+ * vertex `at`, too. Returns the neighbour's third vertex. Returns MW_NONE if there is no such
+ * neighbour: *broken tells a wrong link (true) from a border (false). */
 static uint32_t borrowed_turn(const mw_borrowed *mesh, uint32_t at, uint32_t off, uint32_t *t,
                               bool *broken)
 {
@@ -101,9 +102,9 @@ static uint32_t borrowed_turn(const mw_borrowed *mesh, uint32_t at, uint32_t off
     return tile.v[apex];
 }
 
-/* One way round the vertex `at` of triangle `first`, whose other vertices are `off` and `to`: over
- * the edge opposite to `off`. Lowers *best. Returns 1 if all round, 0 at the border, -1 where
- * links are wrong. */
+/* Turn one way round the vertex `at` of triangle `first`, whose other vertices are `off` and `to`;
+ * begin over the edge opposite to `off`. Lowers *best to the lowest triangle met. Returns 1 if the
+ * turn came all round, 0 if it met the border, -1 if links are wrong. */
 static int borrowed_go_round(const mw_borrowed *mesh, uint32_t first, uint32_t at, uint32_t off,
                              uint32_t to, uint32_t *best)
 {

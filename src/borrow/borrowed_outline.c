@@ -1,11 +1,11 @@
 /* borrowed_outline.c - does the caller's mesh fill its convex hull?
  *
  * It does, and nothing overlaps, if its border is one loop that goes round a convex polygon once.
- * For add up the boundaries of all triangles, each counter-clockwise: an edge between two triangles
- * is passed in both directions, since they lie on different sides of it, and cancels out. What is
- * left is the border. So the number of triangles over a point is how often the border winds round
- * it: 1 in the polygon, 0 outside. Triangles without an area cover nothing; the check has seen that
- * they lie between their neighbours, so that their edges cancel out, too. */
+ * To see why, add up the boundaries of all triangles, each counter-clockwise. Two triangles lie on
+ * different sides of their common edge, so it is passed once in each direction and cancels out.
+ * What is left is the border. So the number of triangles over a point is how often the border winds
+ * round it: 1 in the polygon, 0 outside. Triangles without an area cover nothing; the check has
+ * seen that they lie between their neighbours, so that their edges cancel out, too. */
 #include "borrow/borrowed.h"
 
 /* An edge of a tile from vertex a to b; the tile lies to its left, s is its third corner. By number

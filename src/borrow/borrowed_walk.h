@@ -28,7 +28,8 @@ static MW_INLINE void mw__borrowed_enter(mw_borrowed_walk *w, uint32_t t)
 /* From triangle w->t to the one that contains q, which is left in w->t: MW_VERDICT_FOUND.
  * MW_VERDICT_LEFT: q lies beyond an edge of w->t that has no neighbour. MW_VERDICT_OUT_OF_FUEL:
  * links are wrong, or fuel has run out, or the walk should begin where there is no area. It is the
- * remembering walk; half of the fuel it tosses a coin, so that it leaves any cycle. */
+ * remembering walk. For half of its fuel it chooses edges at random, so that it leaves any cycle.
+ */
 mw_verdict mw__borrowed_remembering(mw_borrowed_walk *w);
 
 /* The barycentric and the direct walk, as published for triangles of mixed orientation. They end

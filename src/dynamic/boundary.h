@@ -26,12 +26,11 @@ bool mw__pool_begin(mw_dynamic_tiling *dynamic, mw_pool *pool);
  * two with the highest numbers last. */
 bool mw__pool_begin_ring(mw_dynamic_tiling *dynamic, mw_pool *pool);
 
-/* Cut off corners of a chain of n steps where it turns left, until it turns left nowhere
- * [Graham 1972]. This is correct for chains whose vertices are all visible from one point, or from
- * one edge, to their left [Toussaint, Avis 1982]. step[n].vertex is the end of the chain.
- * Sets *n to the number of steps left. If corners were cut off at a step, its `beyond` is edge 2 of
- * the last tile there. Pushes the edges between new tiles for mw__legalise. False when out of
- * memory. */
+/* Cut off the corners at which a chain of n steps turns left, until it turns left nowhere [Graham
+ * 1972]. This is correct for chains whose vertices are all visible from one point, or from one
+ * edge, to their left [Toussaint, Avis 1982]. step[n].vertex is the end of the chain. Sets *n to
+ * the number of steps left. If corners were cut off at a step, its `beyond` is edge 2 of the last
+ * tile there. Pushes the edges between new tiles for mw__legalise. False when out of memory. */
 bool mw__chain_cut_corners(mw_dynamic_tiling *dynamic, mw_boundary_step *step, size_t *n,
                            mw_pool *pool);
 

@@ -2,8 +2,8 @@
  *
  * These are the tiles whose circumcircles contain the new vertex and that are connected to it; the
  * vertex sees the whole cavity [Bowyer 1981; Watson 1981]. Fixed edges bound a cavity. In a mesh
- * that is not kept Delaunay all edges do. Digging a cavity changes no tile. It records only tiles
- * on the hull that stay and get a neighbour. */
+ * that is not kept Delaunay every edge bounds one. Digging a cavity changes no tile. It records
+ * only tiles on the hull that stay and get a neighbour. */
 #ifndef MW_SRC_DYNAMIC_CAVITY_H
 #define MW_SRC_DYNAMIC_CAVITY_H
 

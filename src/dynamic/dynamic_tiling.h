@@ -95,6 +95,7 @@ typedef struct mw_dynamic_tiling {
     uint32_t last;              /* a tile at the last edit                                      */
     uint32_t walked;            /* tiles visited by the last search for an insertion            */
     uint32_t flips;             /* of the current edit                                          */
+    uint32_t star;              /* tiles round the vertex inserted last                         */
 } mw_dynamic_tiling;
 
 static MW_INLINE uint32_t mw__corner(const mw_dynamic_tiling *dynamic, uint32_t half)

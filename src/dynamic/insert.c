@@ -72,6 +72,7 @@ static mw_status cavity_fill(mw_dynamic_tiling *dynamic, const mw_cavity *cavity
     mw_status status = insertion_make_vertex(dynamic, cavity->q, vertex, error);
     if (status) return status;
     const uint32_t v = *vertex;
+    dynamic->star = (uint32_t)cavity->steps;
     uint32_t *pool = dynamic->pool + cavity->pool;
     mw__add_tiles(dynamic, beside, (uint32_t)more, pool + cavity->tiles);
     /* as if the star were closed */

@@ -17,7 +17,8 @@ bool mw__journal_begin(mw_dynamic_tiling *dynamic, const mw_edit *edit, bool rec
         dynamic->step = step;
         dynamic->step_room = room;
     }
-    const mw_tiling *tiling = dynamic->tiling;
+    mw_tiling *tiling = dynamic->tiling;
+    tiling->hubs = NULL; /* until they have followed the edit */
     dynamic->step[dynamic->step_count++] = (mw_journal_edit){.edit = *edit,
                                                              .edits = 1,
                                                              .first_entry = dynamic->journal_count,

@@ -257,9 +257,10 @@ static mw_status refuse_vertex(const mw_dynamic_tiling *dynamic, uint32_t number
                        gone ? "is not there" : "is in no triangle");
 }
 
-/* The tile where the search for q begins: what the guide names, which is near as a rule. To test
- * whether the last edit was nearer would cost more than it saves. But after a long walk (as when
- * many vertices have come into one cell) that is tested, until it is no longer so. */
+/* The tile where the search for q begins: the one that the guide names, which is near as a rule. To
+ * test whether the tile of the last edit is nearer would cost more than it saves. Only after a long
+ * walk (as when many vertices have come into one cell) that test is made, until walks are short
+ * again. */
 static uint32_t insertion_first_tile(mw_editor *editor, mw_point q)
 {
     const mw_locator *locator = &editor->locator;
@@ -427,6 +428,7 @@ mw_status mw__editor_conclude(mw_editor *editor, mw_status status, const mw_chan
     if (status) {
         if (dynamic->under_way) mw__journal_rollback(dynamic);
         mw__editor_update_view(editor);
+        mw__upkeep_resume(&editor->upkeep);
         return status;
     }
     mw__editor_update_view(editor);
@@ -466,7 +468,7 @@ mw_status mw_edit_apply(mw_editor *editor, const mw_edit *edit, mw_change *chang
     if (!editor || !edit)
         return mw__fail(error, MW_ERROR_ARGUMENT, "the editor or the edit is NULL");
     if (edit->kind == MW_EDIT_INSERT && !editor->keeps_log &&
-        !mw__editor_needs_report(editor, change))
+        !mw__editor_needs_report(editor, change, 1))
         return editor_insert_unreported(editor, edit, error);
     const mw_edit copy = *edit; /* the caller may pass an entry of the log, which may move */
     mw_change own = {.vertex = MW_NONE};

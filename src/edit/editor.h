@@ -29,11 +29,12 @@ struct mw_editor {
 /* Update the view: the arrays of the dynamic tiling may have moved. */
 void mw__editor_update_view(mw_editor *editor);
 
-/* Does an undo, a report (`change`, as the caller gave it) or an index need to know what an
- * insertion changed? */
-static MW_INLINE bool mw__editor_needs_report(const mw_editor *editor, const mw_change *change)
+/* Does an undo, a report (`change`, as the caller gave it), an index or a hub need to know what so
+ * many insertions at once changed? */
+static MW_INLINE bool mw__editor_needs_report(const mw_editor *editor, const mw_change *change,
+                                              size_t insertions)
 {
-    return change || editor->undo > 0 || mw__upkeep_needs_report(&editor->upkeep);
+    return change || editor->undo > 0 || mw__upkeep_needs_report(&editor->upkeep, insertions);
 }
 
 /* Insert one vertex, within the step under way if there is one. Sets *vertex to the number of the

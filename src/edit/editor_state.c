@@ -66,7 +66,7 @@ uint32_t mw_editor_triangle_of(const mw_editor *editor, uint32_t vertex)
 {
     uint32_t v = mw__used_vertex_slot(&editor->dynamic, vertex);
     const mw_tiling *tiling = editor->dynamic.tiling;
-    return v == MW_NONE ? MW_NONE : mw__lowest_around_vertex(tiling, tiling->tile_at[v], v);
+    return v == MW_NONE ? MW_NONE : mw__lowest_at_vertex(tiling, tiling->tile_at[v], v);
 }
 
 /* An edge between ghosts is not an edge of the mesh. */

@@ -218,17 +218,17 @@ static bool reserve_insertions(mw_dynamic_tiling *dynamic, size_t n)
 }
 
 /* Begin the step. If nobody needs to know what changed, nobody can cancel, and there is room for
- * everything, nothing can fail, and nothing has to be recorded. Unused room takes addresses only,
- * but to reserve it takes time: for a few points, more than their records do. */
+ * everything, nothing can fail, and nothing has to be recorded. Room that stays unused costs no
+ * memory, but reserving it takes time: for a few points, more than recording them. */
 enum { FEW = 100 };
 static bool points_begin_step(mw_editor *editor, const point_batch *b, const mw_change *change)
 {
     enum { TILES_PER_POINT = 4 }; /* changed by an insertion */
     mw_dynamic_tiling *dynamic = &editor->dynamic;
     const mw_edit first = insertion_edit(b->point[point_batch_index(b, 0)]);
-    bool sure = b->n >= FEW && !editor->progress && !mw__editor_needs_report(editor, change) &&
-                points_are_finite(b) && mw__field_room(editor, b->n) &&
-                reserve_insertions(dynamic, b->n);
+    bool sure = b->n >= FEW && !editor->progress &&
+                !mw__editor_needs_report(editor, change, b->n) && points_are_finite(b) &&
+                mw__field_room(editor, b->n) && reserve_insertions(dynamic, b->n);
     if (!mw__log_room(editor, b->n) ||
         (!sure && !mw__journal_room(dynamic, TILES_PER_POINT * b->n)))
         return false;

@@ -17,11 +17,11 @@ static bool index_is_built(const mw_upkeep *u, mw_start_kind start)
     return u->staleness[start].built;
 }
 
-/* Start counting again, after a rebuild. The guide does not follow edits: insertions lengthen the
- * walks from it (to twice as many tiles when there are three times as many vertices), and other
+/* Start counting edits again after a rebuild. The guide does not follow edits: insertions lengthen
+ * the walks from it (to twice as many tiles when there are three times as many vertices), and other
  * edits make its names outdated. With these limits rebuilding the guide takes a seventh of the time
- * of insertions in spatial order, and a twentieth of that of insertions anywhere in a large
- * mesh. */
+ * of insertions in spatial order, and a twentieth of that of insertions anywhere in a large mesh.
+ */
 static void staleness_reset(mw_upkeep *u, mw_start_kind start)
 {
     enum { FEW = 64, EDITS_PER_VERTEX = 4, INSERTIONS_PER_VERTEX = 2, OUTSIDERS = 4 };
@@ -110,11 +110,21 @@ static bool build_guide(mw_upkeep *u, mw_job *job)
     return done;
 }
 
+/* Find the hubs, as if none were known. */
+static void upkeep_find_hubs(mw_upkeep *u)
+{
+    mw__live_hubs_release(&u->hubs);
+    mw__live_hubs_survey(&u->hubs, u->dynamic->tiling, 0);
+    mw__live_hubs_attach(&u->hubs, u->dynamic->tiling);
+}
+
 mw_status mw__upkeep_create(mw_upkeep *u, mw_locator *locator, const mw_dynamic_tiling *dynamic,
                             mw_job *job, mw_error *error)
 {
     *u = (mw_upkeep){.locator = locator, .dynamic = dynamic};
-    return build_guide(u, job) ? MW_OK : mw__fail_memory(error);
+    if (!build_guide(u, job)) return mw__fail_memory(error);
+    upkeep_find_hubs(u);
+    return MW_OK;
 }
 
 void mw__upkeep_release(mw_upkeep *u)
@@ -122,12 +132,14 @@ void mw__upkeep_release(mw_upkeep *u)
     for (int start = 0; start < MW_START_COUNT; start++)
         upkeep_index_release(&u->index[start], &u->live);
     if (u->locator) mw__index_release(&u->locator->guide);
+    mw__live_hubs_release(&u->hubs);
     *u = (mw_upkeep){0};
 }
 
 size_t mw__upkeep_bytes(const mw_upkeep *u)
 {
-    size_t bytes = mw__index_bytes(&u->locator->guide) + mw__live_layers_bytes(&u->live);
+    size_t bytes = mw__index_bytes(&u->locator->guide) + mw__live_layers_bytes(&u->live) +
+                   mw__live_hubs_bytes(&u->hubs);
     for (int start = 0; start < MW_START_COUNT; start++) bytes += mw__index_bytes(&u->index[start]);
     return bytes;
 }
@@ -167,9 +179,11 @@ static void grids_put(mw_upkeep *u, const mw_cell_entry *e)
     grid_put(&u->index[MW_START_TWO_LEVEL_GRID], e);
 }
 
-bool mw__upkeep_needs_report(const mw_upkeep *u)
+bool mw__upkeep_needs_report(const mw_upkeep *u, size_t insertions)
 {
-    return u->kept_count > 1; /* the guide needs no report */
+    enum { MANY = 8 }; /* times so many: more than tiles, and the hubs are found anew */
+    if (u->kept_count > 1) return true; /* the guide needs no report */
+    return u->hubs.count > 0 && insertions < u->dynamic->tiling->tri_count / MANY;
 }
 
 static void note_tile(mw_upkeep *u, uint32_t t)
@@ -281,6 +295,29 @@ static bool layers_follow(mw_upkeep *u, const mw_journal_edit *step, uint32_t v)
     }
 }
 
+/* --- hubs ------------------------------------------------------------------------------------- */
+
+/* Let the hubs follow the last step, and look for others where it was. */
+static void follow_hubs(mw_upkeep *u, const mw_journal_edit *step, size_t entries)
+{
+    const mw_dynamic_tiling *dynamic = u->dynamic;
+    if (u->hubs.count > 0 && step->edits > 1 && entries == 0) { /* it was not recorded */
+        upkeep_find_hubs(u);
+        return;
+    }
+    if (u->hubs.count > 0) mw__live_hubs_follow(&u->hubs, dynamic);
+    if (step->edits > 1 || entries >= MW_HUB_STRIDE)
+        mw__live_hubs_survey_step(&u->hubs, dynamic);
+    else if (u->locator->epoch % MW_HUB_EDITS == 0)
+        mw__live_hubs_look_round(&u->hubs, dynamic->tiling, dynamic->last);
+    mw__live_hubs_attach(&u->hubs, dynamic->tiling);
+}
+
+void mw__upkeep_resume(const mw_upkeep *u)
+{
+    mw__live_hubs_attach(&u->hubs, u->dynamic->tiling);
+}
+
 /* --- after an edit ---------------------------------------------------------------------------- */
 
 /* Follow the vertices that an edit inserted, moved or removed. An insertion at an existing vertex
@@ -320,8 +357,12 @@ void mw__upkeep_edit(mw_upkeep *u, bool undone)
     const mw_journal_edit *step = &dynamic->step[dynamic->step_count - 1];
     const mw_journal_entry *first;
     size_t count = mw__journal_entries(dynamic, &first);
-    if (step->edit.kind == MW_EDIT_VALUE) return;
+    if (step->edit.kind == MW_EDIT_VALUE) {
+        mw__upkeep_resume(u);
+        return;
+    }
     upkeep_begin(u);
+    follow_hubs(u, step, count);
     if (undone) redirect_names(u, step, first, count);
     note_tiles(u, step, first, count);
     follow_vertices(u, step);
@@ -339,6 +380,10 @@ void mw__upkeep_insertion(mw_upkeep *u, uint32_t v)
         const mw_point p = u->dynamic->tiling->point[v];
         u->staleness[MW_START_AUTO].outsiders += !index_covers(&u->locator->guide, p);
         extent_include(u, p);
+    }
+    if (MW_UNLIKELY(u->locator->epoch % MW_HUB_EDITS == 0 || u->dynamic->star >= MW_HUB_STRIDE)) {
+        mw__live_hubs_look_round(&u->hubs, u->dynamic->tiling, u->dynamic->last);
+        mw__upkeep_resume(u);
     }
     count_edits(u, MW_START_AUTO, 1);
 }
@@ -361,4 +406,5 @@ void mw__upkeep_compact(mw_upkeep *u)
     mw__live_layers_drop(&u->live); /* they hold slots of vertices, which have changed */
     for (uint32_t i = 0; i < u->kept_count; i++) upkeep_refresh(u, u->kept[i]);
     upkeep_refresh(u, MW_START_CURVE);
+    upkeep_find_hubs(u);
 }

@@ -12,7 +12,7 @@
  *   a curve  holds slots of tiles, which edits make less and less useful. It is rebuilt only on
  *            request.
  *
- * The guide does not follow edits.
+ * The guide does not follow edits. The hubs do: see live_hubs.h.
  *
  * Grids and layers are rebuilt in O(n) when there are twice as many vertices as when they were
  * built, or half; or after four edits for each vertex of that time. The guide is rebuilt when there
@@ -25,6 +25,7 @@
 #define MW_SRC_EDIT_UPKEEP_H
 
 #include "dynamic/dynamic_tiling.h"
+#include "edit/live_hubs.h"
 #include "edit/live_layers.h"
 #include "locate/locator.h"
 
@@ -46,8 +47,9 @@ typedef struct mw_upkeep {
     mw_start_kind kept[MW_START_COUNT];     /* those that edits keep up: the guide, grids, layers */
     uint32_t kept_count;
     mw_live_layers live; /* follows the vertices for index[MW_START_LAYERS] */
-    uint64_t refreshes;  /* how often something was rebuilt */
-    bool large;          /* the mesh is larger than the caches; found with the guide */
+    mw_hub_table hubs;
+    uint64_t refreshes; /* how often something was rebuilt */
+    bool large;         /* the mesh is larger than the caches; found with the guide */
 } mw_upkeep;
 
 /* Take a locator whose `tiling` is that of `dynamic`, and which is zero otherwise. Find its extent
@@ -57,15 +59,15 @@ typedef struct mw_upkeep {
 mw_status mw__upkeep_create(mw_upkeep *upkeep, mw_locator *locator,
                             const mw_dynamic_tiling *dynamic, mw_job *job, mw_error *error);
 void mw__upkeep_release(mw_upkeep *upkeep);       /* the guide, too */
-size_t mw__upkeep_bytes(const mw_upkeep *upkeep); /* of indices and guide */
+size_t mw__upkeep_bytes(const mw_upkeep *upkeep); /* of indices, guide and hubs */
 
 /* Build or rebuild the index of a start, &upkeep->index[start]. options: NULL = all zero. Errors as
  * mw_index_create; then nothing has changed. */
 mw_status mw__upkeep_build(mw_upkeep *upkeep, mw_start_kind start, const mw_index_options *options,
                            mw_job *job, mw_error *error);
 
-/* Does mw__upkeep_edit need the journal of an insertion? */
-bool mw__upkeep_needs_report(const mw_upkeep *upkeep);
+/* Does mw__upkeep_edit need the journal of so many insertions at once? */
+bool mw__upkeep_needs_report(const mw_upkeep *upkeep, size_t insertions);
 
 /* Call after an edit was committed, or (undone) reverted, while its step can still be read. Raises
  * the locator's epoch, which tells cursors that the slot of their tile may have changed. */
@@ -78,6 +80,9 @@ void mw__upkeep_insertion(mw_upkeep *upkeep, uint32_t v);
 /* Call during an edit that inserts many vertices: rebuilds the guide when there are three times as
  * many as when it was built. */
 void mw__upkeep_grow(mw_upkeep *upkeep);
+
+/* Call after an edit failed, or was rolled back. */
+void mw__upkeep_resume(const mw_upkeep *upkeep);
 
 /* Call after an edit that rebuilt the guide was rolled back: the guide names tiles that do not
  * exist. */

@@ -1,7 +1,7 @@
 /* batch_profile.c - what the queries of a batch have in common.
  *
- * All is rounded. Comparisons are written so that what is no number chooses as if nothing were
- * known of the queries. */
+ * All numbers are rounded. Comparisons are written so that a NaN leads to the choice that is made
+ * when nothing is known about the queries. */
 #include "locate/batch_profile.h"
 
 #include "start/start.h"
@@ -126,13 +126,14 @@ static double shortest_edge(const mw_tiling *tiling, uint32_t t)
     return sqrt(least < ca ? least : ca);
 }
 
-/* Lengths that a query may be off the one before it, to be found as soon as by a guide that is a
- * grid, or has to ask its curve, which takes longer. Queries a common edge apart come to about 2.8
- * lengths, so GRID is a step of 0.18; at a step of 0.1 the guide took twice as long. */
+/* If a query is at most so many lengths from the one before it, a walk from there is as quick as
+ * the guide. GRID: the guide is a grid; the other: it also asks a curve, which takes longer.
+ * Queries that are a typical edge apart come to about 2.8 lengths, so GRID stands for a step of
+ * 0.18 edges; at a step of 0.1 edges the guide took twice as long. */
 static const double GRID = 0.5, CURVE = 1.5;
 
-/* How the way from a query on is judged: the shortest edge of the guide's tile is a length, or two
- * common edges if they are shorter, as tiles are large along a hull. */
+/* The unit in which the way from a query to the next one is measured: the shortest edge of the
+ * guide's tile, but at most two typical edges, as tiles along the hull are large. */
 typedef struct way_measure {
     double length, worth; /* worth: GRID or CURVE */
 } way_measure;
@@ -192,9 +193,10 @@ bool mw__queries_are_dense(const mw_locator *locator, const mw_queries *queries)
     return true;
 }
 
-/* Sorted, n queries are as far apart as on a square lattice over their extent. A way that is longer
- * costs a walk of two tiles for each common edge, and sorting as much as SORT of them. But of an
- * extent that one stray query makes large nothing follows: ways are short, too. */
+/* After sorting, n queries are as far apart as on a square lattice over their extent. Each typical
+ * edge beyond that distance costs a walk of two tiles; sorting costs as much as SORT such edges.
+ * One stray query can make the extent large; so that distance is taken to be SHORT edges at most.
+ */
 bool mw__queries_are_in_order(const mw_locator *locator, const mw_queries *queries)
 {
     /* common edges; |dx| + |dy| for a distance */

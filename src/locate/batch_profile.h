@@ -1,6 +1,6 @@
 /* batch_profile.h - what the queries of a batch have in common: how much of the mesh they touch,
- * and whether they come in a good order already. For choices on which no answer depends.
- * Private. */
+ * and whether they come in a good order already. Only choices of speed are made by it; no answer
+ * depends on them. Private. */
 #ifndef MW_SRC_LOCATE_BATCH_PROFILE_H
 #define MW_SRC_LOCATE_BATCH_PROFILE_H
 
@@ -23,9 +23,9 @@ mw_cache_level mw__cache_level_of_mesh(const mw_locator *locator, const mw_cache
 mw_cache_level mw__cache_level_of_queries(const mw_locator *locator, const mw_caches *caches,
                                           const mw_queries *queries);
 
-/* Is each query so near the one before it, on the average, that its tile is found sooner from there
- * than by the locator's guide, which there must be? Where they are not, few of them are looked
- * at. */
+/* Are the queries, on average, so near the ones before them that a walk from there is quicker than
+ * the locator's guide? The locator must have a guide. If the answer is no, only a few queries are
+ * looked at. */
 bool mw__queries_are_dense(const mw_locator *locator, const mw_queries *queries);
 
 /* Do they come in an order in which the walks from one to the next take no longer than if they were

@@ -1,8 +1,8 @@
 /* border_tree.c - the nearest border edge, decided exactly.
  *
- * Rounded distances with sound margins steer the search through the tree; edges that rounding
- * cannot part are compared by exact predicates. Equal distances go to the lowest triangle, then
- * edge. */
+ * Rounded distances with sound margins steer the search through the tree; if rounding leaves open
+ * which of two edges is nearer, exact predicates decide. Equal distances go to the lowest triangle,
+ * then edge. */
 #include "locate/border_tree.h"
 
 #include "base/hilbert.h"
@@ -309,9 +309,9 @@ static mw_point edge_foot(const mw_border_edge *e, mw_point q)
     return (mw_point){value_mix(e->a.x, e->b.x, s), value_mix(e->a.y, e->b.y, s)};
 }
 
-/* Weights, in the user's triangle, of the point of the border edge nearest to q. The border edge
- * may be a part only of the triangle's edge; q is asked for, not the nearest point as rounded,
- * which far from the origin is coarse. */
+/* The weights, in the user's triangle, of the point of the border edge that is nearest to q. The
+ * border edge may be only a part of the triangle's edge. The weights are computed from q itself:
+ * the nearest point would have to be rounded, which is coarse far from the origin. */
 static void edge_weights(const mw_mesh *mesh, const mw_border_edge *e, mw_point q, double weight[3])
 {
     uint32_t v[3], next = mw__next(e->edge);

@@ -4,14 +4,14 @@
 
 #include "locate/locator.h"
 
-/* Before a walk in a tiling without ghosts: choose the component to begin in. That is the one where
- * the walk is, if its box holds q; else the first one whose box does. Where no box holds q the walk
- * ends at once. */
+/* Before a walk in a tiling without ghosts: choose the connected component to begin in. It is the
+ * one where the walk is, if its box contains q, else the first one whose box does. If no box
+ * contains q, the walk ends at once. */
 void mw__components_begin(const mw_locator *locator, mw_walk *walk);
 
-/* q is not in the component where the walk ended: look in the other ones whose boxes hold it, in
- * the order of the box tree, small ones first. Leaves in *walk where it ended. *hole: where q lies
- * if it is in none; MW_NONE: outside. */
+/* q is not in the component where the walk ended: search the other ones whose boxes contain it, in
+ * the order of the box tree, small ones first. *walk is left where the last search ended. If q is
+ * in none of them, *hole is set to the hole that q lies in, or to MW_NONE if it is outside. */
 mw_verdict mw__components_search(const mw_tiling *tiling, mw_walk *walk, bool counted,
                                  uint32_t *hole);
 

@@ -1,8 +1,9 @@
 /* hints.c - queries of a batch that begin at triangles of their own.
  *
- * A particle that moves a little is in the triangle where it was, or beside it. What its walk then
- * costs is memory: the slot of the triangle, the tile, its corners. So many queries ask for each of
- * these together, and for the tiles of the queries after them while these walk. */
+ * A particle that moves a little is in the triangle where it was, or beside it. Its walk then
+ * mostly waits for memory: for the slot of the triangle, the tile, its corners. So each of these is
+ * prefetched for many queries at once, and while they walk, the tiles of the next queries are
+ * prefetched. */
 #include "locate/hints.h"
 
 enum { AHEAD = 8 }; /* hints whose slots are asked for */

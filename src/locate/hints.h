@@ -10,9 +10,9 @@ static MW_INLINE bool hint_is_name(const mw_tiling *tiling, uint32_t hint)
     return hint < tiling->number_count || hint < tiling->name_count;
 }
 
-/* The tile where a walk may begin that was given a triangle of this number; MW_NONE if no triangle
- * has it. Where the tiling has other tiles than the mesh has triangles, because flat ones are left
- * out or others cut, it is a tile near that. */
+/* The tile where a walk may begin for a hint: the number of a triangle. MW_NONE if no triangle has
+ * this number. If the triangle is not a tile itself, because it is flat or was cut, it is a tile
+ * nearby. */
 static MW_INLINE uint32_t mw__hint_tile(const mw_locator *locator, uint32_t hint)
 {
     const mw_tiling *tiling = &locator->tiling;

@@ -174,12 +174,13 @@ static MW_INLINE void lane_next(lane_schedule *s, lane_group *g, uint32_t k, uin
 
 /* --- steps --- */
 
-/* Go on by the walk of the cursor from the lane's tile, and answer. Returns the tile where it
- * ended. */
+/* Answer in the lane's tile, or continue from there by the walk of the cursor. Returns the tile
+ * where it ended. */
 static __attribute__((noinline)) uint32_t lane_finish(const mw_interleaved *of, mw_point q,
                                                       uint32_t query, uint32_t t)
 {
     const mw_locator *locator = of->locator;
+    if (mw__query_answer_here(locator, of->cursor, t, q, &of->queries->locations[query])) return t;
     const mw_kernels *kernels = mw__walk_kernels((mw_walk_kind)of->cursor->walk, &locator->tiling);
     mw_walk walk = mw__walk_begin(&locator->tiling, q, t, of->cursor->fuel, 0, NULL);
     mw_verdict verdict = kernels->run[true][false](&walk);

@@ -22,9 +22,9 @@ static bool edge_fails_circle(const mw_tiling *tiling, const mw_triangle *tile, 
 
 /* The remembering walk is the cheapest, but may go round in cycles where edges are not Delaunay,
  * and hands over only when its fuel is used up. The celestial walk costs more on long walks, little
- * more on short ones. A look at the edges of a few tiles is enough to choose by. To end the cheap
- * walks remembering is taken only where not one edge failed: the stochastic walk costs hardly
- * more. */
+ * more on short ones. The edges of a few tiles are tested to choose between them. To end the cheap
+ * walks, the remembering walk is taken only if every edge tested was Delaunay; otherwise the
+ * stochastic walk, which costs hardly more. */
 static void locator_choose_walks(mw_locator *locator)
 {
     enum { PROBES = 1024, FEW = 50 }; /* one edge in FEW may fail */
@@ -42,9 +42,9 @@ static void locator_choose_walks(mw_locator *locator)
     if (tiling->border_loops) locator->auto_walk = MW_WALK_BORDER;
 }
 
-/* Of random points, one per unit of area, the Delaunay triangulation has 3 edges per unit, of mean
- * length 32 / (9 pi) [Miles 1970], and a line crosses 2 / pi of their length: 64 / (3 pi^2) edges
- * per unit of its own. */
+/* How many edges a line crosses, for each unit of its length: the Delaunay triangulation of random
+ * points, one per unit of area, has 3 edges per unit of area, of mean length 32 / (9 pi) [Miles
+ * 1970]; a line crosses 2 / pi edges for each unit of their length. That makes 64 / (3 pi^2). */
 static double expected_crossings(uint32_t tiles, double width, double height)
 {
     static const double crossings = 2.1615;
@@ -52,8 +52,8 @@ static double expected_crossings(uint32_t tiles, double width, double height)
 }
 
 /* Filling took 36 ns a triangle; it saved 0.45 us of a query inside the mesh, and 20 us of one
- * outside, by going round the border (domains of 5,000 to 80,000 vertices, from a sample). With one
- * outside in ten, one query for so many triangles pays. */
+ * outside, by going round the border (domains of 5,000 to 80,000 vertices, from a sample). If one
+ * query in ten is outside, filling pays as soon as there is one query for this many triangles. */
 static bool locator_wants_ghosts(const mw_mesh *mesh, const mw_locator_options *options)
 {
     enum { TRIANGLES_PER_QUERY = 64 };
@@ -69,9 +69,9 @@ static mw_status locator_make_tiling(mw_locator *locator, const mw_locator_optio
     return mw__tiling_create(locator->mesh, how, job, &locator->tiling, error);
 }
 
-/* Where vertices are too crowded for a grid alone the curve has the crowded cells, if tiles lie
- * along one. Tiles that are edited do not keep to a curve; there crowded cells are grids
- * themselves. False when out of memory. */
+/* Where vertices are too crowded for a grid alone, a sample along the curve serves the crowded
+ * cells, if the tiles lie along a curve. Edited tiles do not stay in such an order; there, crowded
+ * cells are grids themselves. Returns false when out of memory. */
 static bool guide_make_crowded(const mw_locator *locator, mw_index *guide, mw_grid_plan *plan,
                                bool even, uint32_t cells)
 {
@@ -101,12 +101,12 @@ static bool guide_make_crowded(const mw_locator *locator, mw_index *guide, mw_gr
     return done;
 }
 
-/* How queries begin where nothing is said: by a grid, and, where vertices are crowded, a sample of
- * the tiles along a Hilbert curve, if they lie so. The grid is small, for half a byte a triangle,
- * and of little work: a larger one makes queries up to a quarter faster (start/grid.c), but takes
- * longer to build than a million queries gain. In a mesh that is edited it has twice as many cells:
- * an insertion waits for each tile on its way, since the way cannot be guessed, and takes a
- * twentieth less. */
+/* How queries begin by default: by a grid and, where vertices are crowded, by a sample of the tiles
+ * along a Hilbert curve, if they lie along one. The grid is small, half a byte a triangle, and
+ * quickly built: a larger one makes queries up to a quarter faster (start/grid.c), but takes longer
+ * to build than a million queries gain. In a mesh that is edited it has twice as many cells: an
+ * insertion waits for each tile on its way, since the way cannot be predicted, and so takes a
+ * twentieth less time. */
 static uint32_t guide_cells(const mw_tiling *tiling)
 {
     enum { TRIANGLES_PER_CELL = 8, FINER = 2 };
@@ -116,10 +116,10 @@ static uint32_t guide_cells(const mw_tiling *tiling)
 
 static bool locator_lay_guide(const mw_locator *locator, mw_job *job, mw_index *guide)
 {
-    /* Most cells are empty where those that have tiles have more than UNEVEN of them on the
-     * average. In a mesh that is edited a cell is made four where not one in SPARSE has tiles: an
-     * insertion in clusters takes a tenth less. Where tiles lie evenly it would take a sixth
-     * more in a large mesh, since so many cells have to come from memory. */
+    /* Vertices are crowded if the cells that have tiles have more than UNEVEN of them on average.
+     * In a mesh that is edited, each cell is cut into four if fewer than one cell in SPARSE has
+     * tiles: an insertion in clusters then takes a tenth less time. For evenly spread tiles of a
+     * large mesh it would take a sixth more time, since so many cells have to come from memory. */
     enum { STRIDE = 2, UNEVEN = 32, SPARSE = 3 };
     const mw_tiling *tiling = &locator->tiling;
     *guide = (mw_index){0};

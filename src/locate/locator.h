@@ -43,8 +43,8 @@ void mw__locator_measure(mw_locator *locator, mw_job *job);
 bool mw__locator_guide(const mw_locator *locator, mw_job *job, mw_index *guide);
 
 /* Does q lie within a few lengths of the shortest edge of tile t? Then hardly any guide leads
- * nearer. A long edge would not tell, as many small tiles may lie beside it; nor does a tile as
- * large as a cell, such as there are along the hull. */
+ * nearer. The longest edge would not do, as many small tiles may lie beside it. A tile as large as
+ * a cell, as there are along the hull, does not count either. */
 static MW_INLINE bool mw__locator_is_close(const mw_locator *locator, uint32_t t, mw_point q)
 {
     enum { LENGTHS = 3 };

@@ -55,20 +55,17 @@ static mw_location query_outside(const mw_locator *locator, uint32_t mark, mw_po
     return location;
 }
 
-/* If two areas vanish q is at a vertex of the tile. Its answer in another triangle that has this
- * vertex: the same as by areas there, without a look at the corners. False where q is on an edge,
- * or the triangle may have another vertex at this place. */
-static bool query_answer_at_vertex(const mw_locator *locator, const mw_triangle *tile,
-                                   const double area[3], uint32_t triangle, mw_location *location)
+/* q is at vertex v. Write its answer in a triangle that has this vertex: the answer that areas
+ * would give there, without reading the corners. Returns false if the triangle may have another
+ * vertex at this place. */
+static bool query_answer_at_vertex(const mw_locator *locator, uint32_t v, uint32_t triangle,
+                                   mw_location *location)
 {
     const mw_mesh *mesh = locator->mesh;
-    uint32_t at = area[0] != 0 ? 0 : area[1] != 0 ? 1 : 2;
-    if (area[mw__next(at)] != 0 || area[mw__prev(at)] != 0 || !locator->tiling.borrowed)
-        return false;
-    const mw_triangle *other = &mesh->tri[mw__triangle_slot(mesh, triangle)];
-    for (uint32_t k = 0; k < 3; k++) {
-        if (other->v[k] != tile->v[at]) continue;
-        uint32_t local = mw__user_local_vertex(other->user, k);
+    const mw_triangle *tile = &mesh->tri[mw__triangle_slot(mesh, triangle)];
+    for (uint32_t k = 0; k < 3 && locator->tiling.borrowed; k++) {
+        if (tile->v[k] != v) continue;
+        uint32_t local = mw__user_local_vertex(tile->user, k);
         *location = (mw_location){
             .triangle = triangle, .hole = MW_NONE, .where = MW_ON_VERTEX, .local = (uint8_t)local};
         location->weight[local] = 1;
@@ -77,32 +74,87 @@ static bool query_answer_at_vertex(const mw_locator *locator, const mw_triangle 
     return false;
 }
 
-/* The answer for q in tile t. The walk knew on which side of the edges q lies, but did not keep it;
- * the three tests made here are also the weights. */
-static mw_location query_answer(const mw_locator *locator, uint32_t t, mw_point q, double tolerance)
+/* The vertex of a tile at which q lies, if two areas vanish; else MW_NONE. */
+static uint32_t vertex_by_areas(const mw_triangle *tile, const double area[3])
+{
+    uint32_t at = area[0] != 0 ? 0 : area[1] != 0 ? 1 : 2;
+    return area[mw__next(at)] != 0 || area[mw__prev(at)] != 0 ? MW_NONE : tile->v[at];
+}
+
+/* The answer if q has the coordinates of a corner of tile t. False also where only areas tell. */
+static bool query_answer_at_corner(const mw_locator *locator, uint32_t t, mw_point q,
+                                   mw_location *location)
 {
     const mw_tiling *tiling = &locator->tiling;
     const mw_triangle *tile = &tiling->tri[t];
-    mw_point corner[3] = {tiling->point[tile->v[0]], tiling->point[tile->v[1]],
-                          tiling->point[tile->v[2]]};
+    if (!tiling->embedding || !tiling->borrowed) return false;
+    for (uint32_t k = 0; k < 3; k++) {
+        const mw_point p = tiling->point[tile->v[k]];
+        if (p.x == q.x && p.y == q.y)
+            return query_answer_at_vertex(locator, tile->v[k],
+                                          mw__lowest_at_vertex(tiling, t, tile->v[k]), location);
+    }
+    return false;
+}
+
+/* The corners of a tile, and the areas that q makes with its sides. */
+typedef struct query_areas {
+    mw_point corner[3];
     double area[3];
-    mw__location_areas(corner, q, area);
+} query_areas;
+
+static query_areas query_areas_in(const mw_tiling *tiling, const mw_triangle *tile, mw_point q)
+{
+    query_areas of = {.corner = {tiling->point[tile->v[0]], tiling->point[tile->v[1]],
+                                 tiling->point[tile->v[2]]}};
+    mw__location_areas(of.corner, q, of.area);
+    return of;
+}
+
+/* The answer for q in a tile that contains it, by its areas, which are overwritten. */
+static mw_location query_answer_in(const mw_locator *locator, const mw_triangle *tile, mw_point q,
+                                   double tolerance, query_areas *of)
+{
+    const mw_tiling *tiling = &locator->tiling;
+    const double *area = of->area;
     bool inside = area[0] > 0 && area[1] > 0 && area[2] > 0;
     if (MW_LIKELY(inside && !(tile->user & MW_GHOST) && !tiling->cut))
-        return mw__location_of(corner, tile->user, q, area);
-    /* Only where the mesh is no embedding: the walk came over a fold, to the far side of the edge
-     * it did not test. */
-    if (!(area[0] >= 0 && area[1] >= 0 && area[2] >= 0))
-        return query_outside(locator, 0, q, tolerance);
+        return mw__location_of(of->corner, tile->user, q, of->area);
     uint32_t triangle = !inside                 ? lowest_at_boundary(tiling, tile, area)
                         : tile->user & MW_GHOST ? MW_NONE
                                                 : tile->user & MW_USER_MASK;
     if (triangle == MW_NONE) return query_outside(locator, tile->user, q, tolerance);
     if (triangle == (tile->user & ~MW_REVERSED) && tiling->borrowed)
-        return mw__location_of(corner, tile->user, q, area);
+        return mw__location_of(of->corner, tile->user, q, of->area);
     mw_location location;
-    if (query_answer_at_vertex(locator, tile, area, triangle, &location)) return location;
+    const uint32_t vertex = vertex_by_areas(tile, area);
+    if (vertex != MW_NONE && query_answer_at_vertex(locator, vertex, triangle, &location))
+        return location;
     return mw__location_in_triangle(locator->mesh, triangle, q);
+}
+
+/* The answer for q in tile t. The walk knew on which side of the edges q lies, but did not keep it;
+ * the three tests made here are also the weights. */
+static mw_location query_answer(const mw_locator *locator, uint32_t t, mw_point q, double tolerance)
+{
+    const mw_triangle *tile = &locator->tiling.tri[t];
+    query_areas of = query_areas_in(&locator->tiling, tile, q);
+    /* Only where the mesh is no embedding: the walk came over a fold, to the far side of the edge
+     * it did not test. */
+    if (!(of.area[0] >= 0 && of.area[1] >= 0 && of.area[2] >= 0))
+        return query_outside(locator, 0, q, tolerance);
+    return query_answer_in(locator, tile, q, tolerance, &of);
+}
+
+bool mw__query_answer_here(const mw_locator *locator, const mw_cursor *cursor, uint32_t t,
+                           mw_point q, mw_location *location)
+{
+    if (query_answer_at_corner(locator, t, q, location)) return true;
+    const mw_triangle *tile = &locator->tiling.tri[t];
+    query_areas of = query_areas_in(&locator->tiling, tile, q);
+    if (!(of.area[0] >= 0 && of.area[1] >= 0 && of.area[2] >= 0)) return false;
+    *location = query_answer_in(locator, tile, q, cursor->tolerance, &of);
+    return true;
 }
 
 static void query_count(mw_counters *counters, const mw_work *work, bool cycle, bool handover)
@@ -440,14 +492,17 @@ static __attribute__((noinline)) mw_location locate_by_walk(const mw_locator *lo
                                                             mw_cursor *cursor, mw_point q)
 {
     mw_work work;
+    mw_location location;
     mw__cursor_default(locator, cursor);
+    if (cursor->fast && mw__query_answer_here(locator, cursor, cursor->last, q, &location))
+        return location;
     mw_walk walk = cursor->fast
                        ? mw__walk_begin(&locator->tiling, q, cursor->last, cursor->fuel,
                                         mw__random(&cursor->random), NULL)
                        : mw__query_begin(locator, cursor, cursor->last, q, &cursor->random, &work);
     const mw_kernels *kernels = mw__walk_kernels((mw_walk_kind)cursor->walk, &locator->tiling);
     mw_verdict verdict = kernels->run[cursor->arithmetic == MW_EXACT][cursor->count](&walk);
-    mw_location location = mw__query_conclude(locator, cursor, &walk, verdict, &cursor->counters);
+    location = mw__query_conclude(locator, cursor, &walk, verdict, &cursor->counters);
     cursor->last = walk.t;
     return location;
 }

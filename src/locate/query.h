@@ -6,13 +6,17 @@
 
 /* Turn the end of a walk into the answer: decide by exact tests where its point is, and apply the
  * rule of ties (query.c). Leaves in walk->t the tile where the point is, or the last one before the
- * hull; counts. */
+ * hull. Counts if the walk does. */
 mw_location mw__query_conclude(const mw_locator *locator, const mw_cursor *cursor, mw_walk *walk,
                                mw_verdict verdict, mw_counters *counters);
 
-/* The walk of one query: first tile by the cursor's start; `last` is where the query before it
- * ended, MW_NONE if there is none: then the start is MW_START_SAMPLE. If the cursor counts, *work
- * is where; it must last as long as the walk. */
+/* The answer if tile t contains q, without a walk; else false. For cursors of the fast path. */
+bool mw__query_answer_here(const mw_locator *locator, const mw_cursor *cursor, uint32_t t,
+                           mw_point q, mw_location *location);
+
+/* The walk of one query: first tile by the cursor's start; `last` is the tile where the query
+ * before it ended; if it is MW_NONE, the start is MW_START_SAMPLE. If the cursor counts, it counts
+ * in *work, which must last as long as the walk. */
 mw_walk mw__query_begin(const mw_locator *locator, const mw_cursor *cursor, uint32_t last,
                         mw_point q, uint64_t *random, mw_work *work);
 

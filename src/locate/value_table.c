@@ -1,8 +1,9 @@
 /* value_table.c - many values at each vertex, interpolated at located points.
  *
  * The corners of a triangle are looked up once for all values. Points lie anywhere in the mesh, so
- * that takes as long as memory takes to answer: the triangles of several points are asked for
- * together, then their vertices, then the values there, while those before are summed. */
+ * looking them up mostly waits for memory. Therefore the triangles of several points are prefetched
+ * together, then their vertices, then the values there, while the values of earlier points are
+ * summed. */
 #include "base/job.h"
 #include "base/options.h"
 #include "mesh/mesh.h"

@@ -17,7 +17,7 @@ static mw_status mend_check_arguments(const mw_arrays *arrays, const mw_mend_opt
     mw_status status = MW_RESERVED_CHECK(mw_mend_options, options, error);
     if (status) return status;
     if (options->repairs > MW_REPAIR_ALL || options->space > 1)
-        return mw__fail(error, MW_ERROR_ARGUMENT, "no such repair, or way to take a mesh");
+        return mw__fail(error, MW_ERROR_ARGUMENT, "unknown repair, or unknown way to take a mesh");
     if (!(options->tolerance >= 0 && options->tolerance < INFINITY))
         return mw__fail(error, MW_ERROR_ARGUMENT, "the tolerance is negative, or not finite");
     return mw__arrays_validate(arrays, options->space ? 3 : 2, error);
@@ -55,9 +55,9 @@ static void mend_work_release(mw_mend_work *w)
 
 /* --- work --- */
 
-/* Splits make duplicates where triangles lay over others, and what is dropped bares new border
- * edges; so both are repeated until nothing changes. Exact splits only make triangles smaller, and
- * end by themselves; those within a tolerance may not. */
+/* Where triangles overlap, splits make duplicates; and dropping a triangle makes edges of its
+ * neighbours border edges. So both are repeated until nothing changes. Exact splits only make
+ * triangles smaller, so they come to an end; splits within a tolerance may not. */
 #define MOST_PASSES 64
 
 static bool mend_drop_and_split(mw_mend_work *w)

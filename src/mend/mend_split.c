@@ -1,8 +1,8 @@
 /* mend_split.c - triangles with vertices of others inside their border edges (T-junctions) are
  * split there.
  *
- * Only vertices of border edges are looked for: if the triangles go all round another vertex, what
- * it lies in is covered twice, and no split mends that. */
+ * Only vertices of border edges are looked for. If triangles go all round a vertex that lies in a
+ * triangle, they overlap that triangle, and no split mends that. */
 #include "mend/mend_geometry.h"
 #include "mend/triangle_cut.h"
 #include "mend/vertex_tree.h"

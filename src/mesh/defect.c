@@ -72,7 +72,7 @@ const char *mw_defect_text(mw_defect_kind kind)
     case MW_DEFECT_CLASHING: return "neighbours oriented differently";
     case MW_DEFECT_OPEN_EDGE: return "edge without a neighbour";
     case MW_DEFECT_THROUGH_CENTRE: return "plane through the centre";
-    case MW_DEFECT_BACK_FACING: return "turned from the centre";
+    case MW_DEFECT_BACK_FACING: return "faces away from the centre";
     case MW_DEFECT_COVERED: return "direction covered twice";
     case MW_DEFECT_COUNT: break;
     }
@@ -113,12 +113,12 @@ static void defect_describe_in_space(const mw_defect *d, char *text, size_t size
         return;
     case MW_DEFECT_BACK_FACING:
         if (d->other == MW_NONE)
-            snprintf(text, size, "triangle %" PRIu32 ": turns its back to the centre, unlike most",
+            snprintf(text, size, "triangle %" PRIu32 ": faces away from the centre, unlike most",
                      t);
         else
             snprintf(text, size,
-                     "triangle %" PRIu32
-                     ": turns its back to the centre, seen from triangle %" PRIu32 " at edge %u",
+                     "triangle %" PRIu32 ": faces away from the centre, unlike triangle %" PRIu32
+                     " at edge %u",
                      t, d->other, e);
         return;
     case MW_DEFECT_COVERED:

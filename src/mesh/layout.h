@@ -16,9 +16,9 @@ bool mw__arrays_are_scattered(const mw_arrays *arrays);
 /* Are consecutive points far apart in the plane? Looks at a sample. */
 bool mw__points_are_scattered(const mw_point *points, uint32_t n);
 
-/* Points that lie `stride` doubles apart (0: 2) as the library has them: the caller's own array if
- * it is packed, else *copy, which is to be released in any case. Steps of the present stage. NULL
- * when out of memory, or cancelled; or if `from` is NULL. */
+/* Returns points that lie `stride` doubles apart (0: 2) as a packed array: the caller's own array
+ * if it is packed, else *copy, which is to be released in any case. Steps of the present stage.
+ * NULL when out of memory, or cancelled; or if `from` is NULL. */
 const mw_point *mw__points_read(const double *from, size_t stride, uint32_t n, mw_job *job,
                                 mw_point **copy);
 

@@ -36,9 +36,9 @@ void mw__links_add(const mw_triangle *tri, const mw_links *more, mw_links *links
 mw_status mw__fail_non_manifold_edge(const mw_triangle *tri, uint32_t extra, uint32_t from,
                                      uint32_t to, mw_error *error);
 
-/* Link the half-edges of one lower vertex, any number of them. Where an edge has more than two, the
- * first two in the user's order are joined and the others noted. Adds the results to *links.
- * Returns false when out of memory. */
+/* Link the half-edges of one lower vertex, any number of them. If an edge has more than two
+ * half-edges, the first two in the user's order are joined, and the others are noted as defects.
+ * Adds the results to *links. Returns false when out of memory. */
 bool mw__half_edges_match(mw_triangle *tri, const mw_half_edge *half, uint32_t count,
                           mw_links *links);
 

@@ -2,8 +2,8 @@
  * a hash table.
  *
  * Of two neighbours with the same orientation, one runs along their edge upwards, from the lower
- * vertex to the upper one; the other runs downwards. So the half-edges that go down are entered
- * into a table, and those that go up find them there. This is done for a block of vertices at a
+ * vertex to the upper one; the other runs downwards. So the half-edges that go down are put into a
+ * hash table, and those that go up look for them there. This is done for a block of vertices at a
  * time: its half-edges stay in the first-level cache, and few entries of the table collide. Entries
  * of earlier blocks have lower numbers, so they are recognised and the table is never cleared. At
  * its lowest vertex a triangle has one half-edge of either direction; their positions are known

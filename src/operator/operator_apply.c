@@ -1,9 +1,9 @@
 /* operator_apply.c - an operator times a table of values.
  *
  * Rows with three entries are the common case and have loops of their own. All others, and missing
- * values that are left out, go value by value. Where the values of a column lie side by side and
- * the result is larger than caches, a row of results is written past them: it is not read again
- * soon, and a processor would read each line before it writes it. */
+ * values that are left out, go value by value. If the values of a column lie side by side and the
+ * result is larger than the caches, results are written past the caches: they are not read again
+ * soon, and a normal write would first read each cache line. */
 #include "base/job.h"
 #include "base/options.h"
 #include "operator/operator.h"
@@ -296,8 +296,7 @@ static mw_status apply_check(const mw_operator *o, const mw_value_table *table,
                              mw_error *error)
 {
     if (!o || !table || (table->count && ((o->columns && !table->values) || (o->rows && !result))))
-        return mw__fail(error, MW_ERROR_ARGUMENT,
-                        "applying weights needs an operator, values and a result");
+        return mw__fail(error, MW_ERROR_ARGUMENT, "the operator, the values or the result is NULL");
     if (table->type != MW_FLOAT64 && table->type != MW_FLOAT32)
         return mw__fail(error, MW_ERROR_ARGUMENT, "unknown type of values: %d", (int)table->type);
     if (table->step <= 1 && table->stride && table->stride < table->count)

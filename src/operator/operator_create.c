@@ -29,15 +29,16 @@ static mw_status locations_check(const mw_mesh *mesh, const mw_location *at, siz
                                  mw_error *error)
 {
     if (n >= MW_NONE)
-        return mw__fail(error, MW_ERROR_LIMIT, "an operator of %zu rows; it may have %u", n,
-                        MW_NONE - 1);
+        return mw__fail(error, MW_ERROR_LIMIT, "an operator of %zu rows; at most %u are possible",
+                        n, MW_NONE - 1);
     for (size_t i = 0; i < n; i++)
         if (!location_fits(mesh, &at[i]))
-            return mw__fail(error, MW_ERROR_ARGUMENT,
-                            "location %zu is none of this mesh: triangle %u of %u, weights %g %g "
-                            "%g",
-                            i, at[i].triangle, mw_mesh_triangle_count(mesh), at[i].weight[0],
-                            at[i].weight[1], at[i].weight[2]);
+            return mw__fail(
+                error, MW_ERROR_ARGUMENT,
+                "location %zu is not one of this mesh: triangle %u of %u, weights %g %g "
+                "%g",
+                i, at[i].triangle, mw_mesh_triangle_count(mesh), at[i].weight[0], at[i].weight[1],
+                at[i].weight[2]);
     return MW_OK;
 }
 
@@ -111,7 +112,7 @@ mw_status mw_operator_create(const mw_mesh *mesh, const mw_location *locations, 
     *out = NULL;
     if (!options) options = &defaults;
     if (!mesh || (n && !locations))
-        return mw__fail(error, MW_ERROR_ARGUMENT, "an operator needs a mesh and locations");
+        return mw__fail(error, MW_ERROR_ARGUMENT, "the mesh or the locations are NULL");
     mw_status status = MW_RESERVED_CHECK(mw_operator_options, options, error);
     if (!status) status = locations_check(mesh, locations, n, error);
     if (status) return status;
@@ -148,13 +149,13 @@ static mw_status entry_check(const mw_operator_entries *in, size_t i, mw_error *
 static mw_status entries_check(const mw_operator_entries *in, mw_error *error)
 {
     if (!in || (in->count && (!in->row || !in->column || !in->weight)))
-        return mw__fail(error, MW_ERROR_ARGUMENT, "an operator needs rows, columns and weights");
+        return mw__fail(error, MW_ERROR_ARGUMENT, "the rows, the columns or the weights are NULL");
     if (in->base > 1)
         return mw__fail(error, MW_ERROR_ARGUMENT, "rows and columns begin at 0 or 1, not at %u",
                         in->base);
     if (in->rows == MW_NONE)
-        return mw__fail(error, MW_ERROR_LIMIT, "an operator of %u rows; it may have %u", in->rows,
-                        MW_NONE - 1);
+        return mw__fail(error, MW_ERROR_LIMIT, "an operator of %u rows; at most %u are possible",
+                        in->rows, MW_NONE - 1);
     mw_status status = MW_OK;
     for (size_t i = 0; i < in->count && !status; i++) status = entry_check(in, i, error);
     return status;

@@ -4,9 +4,10 @@
 
 #include "base/base.h"
 
-/* Sets *row to the row of each rank: rows by ascending keys; rows of equal keys keep their order.
- * To NULL if the keys are about in order already, and ranks are rows. A key tells where a row
- * reads; MW_NONE: nowhere. Returns false if there is no memory. The caller frees *row. */
+/* Sets *row to the row of each rank: rows by ascending keys; rows with equal keys keep their order.
+ * If the keys are nearly in order already, sets *row to NULL: each row is its own rank. A key says
+ * where a row reads values; MW_NONE: nowhere. Returns false when out of memory. The caller frees
+ * *row. */
 bool mw__row_order(const uint32_t *key, uint32_t rows, uint32_t **row);
 
 #endif

@@ -16,9 +16,9 @@ typedef struct mw_sparse_rows {
 bool mw__sparse_rows_init(mw_sparse_rows *s, uint32_t rows, uint32_t columns, uint64_t entries);
 void mw__sparse_rows_release(mw_sparse_rows *s);
 
-/* After first[i] has the number of entries of row i: makes it the index of the row's first
- * entry. While entries are put in, first[i] goes on to the next free index;
- * mw__sparse_rows_full then takes it back. */
+/* Call this when first[i] is the number of entries of row i: it makes first[i] the index of the
+ * row's first entry. While entries are put in, first[i] moves on to the next free index;
+ * mw__sparse_rows_full then moves it back. */
 void mw__sparse_rows_open(mw_sparse_rows *s);
 static inline void mw__sparse_rows_put(mw_sparse_rows *s, uint32_t row, uint32_t column,
                                        double weight)

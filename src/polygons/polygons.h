@@ -1,9 +1,9 @@
 /* polygons.h - polygons that are ready for queries. Private.
  *
- * The rings are constraints of a triangulation. A segment that crosses another which is an edge
- * already stays whole from there on: it is a chord of each triangle that it passes through. On a
- * side of all its chords the triangle is covered by one set of polygons. The set that is stored is
- * that of the left sides of all chords, be there a point on all of them or not:
+ * The rings are constraints of a triangulation. If a segment crosses another one that is an edge
+ * already, it is not split: from there on it is a chord of each triangle that it passes through.
+ * The chords of a triangle divide it into parts, each covered by one set of polygons. The set
+ * stored is that of the points to the left of all chords, whether there are such points or not:
  *
  *          c
  *         / \ B
@@ -12,9 +12,10 @@
  *      a .-----b
  *       A
  *
- * Chord k of polygon P parts the triangle. The stored set holds where a point is to the left of k;
- * P is in or out of it the other way for points to the right. On k the point is on P's border. The
- * side of each chord is an orient2d of the segment's own points, so nothing is rounded.
+ * Chord k of polygon P divides the triangle. The stored set is right for a point to the left of k.
+ * For a point to the right of k, P is added to the set, or removed if it is in it. A point on k is
+ * on P's border. The side of a chord is an orient2d of the segment's own points, so nothing is
+ * rounded.
  */
 #ifndef MW_SRC_POLYGONS_POLYGONS_H
 #define MW_SRC_POLYGONS_POLYGONS_H

@@ -1,6 +1,6 @@
 /* polygons_create.c - polygons become ready for queries: their rings are forced into a
  * triangulation; those that cross others are followed through it; then each triangle gets its set.
- * */
+ */
 #include "base/options.h"
 #include "polygons/polygons_label.h"
 #include "triangulate/constrained/cdt.h"
@@ -244,7 +244,7 @@ static mw_status maker_run(polygon_maker *k, mw_error *error)
     mw__job_part_end(k->m->job, outer);
     if (status == MW_OK) status = mw__polygon_ranks_create(&k->ranks, k->m, error);
     if (status) return status;
-    if (k->ranks.count == 0) return mw__fail(error, MW_ERROR_INPUT, "there is no polygon");
+    if (k->ranks.count == 0) return mw__fail(error, MW_ERROR_INPUT, "there are no polygons");
     if (!maker_label(k)) return mw__fail_memory(error);
     outer = mw__job_part(k->m->job, 0.1);
     status = maker_make_mesh(k, error);

@@ -20,9 +20,9 @@ typedef struct mw_rank_entries {
 bool mw__rank_entries_add(mw_rank_entries *entries, uint32_t row, uint32_t item);
 void mw__rank_entries_release(mw_rank_entries *entries);
 
-/* Make the lists of `rows` rows of the entries, which are sorted; `once`: leave out what a list
- * has already. False when out of memory, or of 2^32 entries and more; release the lists in either
- * case. */
+/* Make the lists of `rows` rows from the entries, which are sorted. `once`: leave out entries that
+ * a list has already. Returns false when out of memory, or if there are 2^32 entries or more;
+ * release the lists in either case. */
 bool mw__rank_lists_create(mw_rank_lists *lists, mw_rank_entries *entries, uint32_t rows,
                            bool once);
 void mw__rank_lists_release(mw_rank_lists *lists);

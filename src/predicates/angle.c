@@ -3,7 +3,7 @@
  * An angle t between two vectors has cos t and sin t >= 0 as their dot product and the magnitude of
  * their cross product, each over the product of their lengths. So arms_cross(s) arms_dot(t) -
  * arms_dot(s) arms_cross(t) has the sign of sin(s - t); and that is the sign of s - t, which lies
- * between -pi and pi, but where one of the angles is 0 and the other pi. */
+ * between -pi and pi. The one exception: one of the angles is 0 and the other pi. */
 #include "predicates/big.h"
 #include "predicates/expansion.h"
 

@@ -103,13 +103,13 @@ static incircle_pair pair_add(incircle_pair a, incircle_pair b)
     return r;
 }
 
-/* In pairs, where differences are exact: most of what a filter leaves open, but for points that are
- * on one circle indeed. With u = 2^-53, and P for a permanent: lifts and minors are off by less
- * than 4 u^2 P each, since tails are at most u of their products and rounded once or twice; a term
- * by that of either factor times the other, and by 8 u^2 of its own, less than 20 u^2 P in all; the
- * two sums by 4 u^2 P each. So the sign is sure beyond 28 u^2 P, and 128 u^2 is more than that with
- * the rounding of P itself. What underflows is off by 2^-1070 times a lift or a minor, at most
- * 2^-970; 128 u^2 P is more. */
+/* Computes with pairs of doubles, if differences are exact. That decides most of what a filter
+ * leaves open, except for points that really are on one circle. With u = 2^-53, and P for a
+ * permanent: lifts and minors are off by less than 4 u^2 P each, since tails are at most u of their
+ * products and rounded once or twice; a term by that of either factor times the other, and by 8 u^2
+ * of its own, less than 20 u^2 P in all; the two sums by 4 u^2 P each. So the sign is sure beyond
+ * 28 u^2 P, and 128 u^2 is more than that with the rounding of P itself. What underflows is off by
+ * 2^-1070 times a lift or a minor, at most 2^-970; 128 u^2 P is more. */
 #define PAIRS_ERROR 0x1p-99
 #define PAIRS_LEAST 0x1p-700
 static bool incircle_with_pairs(const row p[3], double *det)

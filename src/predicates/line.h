@@ -66,9 +66,9 @@ int mw__compare_hits(const mw_line *line, const mw_corners s, const mw_corners t
 /* The same against the length d >= 0, which may be infinite. */
 int mw__compare_hit_to(const mw_line *line, const mw_corners s, double d);
 
-/* How far from q, along m: in units of length, negative behind q. Off by less than 2^-40 of itself;
- * 0 only where it is 0: below the normal doubles it has its sign at least, and beyond the largest
- * double it is infinite. */
+/* How far from q, along m: in units of length, negative behind q. The relative error is below
+ * 2^-40. The result is 0 only if the exact value is; below the normal doubles at least its sign is
+ * right, and beyond the largest double it is infinite. */
 double mw__hit_distance(const mw_line *line, const mw_corners s);
 
 /* Magnitudes of the three sides, each opposite to its corner, up to a common factor: exactly 0
@@ -76,9 +76,9 @@ double mw__hit_distance(const mw_line *line, const mw_corners s);
  * triangle that the line meets. */
 void mw__hit_sides(const mw_line *line, const mw_corners s, double side[3]);
 
-/* Does the line meet the triangle strictly inside, with m pointing at its front? Where doubles are
- * enough to tell, and for weights: then true, and side[] is that of mw__hit_sides. False tells
- * nothing. */
+/* Does the line meet the triangle strictly inside, with m pointing at its front? Returns true if
+ * doubles are enough to be sure and to give the weights; then side[] is that of mw__hit_sides.
+ * False means nothing: ask the exact functions. */
 bool mw__hit_inside(const mw_line *line, const mw_corners s, double side[3]);
 
 #endif

@@ -30,8 +30,8 @@ typedef struct mw_point {
 } mw_point;
 
 /* The exact stages, for when a filter could not decide. Their value has a relative error below
- * 2^-50; a determinant above the doubles gives +-DBL_MAX, one below the normal doubles something
- * nonzero of its sign, at most DBL_MIN. */
+ * 2^-50; a determinant beyond the range of doubles gives +-DBL_MAX; one below the normal doubles
+ * gives a nonzero number of its sign, at most DBL_MIN. */
 double mw__orient2d_exact(mw_point a, mw_point b, mw_point c);
 double mw__dot2d_exact(mw_point a, mw_point b, mw_point c);
 /* orient2d of finite points as fraction * 2^*exponent, which neither over- nor underflows: the

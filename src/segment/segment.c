@@ -145,7 +145,7 @@ mw_status mw_segment_begin(const mw_locator *locator, mw_cursor *cursor, const d
     mw_status status = mw__segment_check_locator(locator, error);
     if (status) return status;
     if (!cursor || !a || !b || !segment)
-        return mw__fail(error, MW_ERROR_ARGUMENT, "a segment needs a cursor and two points");
+        return mw__fail(error, MW_ERROR_ARGUMENT, "the cursor or a point is NULL");
     if (!segment_is_finite(a, b))
         return mw__fail(error, MW_ERROR_INPUT, "a coordinate of the segment is not finite");
     mw_locate(locator, cursor, a[0], a[1]);
@@ -156,7 +156,8 @@ mw_status mw_segment_begin(const mw_locator *locator, mw_cursor *cursor, const d
 mw_status mw_segment_continue(mw_segment *segment, const double b[2], mw_error *error)
 {
     if (!segment || !segment->locator || !b)
-        return mw__fail(error, MW_ERROR_ARGUMENT, "no segment to continue, or no point");
+        return mw__fail(error, MW_ERROR_ARGUMENT,
+                        "there is no segment to continue, or the point is NULL");
     if (!segment_is_finite(b, b))
         return mw__fail(error, MW_ERROR_INPUT, "a coordinate of the segment is not finite");
     mw_segment before = *segment;

@@ -21,9 +21,9 @@ static MW_INLINE uint8_t mw__segment_user_place(uint32_t user, uint8_t at)
 }
 
 /* Follow a segment that enters tile after tile over edges, through at most `steps` tiles, and
- * append its pieces, for which there is room. False where rounded areas are not sure, at vertices
- * and at b: from there mw__segment_next_surely goes on. Triangles are not cut. The turn is no
- * branch: a processor would guess half of them wrong. */
+ * append its pieces, for which there is room. Returns false where rounded areas are not sure, at
+ * vertices, and at b: there mw__segment_next_surely goes on. For tilings without cut triangles. The
+ * turn is not a branch, since a processor would predict half of them wrong. */
 static MW_INLINE bool mw__segment_run(mw_segment *s, size_t steps, mw_segment_piece *piece,
                                       size_t *count)
 {

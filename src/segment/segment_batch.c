@@ -265,9 +265,10 @@ static mw_status segments_check(const mw_locator *locator, const double *segment
     mw_status status = mw__segment_check_locator(locator, error);
     if (status) return status;
     if ((n && !segments) || !pieces)
-        return mw__fail(error, MW_ERROR_ARGUMENT, "no segments, or no place for their pieces");
+        return mw__fail(error, MW_ERROR_ARGUMENT, "the segments or the results are NULL");
     if (stride == 1 || stride == 3)
-        return mw__fail(error, MW_ERROR_ARGUMENT, "a stride of %zu holds no segment", stride);
+        return mw__fail(error, MW_ERROR_ARGUMENT, "a stride of %zu is too small for a segment",
+                        stride);
     return MW_OK;
 }
 

@@ -2,31 +2,31 @@
  *
  * Order points by y, and those of one y by x: a lower one comes first, and an edge goes up from its
  * first end to the other. A tile to the left of an edge comes before the tile to its right. That
- * has no cycles (docs/proofs/queries.md), so all tiles can be put into positions 1 to n, each after
- * those to its left. Chain c, from 1 to n + 1, is what parts the tiles before position c from the
- * others: edges from the lowest vertex of the hull to the highest one, ever upwards. Chain 1 and n
- * + 1 are the two sides of the hull.
+ * order has no cycles (docs/proofs/queries.md), so all tiles can get positions 1 to n, each after
+ * those to its left. Chain c, for c from 1 to n + 1, separates the tiles before position c from the
+ * others: edges from the lowest vertex of the hull to the highest one, each of them upwards. Chain
+ * 1 and n + 1 are the two sides of the hull.
  *
  *        chain 2   3     4
  *           \  1 | | 2 / \ 3 /
  *            \   | |  /   \ /
  *
- * A search has positions low to high in which q can be. Of the chains between them it takes the one
- * with most zeros at the end of its binary number, and tests q against the edge of that chain at
- * the height of q. One side of the edge is left.
+ * A search knows that q is at one of the positions low to high. Of the chains between them it takes
+ * the one whose number ends with most zeros in binary, and tests q against the edge of that chain
+ * at the height of q. Only the positions on one side of the edge remain.
  *
- * An edge from a tile at position l to one at r belongs to the chains l + 1 to r. It is kept once,
- * with the one of them that has most zeros at the end: of these chains the search meets that one
- * first. At the height of q the tiles lie side by side, and the ranges of the edges between them
- * fit together: low and high always are ends of such ranges. So a range is either within low ..
- * high or apart from it, and the chain taken keeps the edge that it has at that height itself: a
- * binary search finds it. Each test halves what is left: at most log2(n + 1) + 1 tests, each after
- * a search in one list.
+ * An edge from a tile at position l to one at r belongs to the chains l + 1 to r. It is stored only
+ * once, with the one of them that has most zeros at the end: of these chains the search meets that
+ * one first. At the height of q the tiles lie side by side, and the ranges of the edges between
+ * them follow each other: low and high are always ends of such ranges. So a range lies either
+ * within low .. high or outside it, and the chain that the search takes stores its edge at that
+ * height itself; a binary search finds it. Each test halves the positions that remain: at most
+ * log2(n + 1) + 1 tests, each after a search in one list.
  *
  * Comparisons of coordinates and the exact orient2d: nothing is rounded. A point on an edge counts
  * as right of it, one at a vertex as above it; both are within the tile that is found, or on its
- * border. 68 to 88 bytes a tile: edges have their coordinates, so that a test waits for memory
- * once. */
+ * border. Chains take 68 to 88 bytes a tile: edges are stored with their coordinates, so that a
+ * test waits for memory only once. */
 #include "start/chains.h"
 
 #include <stdlib.h>

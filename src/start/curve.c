@@ -1,14 +1,15 @@
-/* curve.c - tiles that lie in memory along a Hilbert curve are their own index: where q lies on the
- * curve tells about where its tile lies.
+/* curve.c - tiles that lie in memory along a Hilbert curve are their own index: the place of q on
+ * the curve says roughly where its tile is in memory.
  *
- * Of every few tiles one is sampled, with the key of its lowest vertex. Between the two samples
- * round the key of q the slot of its tile is interpolated linearly. Samples lie as dense as the
- * tiles, so any distribution of vertices will do. What is near on the curve is near in the plane; a
- * walk is a few tiles longer than from a fine grid, but what it looks up is small enough for a
- * cache. Of tiles in any other order the sample before q is taken.
+ * One in every few tiles is sampled, with the key of its lowest vertex. The slot where a walk
+ * begins is interpolated linearly between the two samples round the key of q. Samples are as dense
+ * as the tiles, so any distribution of vertices will do. Points near each other on the curve are
+ * near each other in the plane. A walk is a few tiles longer than from a fine grid, but the table
+ * is small enough for a cache. If tiles are in any other order, the walk begins at the sample
+ * before q.
  *
- * Keys are looked up by their upper bits first: as many buckets as samples, or up to twice as
- * many. */
+ * A key is looked up by its upper bits first, in a table of buckets: as many as samples, or up to
+ * twice as many. */
 #include "start/curve.h"
 
 #include <stdlib.h>

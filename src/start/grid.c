@@ -1,31 +1,31 @@
 /* grid.c - a uniform grid of buckets [Su, Drysdale 1997; thesis App. E, sec. 4.1].
  *
- * A cell of Su and Drysdale holds one of the vertices in it at most, as a tile that has it; a query
- * begins there, and where its cell has none they search the rings of cells round it, in a spiral,
- * for every query. Here a cell holds the tile whose middle is the nearest to its own, so that
- * queries in it visit 2.3 tiles instead of 3.5 (uniform points); and the cells without one are
- * filled once: a walk to their middle from a cell beside them that is filled already. Where many
- * are empty tiles are large, and these walks short. So the cost of a query is bounded where most of
- * the extent is empty. To walk to the middle of every cell makes it 2.2 tiles, and building 2.7
- * times as long.
+ * In Su and Drysdale's grid a cell holds at most one of the vertices in it, by a tile at that
+ * vertex, and a query begins there. If its cell is empty, each query searches the rings of cells
+ * round it, in a spiral. Here a cell holds the tile whose middle is nearest to the cell's middle,
+ * so that queries visit 2.3 tiles instead of 3.5 (uniform points). Empty cells are filled once, by
+ * a walk to their middle from a neighbouring cell that is filled already. Where many cells are
+ * empty, tiles are large and these walks are short. So the cost of a query is bounded even if most
+ * of the extent is empty. Walking to the middle of every cell would lower the mean to 2.2 tiles,
+ * but building would take 2.7 times as long.
  *
  * Beyond the extent lies a margin: a frame of cells that hold no middle of a tile. The walk to the
- * middle of one ends at an edge of the hull that parts it from the mesh. To the right of the extent
- * no such edge faces left, so it parts all that lies farther to the right, too; and likewise on the
- * other sides. So nearly every query outside ends in its first tile. Without the margin it walked
- * there from within, over 7 to 12 tiles that are ever longer: 112 and 147 ns (10^4 and 10^6 uniform
- * points, in batches) instead of 46.
+ * middle of such a cell ends at an edge of the hull that separates the cell from the mesh. To the
+ * right of the extent no such edge faces left, so it also separates everything farther to the
+ * right; and likewise on the other sides. So nearly every query outside ends in its first tile.
+ * Without the margin it would walk there from inside the mesh, over 7 to 12 tiles that get ever
+ * longer: 112 and 147 ns (10^4 and 10^6 uniform points, in batches) instead of 46.
  *
- * From a cell of k tiles walks visit about 1 + 0.6 sqrt(k). Where k is large a sample along the
- * curve (curve.c) leads nearer, with 4 to 5 tiles for any k, but takes longer to look up; in large
- * triangles, between clusters, it leads astray. So where vertices are crowded the guide of a
- * locator is both: a grid whose crowded cells are left to the curve. 10^6 points in 100 clusters of
- * a deviation of a thousandth, alone and in a batch: at random points 1300 ns and 450 by the curve,
+ * From a cell of k tiles a walk visits about 1 + 0.6 sqrt(k) tiles. If k is large, a sample along
+ * the curve (curve.c) leads nearer: 4 to 5 tiles for any k. But it takes longer to look up, and in
+ * large triangles between clusters it leads astray. So where vertices are crowded the guide of a
+ * locator is both: a grid whose crowded cells ask the curve. 10^6 points in 100 clusters of a
+ * deviation of a thousandth, alone and in a batch: at random points 1300 ns and 450 by the curve,
  * 74 and 31 by both; at random triangles 3370 and 765 by the grid, 630 and 117 by the curve, 630
  * and 124 by both.
  *
- * Number of cells: with more of them walks are shorter, but time hardly is, since the grid itself
- * has to come from memory. 10^6 uniform points, one thread, ns per query, cells per vertex:
+ * Number of cells: more cells make walks shorter, but hardly save time, since the grid itself has
+ * to come from memory. 10^6 uniform points, one thread, ns per query, cells per vertex:
  *     1/8  alone 519, in a batch 82
  *     1/2  alone 453, in a batch 69
  *     1    alone 430, in a batch 63
@@ -179,9 +179,9 @@ static MW_INLINE bool tile_has_point(const mw_tiling *tiling, uint32_t t, mw_poi
     return least > 0;
 }
 
-/* Give a cell that has none the tile at its middle: walk there from tile t; where that takes long,
- * as far as the fuel goes. Where the walk leaves the hull, and tiles are beside, one of these: the
- * hull may cross the cell, and from a long tile along it walks into the mesh are long. */
+/* Give an empty cell the tile at its middle: walk there from tile t, or as far as the fuel goes. If
+ * the walk leaves the hull and a neighbouring cell has tiles, take one of these: the hull may cross
+ * the cell, and walks into the mesh from a long tile along the hull are long. */
 static void cell_fill_gap(mw_grid *grid, const mw_grid_plan *plan, uint32_t x, uint32_t y,
                           uint32_t t, uint32_t fuel)
 {
@@ -204,9 +204,9 @@ enum {
     FAR = 1 << 12 /* for the first one of a band                 */
 };
 
-/* A tile of the cell to the left or below, rather of one that was a gap too, where tiles are large.
- * Gaps below the band from line `first` on are not known, so that it does not matter which band is
- * filled first. MW_NONE: there is no such cell. */
+/* A tile of the cell to the left or below. A cell that was empty, too, is preferred, since tiles
+ * are large there. Cells below the band that begins at line `first` are not asked, so that the
+ * order in which bands are filled does not matter. MW_NONE: there is no such cell. */
 static uint32_t cell_tile_beside(const mw_grid *grid, const mw_grid_plan *plan, uint32_t x,
                                  uint32_t y, uint32_t first)
 {

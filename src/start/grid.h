@@ -43,9 +43,9 @@ bool mw__grid_begin(mw_grid *grid, mw_grid_plan *plan, const double low[2], cons
                     uint32_t cells);
 /* With `sparse` crowded cells are left without a tile: MW_NONE. */
 bool mw__grid_end(mw_grid *grid, mw_grid_plan *plan, bool sparse);
-/* Make of each cell of a grid that ended four. Those in which no tile is, of every stride-th, have
- * the tile of that cell, which takes no walk. Where memory is short, or cells would be too small
- * for doubles, it stays as it was. For the time being it takes 16 bytes a cell more. */
+/* Cut each cell of a finished grid into four. A new cell that has none of every stride-th tile gets
+ * the tile of the old cell, which takes no walk. The grid stays as it was if memory is short or if
+ * cells would be too small for doubles. While this runs it takes 16 more bytes a cell. */
 void mw__grid_refine(mw_grid *grid, const mw_tiling *tiling, uint32_t stride, mw_job *job);
 void mw__grid_release(mw_grid *grid);
 size_t mw__grid_bytes(const mw_grid *grid);

@@ -1,12 +1,13 @@
 /* kd_tree.c - the nearest vertex, by a k-d tree [Bentley 1975; Friedman, Bentley, Finkel 1977].
  *
- * What layers and buckets approach: the walk begins at the vertex nearest to q, in any tile that
- * has it, and visits the fewest triangles of all starts that lead to a vertex. The tree is the
- * array of vertices itself: the middle one of a range has all before it on one side and all behind
- * it on the other, by x and by y in turn; ranges of at most LEAF vertices are looked through. 24
- * bytes a vertex. A search goes down on the side of q, and on the other side where that may hold a
- * nearer one: O(log n) expected where q is near the vertices; where all are about as far from q,
- * as on a circle round it, it looks at all. */
+ * The walk begins at the vertex nearest to q, in any tile that has it, which layers and buckets
+ * only approximate. Of all starts that lead to a vertex it visits the fewest triangles. The tree is
+ * the array of vertices itself: the middle vertex of a range has the vertices on one side of it
+ * before it in the range, those on the other side after it, by x and by y in turn. Ranges of at
+ * most LEAF vertices are searched one by one. 24 bytes a vertex. A search goes down on the side of
+ * q, and also on the other side if a nearer vertex may be there: O(log n) expected if q is near the
+ * vertices. If all vertices are about equally far from q, as on a circle round it, all are looked
+ * at. */
 #include "start/kd_tree.h"
 
 #include "base/random.h"

@@ -35,9 +35,9 @@ mw_point mw__lattice_middle(const mw_lattice *lattice, uint32_t column, uint32_t
 
 /* --- cells in the shape of the tiles --- */
 
-/* Add the tensor of a tile's edges, sum of e e^T, to xx, xy, yy: divided by its trace, times the
- * tile's area, so that each part of the mesh counts by its area. Edges are multiplied by `unit`, so
- * that no square leaves the doubles. */
+/* Add the tensor of a tile's edges, the sum of e e^T, to xx, xy, yy. It is divided by its trace and
+ * multiplied by the tile's area, so that each part of the mesh counts by its area. Edges are
+ * multiplied by `unit`, so that no square over- or underflows. */
 static void tile_add_shape(const mw_tiling *tiling, uint32_t t, double unit, double shape[3])
 {
     const mw_point *p = tiling->point;

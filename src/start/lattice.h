@@ -16,9 +16,9 @@ typedef struct mw_lattice {
  * flat. */
 mw_lattice mw__lattice(const double low[2], const double high[2], uint32_t cells);
 
-/* The same for a tiling of that extent: where tiles are long and thin in one direction cells are so
- * too. Where there are more than a few, a margin of further cells surrounds the extent, to which
- * all points outside of it belong. Steps of the present stage. */
+/* The same for a tiling of that extent: if tiles are long and thin in one direction, cells are,
+ * too. If there are more than a few cells, a margin of further cells surrounds the extent; all
+ * points outside the extent belong to the margin. Steps of the present stage. */
 mw_lattice mw__lattice_of(const mw_tiling *tiling, const double low[2], const double high[2],
                           uint32_t cells, mw_job *job);
 
@@ -116,9 +116,9 @@ static MW_INLINE mw_point mw__tile_middle(const mw_tiling *tiling, uint32_t t)
     return mw__middle(tiling->point[v[0]], tiling->point[v[1]], tiling->point[v[2]]);
 }
 
-/* The spiral search from every cell at once: give each entry that is MW_NONE, one for each cell,
- * that of a cell in the first ring of cells round it that has an entry. Not all are MW_NONE. queue:
- * room for as many numbers as cells. */
+/* The spiral search from every cell at once. There is one entry for each cell, and not all are
+ * MW_NONE. An entry that is MW_NONE is set to that of a cell in the first ring of cells round it
+ * that has one. queue: room for as many numbers as cells. */
 void mw__lattice_fill(const mw_lattice *lattice, uint32_t *entry, uint32_t *queue);
 
 /* Cells for a tiling, where nothing is said: one for two vertices, which are half as many as tiles.

@@ -1,14 +1,14 @@
 /* layers.c - the layered hierarchy [Mulmuley 1991; Devillers 2002, "The Delaunay hierarchy"; thesis
  * App. C, sec. 2, 3].
  *
- * A small share of the vertices of a layer, chosen at random, makes the next, which is
- * triangulated. A search walks in the highest layer from any tile to q, goes down at a vertex near
- * q of the tile found, walks in the layer below from a tile at that vertex, and so on to the mesh.
- * Every walk but the first is expected to be short, whatever the distribution of the vertices.
+ * A small share of the vertices of a layer, chosen at random, is triangulated and makes the next
+ * layer. A search walks in the highest layer from any tile to q, goes down at a vertex near q of
+ * the tile found, walks in the layer below from a tile at that vertex, and so on to the mesh. Every
+ * walk but the first is expected to be short, whatever the distribution of the vertices.
  *
- * The vertex to go down at is the nearest one, which takes three distances; or, on request, that of
- * the largest orientation coordinate of q, which the direct and the barycentric walk know already,
- * and others compute [thesis App. C, sec. 3]. The nearest is nearer: walks by the other are longer
+ * The vertex to go down at is the nearest one, which takes three distances. On request it is the
+ * one with the largest orientation coordinate of q, which the direct and the barycentric walk know
+ * already and other walks compute [thesis App. C, sec. 3]. Then walks are longer
  * (docs/measurements/published-tables.md, C2). */
 #include "start/layers.h"
 
@@ -20,10 +20,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* By size: a mesh gets a layer where walks in it can be long. A layer gets another where that is
- * expected to save tiles, about 9 for the walk in it against 1.1 times the root of its vertices
- * without (so from 100 on, with little gained up to 200); and 200, with a ratio of 0.025, gives the
- * layers of the thesis' measurements: 2, 2, 3, 3, 4, 4 for 10^2 to 10^7 vertices. */
+/* The number of layers by default. A mesh gets a layer if walks in it can be long. A layer of n
+ * vertices gets another one above it if that is expected to save tiles: with it, a walk in the
+ * layer visits about 9 tiles, without it 1.1 sqrt(n). That pays from 100 vertices on, but little up
+ * to 200. A limit of 200, with a ratio of 0.025, gives the layers of the thesis' measurements: 2,
+ * 2, 3, 3, 4, 4 for 10^2 to 10^7 vertices. */
 enum { LARGE_MESH = 64, LARGE_LAYER = 200 };
 
 /* --- building --- */
@@ -218,8 +219,8 @@ void mw__layers_describe(const mw_layers *layers, uint32_t vertices[MW_MAX_LAYER
 
 /* --- the search --- */
 
-/* Does the walk know the orientation coordinates of q in the tile where it ends? None of them is
- * surely negative there, so that the tile is good enough to go down from, without the final
+/* Does the walk know the orientation coordinates of q in the tile where it ends? If so, none of
+ * them is surely negative there, so the search can go down from that tile without the final
  * location. */
 static bool walk_has_coordinates(mw_walk_kind walk)
 {
@@ -247,8 +248,8 @@ static uint32_t layer_nearest(const mw_walk *walk)
 }
 
 /* The vertex with the largest orientation coordinate: opposite to the edge that makes the largest
- * triangle with q. The walks that know the coordinates hand it down; others make the tests, two,
- * and one for the area where none is stored. */
+ * triangle with q. The walks that know the coordinates pass it on; for others two tests are made,
+ * and one for the area if none is stored. */
 static uint32_t layer_heaviest(mw_walk *walk, const mw_layer_walk *how)
 {
     const uint32_t *v = walk->tri[walk->t].v;

@@ -37,8 +37,8 @@ typedef struct mw_layers_options {
 } mw_layers_options;
 
 /* Layers above the tiling: of the vertices of one, the share `ratio`, or 3, chosen at random, make
- * the next. There may be fewer layers than asked for: they end where the vertices chosen would lie
- * on one line or be no fewer than those below. MW_ERROR_ARGUMENT for options out of range,
+ * the next. There may be fewer layers than asked for: no layer is made of vertices that lie on one
+ * line, or that are as many as those below. MW_ERROR_ARGUMENT for options out of range,
  * MW_ERROR_MEMORY (also if cancelled). *out may be released in either case. Stages of the present
  * part of the job. */
 mw_status mw__layers_create(const mw_tiling *tiling, const mw_layers_options *options, mw_job *job,
@@ -57,10 +57,10 @@ typedef struct mw_layer_walk {
     const mw_tiling *mesh; /* NULL will do where the layers are not live */
 } mw_layer_walk;
 
-/* The name of the tile at which a walk to q begins in the mesh. With how->count, what the walks in
- * the layers did is added to *work (else NULL will do). A layer in which a walk ran out of steps is
- * left where it stopped. The fast stochastic walk makes no steps with one test: the walks are
- * short. */
+/* The name of the tile at which a walk to q begins in the mesh. With how->count, the work of the
+ * walks in the layers is added to *work, which may be NULL otherwise. If a walk in a layer runs out
+ * of steps, the search goes down from where it stopped. The fast stochastic walk makes no steps
+ * with one test here, as the walks are short. */
 uint32_t mw__layers_first(const mw_layers *layers, mw_point q, const mw_layer_walk *how,
                           uint64_t *random, mw_work *work);
 

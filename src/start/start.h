@@ -24,9 +24,9 @@ uint32_t mw__sample_count(const mw_tiling *tiling, uint32_t sample);
  * once. */
 uint32_t mw__start_centre(const mw_tiling *tiling, const double low[2], const double high[2]);
 
-/* The order of queries along a Hilbert curve over that part of their extent which lies within
- * low..high, the extent of the mesh: order[i].item is the query that comes i-th. scratch: room for
- * n keys. */
+/* Sort queries along a Hilbert curve. The curve covers the part of their extent that lies within
+ * low..high, the extent of the mesh. order[i].item becomes the query that comes i-th. scratch: room
+ * for n keys. */
 void mw__sort_queries(const double *points, size_t n, size_t stride, const double low[2],
                       const double high[2], mw_key *order, mw_key *scratch);
 

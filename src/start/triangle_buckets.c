@@ -1,15 +1,14 @@
 /* triangle_buckets.c - buckets with all incident triangles [thesis App. D, sec. 3.2].
  *
- * Each cell of a uniform grid, a bucket, keeps every tile that reaches into it, and a query tests
- * these one after the other: the one that has it is the first tile, and the last. No walk is
- * needed, whatever the shape of the domain; but where vertices are crowded a bucket keeps many,
- * and where tiles are long they are kept in many buckets. The paper warns of that memory. Here it
- * is bounded: where tiles would be kept more than MOST times on the average, buckets are made
- * larger.
+ * Each cell of a uniform grid, a bucket, keeps every tile that reaches into it. A query tests these
+ * one after the other until one contains it. No walk is needed, whatever the shape of the domain.
+ * But where vertices are crowded a bucket keeps many tiles, and long tiles are kept in many
+ * buckets; the paper warns that this takes much memory. Here memory is bounded: if tiles would be
+ * kept more than MOST times on average, buckets are made larger.
  *
- * Outside of all tiles, or in a bucket where rounding hides the right one, the walk begins at the
- * last tile tested, or, where the bucket is empty, at one of the first bucket of a spiral round it
- * (vertex_buckets.c). */
+ * For a query outside of all tiles, or if rounding hides the right tile, the walk begins at the
+ * last tile tested. If the bucket is empty, it begins at a tile of the first bucket that is not, in
+ * a spiral round it (vertex_buckets.c). */
 #include "start/triangle_buckets.h"
 
 #include "start/vertex_buckets.h"

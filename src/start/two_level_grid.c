@@ -2,15 +2,15 @@
  * nearest point in [Zalik, Kolingerova 2003].
  *
  * A coarse uniform grid; a cell with more than CROWDED vertices is a grid itself, with a cell for
- * each of its vertices. Here that grid spans the extent of those vertices rather than the cell, so
- * that a cluster is resolved however small it is, and empty cells have an entry as in the uniform
- * grid: where the nearest cell is crowded its grid, of which a query from outside gets one of the
- * outermost cells.
+ * each of its vertices. Here that grid spans the extent of those vertices, not the cell, so that a
+ * cluster is resolved however small it is. Empty cells have an entry as in the uniform grid. If the
+ * nearest cell is crowded, the entry is its grid, and a query from outside gets one of the
+ * outermost cells of it.
  *
- * The coarse grid has one cell for two vertices: on uniform points about one cell in 20 is crowded
- * then, and the other queries take no longer than with the uniform grid. With 10^5 points in 32
- * clusters and queries at them, walks visit 3.8 triangles instead of 65. Clusters within clusters
- * would need a third level; layers have as many as it takes. */
+ * The coarse grid has one cell for two vertices: with uniform points about one cell in 20 is
+ * crowded then, and queries in the other cells take no longer than with the uniform grid. With 10^5
+ * points in 32 clusters and queries at these points, walks visit 3.8 triangles instead of 65.
+ * Clusters within clusters would need a third level; layers (layers.c) adapt to any depth. */
 #include "start/two_level_grid.h"
 
 #include "start/start.h"

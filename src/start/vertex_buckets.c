@@ -7,14 +7,13 @@
  *      . 2 2 2 .
  *      . . . . .
  *
- * A uniform grid; each of its cells, a bucket, holds one of the vertices in it at most. A query
- * begins at the vertex in its own bucket, in any tile that has it. Where that bucket is empty the
- * rings of buckets round it are searched, for this query alone, until one is not: the spiral
- * search. So nothing is prepared but a pass over the vertices, and a query costs as many looks as
- * there are empty buckets nearer: few among vertices of even density, and up to all buckets where
- * most of the extent is empty.
- * The grid of this library (grid.c) fills empty cells once, and names the tile at the middle of
- * each cell; this is what it is measured against. */
+ * Each cell of a uniform grid, a bucket, holds at most one of the vertices in it. A query begins at
+ * the vertex in its own bucket, in any tile that has it. If that bucket is empty, the query
+ * searches the rings of buckets round it until one is not: the spiral search. So building takes
+ * only a pass over the vertices, and a query looks at all empty buckets that are nearer: few if
+ * vertices are spread evenly, up to all buckets if most of the extent is empty. The grid of this
+ * library (grid.c) fills empty cells once, and names the tile at the middle of each cell; this is
+ * what it is measured against. */
 #include "start/vertex_buckets.h"
 
 #include "start/start.h"

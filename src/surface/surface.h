@@ -64,7 +64,7 @@ static MW_INLINE void mw__surface_read_unlock(const mw_surface *surface)
 }
 
 /* As mw_surface_create, as stages of the present part of the job. *out is not changed on failure.
- * */
+ */
 mw_status mw__surface_create(const mw_arrays *arrays, const mw_surface_options *options,
                              mw_job *job, mw_surface **out, mw_error *error);
 

@@ -1,6 +1,8 @@
 /* tiling.c - what a tiling is asked for, and its end. */
 #include "tiling/tiling.h"
 
+#include "tiling/hub_table.h"
+
 #include <pthread.h>
 #include <stdlib.h>
 
@@ -21,6 +23,12 @@ uint32_t mw__lowest_around_vertex(const mw_tiling *tiling, uint32_t first, uint3
         t = first;
     }
     return best;
+}
+
+uint32_t mw__lowest_at_edited_vertex(const mw_tiling *tiling, uint32_t t, uint32_t v)
+{
+    const mw_hub *hub = mw__hub_find(tiling->hubs, v);
+    return hub && hub->count > 0 ? hub->number[0] : mw__lowest_around_vertex(tiling, t, v);
 }
 
 static void tiling_release_arrays(mw_tiling *tiling)

@@ -47,6 +47,8 @@ typedef struct mw_tiling {
     bool slots_are_numbers; /* of an edited tiling: most tiles have their slot as number */
     /* Of an edited tiling: numbers below this lead to a tile, those of undone edits, too. */
     uint32_t name_count;
+    /* Of an edited tiling, while no edit is under way: its hubs; else NULL; never owned. */
+    const struct mw_hub_table *hubs;
 } mw_tiling;
 
 #define MW_GONE (UINT32_C(1) << 31)
@@ -77,12 +79,14 @@ static MW_INLINE bool mw__vertex_is_used(const mw_tiling *tiling, uint32_t v)
     return (tiling->tile_at ? tiling->tile_at : tiling->owner)[v] != MW_NONE;
 }
 
-/* The lowest-numbered triangle of the user at vertex v of tile t. An edited tiling looks at all
- * tiles round v. */
+/* The lowest-numbered triangle of the user at vertex v of tile t, found by going round v. */
 uint32_t mw__lowest_around_vertex(const mw_tiling *tiling, uint32_t t, uint32_t v);
+/* The same in an edited tiling, whose hubs are known. */
+uint32_t mw__lowest_at_edited_vertex(const mw_tiling *tiling, uint32_t t, uint32_t v);
+/* The same in any tiling. */
 static MW_INLINE uint32_t mw__lowest_at_vertex(const mw_tiling *tiling, uint32_t t, uint32_t v)
 {
-    return tiling->tile_at ? mw__lowest_around_vertex(tiling, t, v) : tiling->owner[v];
+    return tiling->tile_at ? mw__lowest_at_edited_vertex(tiling, t, v) : tiling->owner[v];
 }
 
 /* A name of tile t that outlasts edits: its number; for a ghost, the number of a triangle next to
@@ -91,7 +95,7 @@ static MW_INLINE uint32_t mw__tile_name(const mw_tiling *tiling, uint32_t t)
 {
     if (!tiling->tile_of) return t;
     const mw_triangle *tile = &tiling->tri[t];
-    return tile->user & MW_GHOST ? mw__lowest_around_vertex(tiling, t, tile->v[0])
+    return tile->user & MW_GHOST ? mw__lowest_at_edited_vertex(tiling, t, tile->v[0])
                                  : tile->user & MW_USER_MASK;
 }
 

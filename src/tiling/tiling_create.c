@@ -1,5 +1,5 @@
 /* tiling_create.c - makes the tiling of a mesh: borrows the arrays of the mesh or makes new ones.
- * */
+ */
 #include "tiling/tiling_create.h"
 
 #include "tiling/ghosts.h"

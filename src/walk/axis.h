@@ -10,11 +10,10 @@
  * A leg follows a line parallel to an axis, in one of four directions. The walk is written once, in
  * coordinates turned with the heading d: along it, and to its left. d is a unit vector, so these
  * are coordinates of the point, or their negatives, and nothing is rounded. Turning, unlike
- * mirroring, leaves left left: l and r are the ends of the entry edge in the order in which the
- * tile has them.
- * A vertex on the line counts as right of it. So the walk follows a line moved to the left by less
- * than any distance between coordinates: it meets no vertex, leaves each tile that it meets over
- * one edge, and comes on with each. */
+ * mirroring, keeps left and right: l and r are the ends of the entry edge in the order in which the
+ * tile has them. A vertex on the line counts as right of it. So the walk follows a line moved to
+ * the left by less than any distance between coordinates: it meets no vertex, leaves each tile that
+ * it meets over one edge, and gets farther with each. */
 #ifndef MW_SRC_WALK_AXIS_H
 #define MW_SRC_WALK_AXIS_H
 
@@ -69,9 +68,10 @@ static MW_INLINE void axis_head_upright(mw_walk *w, mw_point from, mw_policy P)
     w->p = (mw_point){sign * w->q.y, -sign * from.x};
 }
 
-/* The horizontal leg is at its end: from there along the vertical line through q. The tile it came
- * to holds points just before that line, perhaps none beyond it. So a vertex on the line must count
- * as beyond: as right after a turn to the left, as left after a turn to the right. */
+/* The horizontal leg ends and the vertical one begins, along the vertical line through q. The tile
+ * reached has points just before that line, but perhaps none beyond it. So a vertex on the line
+ * must count as beyond it: as right of it after a turn to the left, as left of it after a turn to
+ * the right. */
 static MW_INLINE void axis_turn_upright(mw_walk *w, mw_policy P)
 {
     double before = w->d.x;

@@ -7,17 +7,18 @@
  *
  * The barycentric coordinates of q: b_i is the area that q makes with the edge opposite to t_i,
  * over the area of the tile, negative where q lies beyond that edge. Cross the edge of the least
- * one, if it is negative: here b0. Three tests a tile: two of the areas over edges, and that of the
- * tile, since the coordinates add up to 1. Dividing by the signed area makes the walk independent
- * of the tile's orientation. (All tiles are counter-clockwise here; borrow/borrowed_coordinates.c
- * has it over triangles of mixed orientation.)
- * Departure from the printed pseudocode: the coordinates are rounded, and b2, a difference, even in
- * sign. In exact arithmetic an edge is crossed only where its coordinate is below zero by more than
- * all may be off; so q surely lies beyond it. Where the least coordinate is not, q is in the tile
- * or all but in it, and the exact final location ends the walk. The same happens where a coordinate
- * is no number: in flat tiles (of a mesh that is no embedding), and far outside the range of areas.
- * Ends on Delaunay meshes as Lawson's walk does. On others it may go round in a cycle, in exact
- * arithmetic too [thesis App. E, fig. 6]; then its fuel runs out and it hands over. */
+ * one, if it is negative: here b0. Three areas are computed in each tile: those of q with two
+ * edges, and that of the tile; the third coordinate follows, since they add up to 1. Dividing by
+ * the signed area makes the walk independent of the tile's orientation. (All tiles are
+ * counter-clockwise here; borrow/borrowed_coordinates.c has it over triangles of mixed
+ * orientation.) Departure from the printed pseudocode: the coordinates are rounded, and rounding
+ * may even change the sign of b2, a difference. In exact arithmetic an edge is crossed only if its
+ * coordinate is below zero by more than the rounding error of all; so q surely lies beyond it. If
+ * no coordinate is, q is in the tile or very near it, and the exact final location ends the walk.
+ * The same happens if a coordinate is a NaN: in flat tiles (of a mesh that is not an embedding),
+ * and far outside the range of areas. Ends on Delaunay meshes as Lawson's walk does. On others it
+ * may go round in a cycle, in exact arithmetic too [thesis App. E, fig. 6]; then its fuel runs out
+ * and it hands over. */
 #include "walk/drive.h"
 #include "walk/value.h"
 

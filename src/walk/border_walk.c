@@ -8,27 +8,25 @@
  *      r----:----l  out
  *           p
  *
- * Walk along the line from a point p of the first tile's edge to q, as the straight walk does.
- * Where the line leaves the mesh, go along the border, turning round its vertices through tiles,
- * until an edge is met by which the line comes back ("in") behind the point where it left ("out")
- * and not behind q: there the walk goes on. If all the border from the way out round to itself has
- * no such edge, q lies on the far side of it: outside, or in the hole that it bounds.
- * Departures from the printed pseudocode (slip 6). A vertex on the line counts as one to its right,
- * on both ways: the walk follows a line that is moved a little to the left, and meets no vertex.
- * Whether an edge is met behind the way out is decided by the ends of both edges, which do not
- * cross; no point of intersection is computed. p is the middle of the edge, or rather any point
- * from which the line to q has the edge's ends on different sides; where rounding has moved the
+ * Walk along the line from a point p on an edge of the first tile to q, as the straight walk does.
+ * Where the line leaves the mesh ("out"), follow the border, turning round its vertices through
+ * tiles, to an edge over which the line comes back ("in") after the point where it left, but not
+ * after q: there the walk goes on. If the border, followed all round, has no such edge, q lies on
+ * the other side of it: outside, or in the hole that it bounds. Departures from the printed
+ * pseudocode (slip 6). A vertex on the line counts as right of it, both where the line leaves and
+ * where it comes back: the walk follows a line that is moved a little to the left, and meets no
+ * vertex. Whether an edge comes after the way out is decided by the ends of both edges, which do
+ * not cross; no point of intersection is computed. p is the middle of the edge, but any point will
+ * do from which the line to q has the edge's ends on different sides. If rounding has moved the
  * middle so far that it has not, p is the right end. A vertex of the border on the line is compared
  * with q, and so is an edge along the line: such a q may lie on the border where the line passes
  * outside. Where several fans of tiles meet in a vertex, the border goes on round the face beyond
- * it (tiling/border_loops.h).
- * Where nothing is beyond any border, as on tiles that fill their hull, q is outside as soon as the
- * line leaves.
- * Ends on every embedding: each time the line comes back it does so farther on than it left. But it
- * may come back very often, and go along the same border each time. So its steps are limited. If
- * they do not suffice, a second form takes over: it goes all along a border, and continues where
- * the line comes back last. If the line leaves over that border again, it does not come back.
- * Proof: docs/proofs/walks.md. */
+ * it (tiling/border_loops.h). If tiles fill their hull, there is nothing beyond the border, and q
+ * is outside as soon as the line leaves. Ends on every embedding: each time the line comes back it
+ * does so farther along than it left. But it may come back very often, and the walk may follow the
+ * same border each time. So its steps are limited. If they do not suffice, a second form takes
+ * over: it follows a border all round, and continues where the line comes back for the last time.
+ * If the line leaves over that border again, it does not come back. Proof: docs/proofs/walks.md. */
 #include "walk/drive.h"
 
 /* phases; round: where the border's last vertex lies */

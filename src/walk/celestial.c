@@ -11,13 +11,13 @@
  *
  * The edges that q lies beyond form a chain, one or two edges of a triangle. Begin at its first
  * edge, counter-clockwise: ac. If the corner c between it and the next edge cb is obtuse and q lies
- * on the far side of the perpendicular to ac at c, take cb. Cross. The perpendicular parts an
- * obtuse angle into a right and an acute one, as the paper asks of the line; it is decided by the
- * signs of two dot products.
- * Ends on every tiling: the edge crossed holds the point x of the tile nearest to q, so the
- * distance from q to the tile never grows. It stays the same only if x is a vertex, and then the
- * walk turns one way round x. So no tile is entered twice (proof: docs/proofs/walks.md). The walk
- * ends without any memory; remembering the edge it came by saves a test. */
+ * on the far side of the perpendicular to ac at c, take cb. Cross. The perpendicular divides the
+ * obtuse angle into a right and an acute one, as the paper requires of the line. The signs of two
+ * dot products decide. Ends on every tiling: the edge crossed holds the point x of the tile nearest
+ * to q, so the distance from q to the tile never grows. It stays the same only if x is a vertex,
+ * and then the walk turns one way round x. So no tile is entered twice (proof:
+ * docs/proofs/walks.md). The walk would end without any memory; it remembers the edge it came over
+ * only to save a test. */
 #include "walk/drive.h"
 
 /* Cross edge e, the first of the chain, or the next edge if q lies round the corner between

@@ -6,22 +6,22 @@
  *      t0------t1
  *
  * The barycentric walk without division: the orientation coordinate c_i of q is twice the area that
- * it makes with the edge opposite to t_i, and c0 + c1 + c2 = 2A. Of these three the one of the edge
- * just crossed is known from the tile before, with the opposite sign; the next one is tested, and
- * the last is 2A less both. One test a tile where 2A is stored, else two; one more in the first
- * tile.
+ * it makes with the edge opposite to t_i, and c0 + c1 + c2 = 2A. Of these three, that of the edge
+ * just crossed is known from the tile before, with the opposite sign; the next one is computed by a
+ * test, and the last is 2A less both. So a tile takes one test if 2A is stored, else two; the first
+ * tile takes one more.
  *
  * The walk of the paper also takes clockwise tiles, but its printed pseudocode fails there, because
  * it passes on coordinates that it has flipped (slip 5). It has to keep all of them normalised: the
  * known one always -c, the tested one sgn(A) times the test, and the last one |2A| less both. Here
  * sgn(A) is 1: the mesh turns clockwise triangles when it is created, so that all tiles are
- * counter-clockwise. borrow/borrowed_coordinates.c has the walk over triangles as they are.
- * Another departure: coordinates are rounded, and what is derived from them takes the errors of
- * all tiles before along. In exact arithmetic an edge is crossed only where its coordinate is
- * surely negative, and that coordinate is passed on with the most by which it may be off added. So
- * what is known in the next tile is a lower bound, what is derived from it an upper one, and a
- * negative one is sure again. Where no coordinate is, q is in the tile or all but in it, and the
- * exact final location ends the walk. Ends and cycles as the barycentric walk does. */
+ * counter-clockwise. borrow/borrowed_coordinates.c has the walk over triangles as they are. Another
+ * departure: coordinates are rounded, and those derived from others inherit their errors, tile
+ * after tile. In exact arithmetic an edge is crossed only if its coordinate is surely negative, and
+ * its error bound is added before it is passed on. So the known coordinate of the next tile is a
+ * lower bound, the one derived from it an upper bound, and if that is negative, it surely is. If no
+ * coordinate is surely negative, q is in the tile or very near it, and the exact final location
+ * ends the walk. Ends and cycles as the barycentric walk does. */
 #include "walk/drive.h"
 #include "walk/value.h"
 

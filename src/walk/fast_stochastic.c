@@ -7,18 +7,17 @@
  *       a-----b
  *          ^
  *
- * Entered over ab, far from q, the walk has to leave over bc or ca. So it tests one of the two,
- * chosen by a coin: q lies beyond it, or else, very likely, beyond the other, which is crossed
- * without a test. In the first tile any edge is tested, and if q does not lie beyond it, one of the
- * other two is crossed.
- * One test a tile, but no step notices that it has arrived: near q the walk goes round it.
- * Therefore it makes k steps and ends; the remembering stochastic walk goes on, or on a Delaunay
- * mesh the remembering walk: the one that the caller chose to finish walks, or the mesh. It begins
- * without an edge that it came by, because q may lie beyond one that was crossed without a test.
- * The paper takes k from experiments with the number of vertices; here it is given, or estimated
- * from the distance for each query (mw__query_begin).
- * A hull edge crossed without a test does not mean that q is outside: then the final location goes
- * on. Ends after k steps. */
+ * A walk that has entered a tile over ab, far from q, leaves over bc or ca. So it tests one of the
+ * two, chosen at random: if q does not lie beyond it, q very likely lies beyond the other one,
+ * which is crossed without a test. In the first tile any edge is tested, and if q does not lie
+ * beyond it, one of the other two is crossed. A tile takes one test, but no step notices that it
+ * has arrived: near q the walk circles round it. Therefore it ends after k steps. Then the
+ * remembering stochastic walk goes on, or on a Delaunay mesh the remembering walk, unless the
+ * caller has chosen. It tests all edges of its first tile, because q may lie beyond an edge that
+ * was crossed without a test. The paper takes k from experiments with the number of vertices; here
+ * it is given, or estimated from the distance for each query (mw__query_begin). A hull edge crossed
+ * without a test does not mean that q is outside: then the final location goes on. Ends after k
+ * steps. */
 #include "walk/drive.h"
 #include "walk/stochastic.h"
 

@@ -8,9 +8,9 @@
  *
  * Lawson's walk with the edges of each tile in random order: any of them first, then the others
  * round the tile. The edge just crossed is tested like any other, though q cannot lie beyond it: up
- * to three tests a tile, and no state at all.
- * On any mesh the chance of walking on for ever is zero, as that of the walk that remembers is
- * (stochastic.c); where the fuel runs out it hands over. */
+ * to three tests a tile, and no state at all. As with the walk that remembers (stochastic.c), the
+ * probability of walking for ever is zero on any mesh. If the fuel runs out, another walk takes
+ * over. */
 #include "walk/drive.h"
 #include "walk/stochastic.h"
 

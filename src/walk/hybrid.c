@@ -8,23 +8,22 @@
  *        r
  *
  * The straight walk in turned and scaled coordinates, in which the line from p to q is horizontal:
- * with a = q - p, x' = x a_x + y a_y and y' = -x a_y + y a_x. Turn round p, a vertex of the first
- * tile, to the tile at p that the line enters: one y' a tile. Then follow the line: with l and r
- * the left and right ends of the edge just crossed and s the third vertex, the walk is close to q
- * and ends where x' of s is at least that of q. Otherwise the line leaves over rs where s lies
- * above it, over sl where not. Then an exact walk goes the last steps.
+ * with a = q - p, x' = x a_x + y a_y and y' = -x a_y + y a_x. First turn round p, a vertex of the
+ * first tile, to the tile at p that the line enters; each tile takes one y'. Then follow the line.
+ * Let l and r be the left and right ends of the edge just crossed, and s the third vertex. If x' of
+ * s is at least that of q, the walk is close to q and ends. Otherwise the line leaves over rs if s
+ * lies above it, else over sl. An exact walk makes the last steps.
  *
  * Departures from the printed pseudocode. The printed matrix turns by the wrong sign, so that p->q
  * ends at twice its angle (slip 4). Coordinates are relative to p: q' = (|a|^2, 0), p' = 0, and
  * nothing cancels far from the origin. The first tile is seen from its vertex 0; like the straight
  * walk, and like the printed one, the turn takes the short way round. It ends at the tile that the
- * line enters, whose last tested vertex is the first s: its x' belongs to the walk, its y' is not
- * compared again. On the line counts as below it, everywhere; the printed loop has it the other
- * way. Edge cases. q = p: an exact walk starts in the first tile. Where the turn or the walk meets
- * the hull, q is outside or on the hull but for rounding: an exact walk goes on from there. Ends by
- * running out of fuel at worst. In exact arithmetic it enters no tile twice; all that rounding
- * could do is lead it back to the edge it began with, or keep it turning round p:
- * docs/proofs/walks.md. */
+ * line enters. The vertex of that tile tested last is the first s; its y' is not compared again. A
+ * vertex on the line counts as below it, everywhere; in the printed loop it counts as above. Edge
+ * cases. q = p: an exact walk starts in the first tile. Where the turn or the walk meets the hull,
+ * q is outside or on the hull, up to rounding: an exact walk goes on from there. At worst the walk
+ * ends because its fuel runs out. Without rounding it enters no tile twice; rounding could only
+ * lead it back to the edge it began with, or keep it turning round p: docs/proofs/walks.md. */
 #include "walk/drive.h"
 
 enum { FIRST, TURN_RIGHT, TURN_LEFT, FOLLOW }; /* phases */

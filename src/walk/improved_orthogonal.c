@@ -8,29 +8,28 @@
  *          \|/
  *           r
  *
- * p is a point inside the first tile, so there is no vertex to turn round. In each tile two
- * comparisons: is s, the vertex off the entry edge, past the end of the leg? If not, on which side
- * of the line is it? To its left: leave over rs; else over sl. Past the end, turn, and go the same
- * way along the vertical line through q. The tile where that ends is not tested: q is there or
- * near, and an exact walk ends the search.
- * Departures from the printed pseudocode. In the first tile of a leg, s, the vertex farthest along
- * the heading, tells whether the tile is past the end, as printed; but not the edge to leave over,
- * which need not be one at s: that runs from a vertex on the right to one on the left. p is the
- * centroid. The other directions are the same code in turned coordinates: axis.h.
- * Leaving the hull. In the horizontal leg: then the vertical leg from here, along the line through
- * the centroid of the tile, as the text of App. E has it; or, as that of App. B and its Fig. 1 have
- * it, through the vertex tested last (a walk of its own). In the vertical leg: the exact walk. App.
- * B does not say on which side of its line that vertex lies: here before it, as seen on the way
- * there. So counted, its Table II comes out within the spread of seeds; with the vertex beyond its
- * line the walk is 7 percent shorter, and the final location 12 to 16
- * (docs/measurements/published-tables.md).
- * Edge cases. q level with p, or above or below it: its leg ends where it begins. A vertex on the
- * line of a leg counts as right of it, but where the walk turns to the right, as left
- * (axis_turn_upright). Where rounding puts the centroid beside the tile, so that the line misses
- * it, the exact walk takes over. A leg moves by comparisons of coordinates only, so this walk takes
- * the same way in both arithmetics.
- * Ends on every tiling: there are two legs, and the point where a leg's line leaves the tile comes
- * on with each step. A tile may come once in each. */
+ * p is a point inside the first tile, so there is no vertex to turn round. Each tile takes two
+ * comparisons. Is s, the vertex opposite to the entry edge, past the end of the leg? If not, on
+ * which side of the line is it? If to its left, leave over rs, else over sl. If s is past the end,
+ * turn, and go in the same way along the vertical line through q. The tile where that leg ends is
+ * not tested: q is there or near, and an exact walk ends the search. Departures from the printed
+ * pseudocode. In the first tile of a leg, s is the vertex farthest along the heading. It tells
+ * whether the tile is past the end, as printed. But the edge to leave over need not be at s: it is
+ * the edge that runs from a vertex on the right to one on the left. p is the centroid. The other
+ * directions are the same code in turned coordinates: axis.h. Leaving the hull. If the horizontal
+ * leg leaves the hull, the vertical leg begins there, along the line through the centroid of the
+ * tile, as in the text of App. E; or through the vertex tested last, as in App. B and its Fig. 1
+ * (that is a separate walk). If the vertical leg leaves the hull, the exact walk takes over. App. B
+ * does not say on which side of its line that vertex lies: here the vertex counts as lying before
+ * its line, as seen on the way there. With that, the counts of its Table II are met within the
+ * spread of seeds; with the vertex beyond its line the walk would be 7 percent shorter, and the
+ * final location 12 to 16 percent (docs/measurements/published-tables.md). Edge cases. If q is
+ * level with p, or straight above or below it, one leg ends where it begins. A vertex on the line
+ * of a leg counts as right of it, but as left where the walk turns to the right
+ * (axis_turn_upright). If rounding puts the centroid outside the tile, so that the line misses it,
+ * the exact walk takes over. A leg only compares coordinates, so this walk takes the same way in
+ * both arithmetics. Ends on every tiling: there are two legs, and the point where a leg's line
+ * leaves the tile moves on with each step. A tile may come once in each leg. */
 #include "walk/axis.h"
 #include "walk/drive.h"
 

@@ -22,8 +22,9 @@ static MW_INLINE mw_lifted_vertex mw__lift_vertex(const mw_tiling *tiling, uint3
 }
 
 /* mw__orient2d of a and b, seen from q, and q. The bound is that of mw__orient2d_bound, (3 u + 16
- * u^2) times |ax by| + |ay bx|, but by the lifts alone: the sum is at most the product of both
- * lengths, and that half the sum of the lifts, which are off by less than 3 u of themselves. */
+ * u^2) times |ax by| + |ay bx|, but computed from the lifts alone. That sum is at most the product
+ * of both lengths, which is at most half the sum of the lifts; their relative error is below 3 u.
+ */
 static MW_INLINE double mw__lifted_side(const mw_tiling *tiling, const mw_lifted_vertex *a,
                                         const mw_lifted_vertex *b, mw_point q)
 {
@@ -33,11 +34,11 @@ static MW_INLINE double mw__lifted_side(const mw_tiling *tiling, const mw_lifted
     return mw__orient2d_exact(tiling->point[a->vertex], tiling->point[b->vertex], q);
 }
 
-/* mw__incircle_rounded of a, b and c, seen from q, and q, with a bound by the lifts alone:
- * triangulate/delaunay_grow.c tells why 11 u (ab + bc + ca) is one, and of three numbers that is at
- * most a third of their sum squared. Where that square does not overflow nothing else does; and
- * what underflow may cost, 2^-1071 times the lifts, the rest of 4 u covers where the lifts are not
- * small. */
+/* mw__incircle_rounded of a, b and c, seen from q, and q, with a bound computed from the lifts
+ * alone. triangulate/delaunay/delaunay_grow.c explains why 11 u (ab + bc + ca) is a bound; for
+ * three numbers, ab + bc + ca is at most a third of their squared sum. If that square does not
+ * overflow, nothing else does. Underflow may cost 2^-1071 times the lifts; unless the lifts are
+ * small, what 4 u exceeds 11 u / 3 by covers it. */
 #define MW_LIFTED_ERROR (4.0 * 0x1p-53)
 static MW_INLINE double mw__lifted_incircle(const mw_lifted_vertex *a, const mw_lifted_vertex *b,
                                             const mw_lifted_vertex *c, double *bound)

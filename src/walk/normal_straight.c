@@ -9,26 +9,26 @@
  *      r
  *
  * The line leads from p, the middle of the edge of the first tile that faces the vertex s nearest
- * to q, to q; n is its normal at q. With l and r the left and right ends of the edge just crossed
- * and s the third vertex: where s is past n, the walk is close to q and ends. Otherwise the line
- * leaves over rs where s lies to its left, over sl where not. Two positions by the equations of
- * two fixed lines a tile, no orientation test; then an exact walk goes the last steps.
+ * to q, to q; n is its normal at q. Let l and r be the left and right ends of the edge just
+ * crossed, and s the third vertex. If s is past n, the walk is close to q and ends. Otherwise the
+ * line leaves over rs if s lies to its left, else over sl. Each tile takes the equations of two
+ * fixed lines at s, and no orientation test. An exact walk makes the last steps.
  *
  * Departures from the printed pseudocode. The normal has the minus sign that eq. 7 lost (slip 1),
- * and over which edge the line leaves is as in the prose of App. A and in Alg. 5 (slip 2). Both
- * equations take s relative to q: their constants vanish, for which two subtractions are to be
- * made; nothing is saved, but nothing cancels far from the origin. Nor is p itself needed, only the
- * direction d from p to q: the mean of those from l and r. Edge cases. In a flat first tile q may
- * lie behind lr although s is the nearest vertex; the printed walk then goes away from q. Therefore
- * the first tile first asks whether the edge to be crossed has its ends on different sides of the
- * line, one position more a query. If not, the walk starts over lr, into the tile that the line
- * enters. Where d is zero (q = p), s of the first tile is past n, the line leaves the hull, or no
- * edge of the first tile will do (in tiles a few roundings wide), an exact walk goes on from there.
- * Begun by a turn. The text of App. E has also tried the initialisation of the straight walk with
- * it: p is then vertex 0 of the first tile, round which the walk turns by orientation tests to the
- * tile that the line enters. That is a walk of its own, normal_straight_turn.
- * Ends by running out of fuel at worst. In exact arithmetic it enters no tile twice; all that
- * rounding could do is lead it back to the edge it began with: docs/proofs/walks.md. */
+ * and the edge over which the line leaves is that of the prose of App. A and of Alg. 5 (slip 2).
+ * Both equations take s relative to q. That makes their constants zero at the price of two
+ * subtractions: nothing is saved, but no digits cancel far from the origin. p itself is not needed,
+ * only the direction d from p to q: the mean of the directions from l and r. Edge cases. In a flat
+ * first tile q may lie behind lr although s is the nearest vertex; the printed walk then goes away
+ * from q. Therefore it is first tested, once a query, whether the edge to be crossed has its ends
+ * on different sides of the line. If not, the walk starts over lr, into the tile that the line
+ * enters. An exact walk goes on if d is zero (q = p), if s of the first tile is past n, if the line
+ * leaves the hull, or if no edge of the first tile will do (in tiles a few roundings wide). Begun
+ * by a turn. App. E also tried this walk with the beginning of the straight walk: p is vertex 0 of
+ * the first tile, round which the walk turns by orientation tests to the tile that the line enters.
+ * That is a separate walk, normal_straight_turn. At worst the walk ends because its fuel runs out.
+ * Without rounding it enters no tile twice; rounding could only lead it back to the edge it began
+ * with: docs/proofs/walks.md. */
 #include "walk/drive.h"
 
 /* position(lambda, s) > 0: s lies to the left of the line. */
@@ -98,8 +98,8 @@ static MW_INLINE double normal_turn_side(mw_walk *w, mw_point s, mw_policy P)
 }
 
 /* The turn ends: the line leaves this tile over edge e, off p. Its vertex s was the last one
- * tested. The way that follows is determined forwards and backwards only if it begins at an edge
- * that the rounded line parts, too. */
+ * tested. The rest of the way is unique, forwards and backwards, only if the ends of the edge where
+ * it begins lie on different sides of the rounded line, too. */
 static MW_INLINE mw_verdict normal_turned(mw_walk *w, uint32_t e, mw_point s, mw_policy P)
 {
     w->phase = FOLLOW;

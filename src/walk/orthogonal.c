@@ -9,40 +9,41 @@
  *         \|/
  *          r
  *
- * First turn round p, a vertex of the first tile, to the tile at p that the horizontal line through
- * p enters on its way to a, the point above or below q: a comparison a tile. Then follow the line:
- * with l and r the left and right ends of the edge just crossed and s the third vertex, it leaves
- * over rs where s lies to its left, over sl else: one comparison. While both ends of that edge fall
- * short of a, a lies beyond it: two comparisons; then orient2d of the edge and a tells. In the tile
- * that holds a, turn, and follow the vertical line to q in the same way.
- * Departures from the printed pseudocode.
+ * Let a be the point above or below q at the height of p, a vertex of the first tile. First turn
+ * round p to the tile at p that the horizontal line from p to a enters; each tile takes one
+ * comparison. Then follow the line. Let l and r be the left and right ends of the edge just
+ * crossed, and s the third vertex. The line leaves over rs if s lies to its left, else over sl: one
+ * comparison. As long as both ends of that edge fall short of a, a lies beyond it: two comparisons.
+ * After that, orient2d of the edge and a decides. In the tile that contains a, turn, and follow the
+ * vertical line to q in the same way. Departures from the printed pseudocode.
  * - Slip 3: a lies beyond the edge from r to l where orient2d(r, l, a) < 0; printed, the walk goes
  *   on where a is inside.
  * - The turn: printed, it looks at one end of the exit edge. Here the sides of all three vertices
  *   are compared with the vertical line; it leaves over the edge that runs from right to left. This
  *   covers every case of l and r.
  * - The other directions, "analogous" in print, are the same code in turned coordinates: axis.h.
- * - Leaving the hull, only told in the text. First, q may lie beyond the hull edge itself: then it
- *   is outside, by an exact test. Else a horizontal leg is followed by a vertical one along
+ * - Leaving the hull, which only the text describes. First, if q lies beyond the hull edge, by an
+ *   exact test, it is outside. Otherwise a horizontal leg is followed by a vertical one along
  *   another line, through an inner point of the tile (between its centroid and its vertex nearest
- *   to q), and whatever ends that leg, the walk runs again from there, from the vertex nearest to
- *   q. In a thin hull askew to the axes all this does not help; so after RESTARTS it is left to an
- *   exact walk.
- * Edge cases. q = p: the first tile is the answer. q above or below p: there is only the vertical
- * leg, from p. q at the height of p: a is q, and the horizontal leg finds it. A vertex on the line
- * of a leg counts as right of it, but where the walk turns to the right, as left
- * (axis_turn_upright). p on the hull: where the turn meets the hull first, the line points out of
- * the hull, or runs along it with the hull on its right; the leg then leaves the hull at p.
- * MW_VERDICT_FOUND is exact (in exact arithmetic, on a tiling): with vertices on the line counted
- * as right, the walk follows a line moved by next to nothing, so every tile has points of it
- * inside, and its part of the true line runs from the entry edge, or p, to the exit edge. What the
- * leg looks for lies ahead of p; then ahead of each entry edge, since it was beyond that; so it is
- * in the tile unless it is beyond the exit edge. The vertical leg begins likewise in the tile that
- * holds a, which has points just before the vertical line. Legs along another line find nothing,
- * they only lead nearer.
- * Ends on every tiling: the turn passes each tile at p at most once, the short way round; the point
- * where a leg's line leaves the tile comes on with each step; and there are at most 2 (RESTARTS +
- * 1) legs. Each meets a tile once at most. */
+ *   to q). Wherever that leg ends, the walk starts again from there, at the vertex nearest to q. In
+ *   a thin hull at an angle to the axes even that does not help; so after RESTARTS new starts an
+ *   exact walk takes over. Edge cases. q = p: the first tile is the answer. q above or below p:
+ *   there is only the vertical leg, from p. q at the height of p: a is q, and the horizontal leg
+ *   finds it. A vertex on the line of a leg counts as right of it, but as left where the walk turns
+ *   to the right (axis_turn_upright). p on the hull: if the turn meets the hull first, the line
+ *   points out of the hull, or runs along it with the hull on its right; then the leg leaves the
+ *   hull at p. MW_VERDICT_FOUND is exact (in exact arithmetic, on a tiling): since vertices on the
+ *   line count as right of it, the walk follows a line moved infinitesimally. So every tile has
+ *   points of that line inside, and the tile's part of the true line runs from the entry edge, or
+ *   p, to the exit edge. The point that the leg looks for lies ahead of p, and then ahead of each
+ *   entry edge, since it was beyond that edge. So it is in the tile unless it is beyond the exit
+ *   edge. The vertical leg begins
+ *   likewise in the tile that holds a, which has points just before the vertical line. Legs along
+ *   another line never find the point; they only lead nearer to it. Ends on every tiling: the turn
+ *   passes each tile at p at most once, the short way round; the point where a leg's line leaves
+ *   the tile moves on with each step; and there are at most 2 (RESTARTS + 1) legs. Each meets a
+ *   tile once at most.
+ */
 #include "walk/axis.h"
 #include "walk/drive.h"
 

@@ -17,10 +17,10 @@ static MW_INLINE void mw__prefetch_across(const mw_triangle *tri, const mw_trian
     for (uint32_t k = 0; k < 3; k++) __builtin_prefetch(&tri[mw__link_triangle(tile->link[k])]);
 }
 
-/* Tiles lie along a curve as a rule, numbered by their lowest vertices, so that most of what lies
- * round about a tile, or comes next along the curve, lies near it in memory, rather behind it than
- * before. To ask for all of that at once beats waiting for one after the other, in a mesh that
- * caches do not hold. */
+/* As a rule tiles lie in memory along a curve, in the order of their lowest vertices. So most tiles
+ * near a tile in the plane, and those that come next along the curve, are near it in memory, mostly
+ * after it. In a mesh larger than the caches, prefetching all of them at once is faster than
+ * waiting for one after the other. */
 static MW_INLINE void mw__prefetch_tiles_round(const mw_tiling *tiling, uint32_t t)
 {
     enum { LINE = 64, BEFORE = 16, AFTER = 64 };

@@ -1,9 +1,10 @@
 /* remembering.c - the remembering walk [Devillers, Pion, Teillaud 2002, sec. 3.2; thesis App. A,
  * sec. 2].
  *
- * Lawson's walk that remembers the edge it came by: q cannot lie beyond it, so at most two tests a
- * tile, in the order in which the tile lists its edges. In the first tile, where no edge was
- * crossed, all three. It goes the way of Lawson's walk, and ends and cycles as that does. */
+ * Lawson's walk that remembers the edge it came over. q cannot lie beyond that edge, so a tile
+ * takes at most two tests, in the order in which it lists its edges. In the first tile, where no
+ * edge was crossed, all three are tested. The walk takes the same way as Lawson's walk, and ends or
+ * cycles as that does. */
 #include "walk/drive.h"
 
 static MW_INLINE mw_verdict remembering_step(mw_walk *w, mw_policy P)

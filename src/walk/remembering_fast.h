@@ -4,9 +4,9 @@
  *
  * Why it exists: that walk keeps only signs, so that the answer has to compute anew the areas of
  * the triangles that q makes with the sides of the last tile; their shares are the weights. Here a
- * step computes these three areas, rounded, with one bound on the error of all. Where one is surely
- * negative, q lies beyond that side. Where all are surely positive, they give the weights: the walk
- * ends with the answer. No exact predicate is called, and so nothing has to be kept for its return.
+ * step computes these three areas, rounded, with one bound on the error of all. If one is surely
+ * negative, q lies beyond that side. If all are surely positive, they give the weights: the walk
+ * ends with the answer. No exact predicate is called, so no registers have to be saved for a call.
  *
  * Why it takes the same way: it leaves over the first edge, in the order of the tile, beyond which
  * q surely lies. The edge by which it came needs no memory: its area is made of the same products
@@ -68,8 +68,8 @@ static MW_INLINE bool mw__rounded_weights(const mw_rounded_areas *of, double wei
 
 /* Walk to q from tile *t, which becomes the tile where the walk ended. MW_VERDICT_FOUND: q is
  * inside it, with these weights; MW_VERDICT_LEFT: beyond an edge of it that is on the hull;
- * MW_VERDICT_UNSURE: rounding cannot tell; MW_VERDICT_OUT_OF_FUEL: too far. Each turn is a jump: a
- * walk alone should not wait for the areas, and the processor guesses where to go on. */
+ * MW_VERDICT_UNSURE: rounding cannot tell; MW_VERDICT_OUT_OF_FUEL: too far. Each turn is a jump, so
+ * that the processor predicts where to go on: a single walk should not wait for the areas. */
 static MW_INLINE mw_verdict mw__remembering_fast(const mw_tiling *tiling, mw_point q, uint32_t *t,
                                                  double weight[3])
 {
@@ -99,10 +99,10 @@ static MW_INLINE mw_verdict mw__remembering_fast(const mw_tiling *tiling, mw_poi
     return verdict;
 }
 
-/* One step for those who only want to come nearer, where it does not matter if rounding is wrong:
- * the link over an edge beyond which q seems to lie, MW_NONE over one of the hull; a link to edge 0
- * of t itself where there is no such edge. The edge is looked up, since the processor would guess a
- * jump wrong. */
+/* One step that only leads nearer to q; it does not matter if rounding makes it wrong. Returns the
+ * link over an edge beyond which q seems to lie: MW_NONE if it is on the hull, a link to edge 0 of
+ * t itself if there is no such edge. The edge is looked up in a table, since a processor would
+ * predict a jump wrong. */
 static MW_INLINE uint32_t mw__link_nearer(const mw_tiling *tiling, mw_point q, uint32_t t)
 {
     /* by the edges that q lies beyond, as bits */

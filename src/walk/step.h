@@ -50,10 +50,10 @@ static MW_INLINE mw_point apex(const mw_walk *w, uint32_t e)
     return corner(w, mw__prev(e));
 }
 
-/* The cheap walks that follow a line from p to q place vertices by its direction d, in plain
- * doubles. Set it; a very long or short one is scaled by a power of two, so that products with
- * differences of the same size are about 1 or, of long ones, of that size: they hardly over- or
- * underflow. False where there is no line: q is at p, or d is too long for doubles. */
+/* Set the direction d of the line from p to q, by which the cheap walks decide in plain doubles on
+ * which side of the line a vertex is. A very long or short d is scaled by a power of two, so that
+ * products of d with differences of coordinates hardly over- or underflow. Returns false if there
+ * is no line: q is at p, or d is too long for doubles. */
 static MW_INLINE bool set_direction(mw_walk *w, double x, double y)
 {
     double length = fabs(x) + fabs(y);
@@ -109,9 +109,9 @@ static MW_INLINE mw_verdict cross_unsure(mw_walk *w, uint32_t e, mw_policy P)
     return MW_UNLIKELY(verdict == MW_VERDICT_LEFT) ? MW_VERDICT_UNSURE : verdict;
 }
 
-/* Cross edge e, which came out of values. A walk alone should not wait for them: a jump lets the
- * processor guess, and have the next tile on its way. Many walks that take turns have time, and
- * wrong guesses only cost them. */
+/* Cross edge e, which was computed from areas. A single walk should not wait for them: it uses a
+ * jump, so that the processor predicts the edge and loads the next tile early. Many walks that take
+ * turns have time, and wrong predictions would only cost it. */
 static MW_INLINE mw_verdict cross_guessed(mw_walk *w, uint32_t e, mw_policy P)
 {
     if (P.lanes) return cross(w, e, P);
@@ -134,8 +134,9 @@ static MW_INLINE mw_verdict leave(mw_walk *w, uint32_t e, mw_policy P)
 }
 
 /* Leave through `first`, or else `second`, if q lies beyond it; otherwise q is here. Many walks
- * that take turns hide the time of a second test, but not a jump that the processor guessed wrong:
- * they make both tests and select. When tests are counted, they are made as the algorithm says. */
+ * that take turns hide the time of a second test, but not that of a wrongly predicted jump: so they
+ * make both tests and select the edge. If tests are counted, only those of the algorithm are made.
+ */
 static MW_INLINE mw_verdict leave_either(mw_walk *w, uint32_t first, uint32_t second, mw_policy P)
 {
     if (!P.lanes || P.count) {

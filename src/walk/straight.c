@@ -9,19 +9,18 @@
  *        r
  *
  * First turn round p, a vertex of the first tile, to the tile at p that the line from p to q
- * enters: one test a tile. Then follow the line: with l and r the left and right ends of the edge
- * just crossed and s the third vertex, the line leaves over rs where s lies to its left, over sl
- * otherwise; and q lies beyond that edge, or here: two tests a tile.
- * Departures from the printed pseudocode: slip 3 (the side of q is taken against the edge as the
- * tile's boundary runs). A vertex s on the line counts as neither side: where r is on the line too,
- * the line runs along rs and leaves over sl at s; otherwise it leaves over rs at s; and if q lies
- * beyond neither, it is here.
- * Edge cases. q = p: every test is zero and the first tile is the answer. p on the hull: where the
- * turn meets the hull before it finds the line, the line points out of the hull, because the hull's
- * angle at p is at most pi, and the turn takes the short way round; so q is outside.
- * Ends on every tiling: the turn passes each tile at p at most once. After it, the point where the
- * line meets the exit edge never moves back; while it rests (at a vertex on the line), the tiles
- * turn one way round that vertex. So no tile is entered twice. */
+ * enters; each tile takes one test. Then follow the line. Let l and r be the left and right ends of
+ * the edge just crossed, and s the third vertex. The line leaves over rs if s lies to its left,
+ * over sl otherwise. If q does not lie beyond that edge, it is in this tile. Each tile takes two
+ * tests. Departures from the printed pseudocode: slip 3 (the side of q is taken against the edge as
+ * the tile's boundary runs). A vertex s on the line counts as neither side: where r is on the line
+ * too, the line runs along rs and leaves over sl at s; otherwise it leaves over rs at s; and if q
+ * lies beyond neither, it is here. Edge cases. q = p: every test is zero and the first tile is the
+ * answer. p on the hull: if the turn meets the hull before it finds the line, the line points out
+ * of the hull, because the angle of the hull at p is at most pi and the turn takes the short way
+ * round. So q is outside. Ends on every tiling: the turn passes each tile at p at most once. After
+ * it, the point where the line meets the exit edge never moves back; while it rests (at a vertex on
+ * the line), the tiles turn one way round that vertex. So no tile is entered twice. */
 #include "walk/drive.h"
 
 enum { FIRST, TURN_RIGHT, TURN_LEFT, FOLLOW }; /* phases */

@@ -16,8 +16,8 @@ void mw__walk_record(mw_walk_trace *trace, const mw_walk *walk)
 }
 
 /* In one step the border walk turns round a vertex of the border: over edge e of tile t, then over
- * each edge that follows there, up to the border; from there it may turn on into a tile beyond, or
- * go back to one on the way round. */
+ * each further edge at that vertex, up to the border. From there it may go on into a tile beyond
+ * the border, or return to a tile that it has passed. */
 static void trace_record_turn(mw_walk_trace *trace, const mw_walk *walk, uint32_t t, uint32_t e,
                               uint64_t entered)
 {

@@ -24,9 +24,9 @@ static MW_INLINE double area_value(mw_walk *w, mw_point a, mw_point b, mw_point 
     return at;
 }
 
-/* The most that rounding adds in sums of three terms. A rounding is at most u = 2^-53 of the sum of
- * magnitudes; there are up to four in the terms and the sum, and as many in the bound itself
- * wherever it is less than that sum. 16 u. */
+/* The error bound of sums of three terms, relative to the sum of their magnitudes. Each rounding
+ * adds at most u = 2^-53 of that sum; there are up to four in the terms and the sum, and as many in
+ * the bound itself. 16 u is more than that. */
 static MW_INLINE double sum_rounding(double a, double b, double c, mw_policy P)
 {
     return P.exact ? 0x1p-49 * (fabs(a) + fabs(b) + fabs(c)) : 0;

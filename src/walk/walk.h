@@ -24,9 +24,9 @@ typedef enum mw_verdict {
 
 #define MW_NO_EDGE 3u
 
-/* The stages of a search, counted apart: turning round the first vertex, the walk, the final
- * location that ends the cheap walks, and the way along a border. Each but the last counts the tile
- * it begins in. */
+/* The stages of a search, which are counted separately: turning round the first vertex, the walk,
+ * the final location that ends the cheap walks, and the way along a border. Each stage but the last
+ * counts the tile in which it begins. */
 enum { MW_STAGE_INIT, MW_STAGE_WALK, MW_STAGE_FINAL, MW_STAGE_BORDER, MW_STAGES };
 
 /* The user's triangles that walks enter, in order. */
@@ -105,10 +105,10 @@ extern const mw_kernels mw__border_sure;
 /* The kernels of a walk on this tiling; not for MW_WALK_AUTO. */
 const mw_kernels *mw__walk_kernels(mw_walk_kind kind, const mw_tiling *tiling);
 
-/* Steps after which a walk hands over. Walks that end get what they can need at most; the others
- * about 45 times the square root of the number of tiles, far above the length of any walk on
- * Delaunay meshes of points without clusters, plus a constant for small meshes; the border walk
- * also four times the number of border edges. */
+/* Steps after which another walk takes over. Walks that always end get as many as they can need.
+ * The others get about 45 times the square root of the number of tiles, far above the length of any
+ * walk on Delaunay meshes of points without clusters, plus a constant for small meshes; the border
+ * walk also four times the number of border edges. */
 uint32_t mw__walk_fuel(mw_walk_kind kind, mw_arithmetic arithmetic, const mw_tiling *tiling);
 
 /* One walk, from its t to its end: at full speed; or, if its work has a trace, step by step,

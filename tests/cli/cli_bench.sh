@@ -118,7 +118,7 @@ holds "it is the mean, and the spread" awk -v of="$(of_seeds)" '{ x[NR] = $1 } E
     exit !(d * d < 1e-6 && e * e < 1e-6 && f[2] > 0) }' two.txt
 run bench paper B2 --sizes 1e3 --queries 100 --no-times --seeds 2; exits 0
 prints_line '^ +algorithm .* spread +published'
-run bench paper B2 --seeds 1001; refused 2 "'--seeds' wants at most 1000"
+run bench paper B2 --seeds 1001; refused 2 "'--seeds' must be at most 1000"
 run bench peers --seeds 2; refused 2 "seeds and --walk are for 'bench paper'"
 rm two.txt
 
@@ -400,17 +400,17 @@ holds "JSON has 36 figures" test "$(grep -c '"quantity"' b2.json)" == 36
 rm b2.json
 
 # Wrong usage, found before any work.
-run bench; refused 2 'wants WHAT \[TABLE\], not 0 arguments'
+run bench; refused 2 'expected WHAT \[TABLE\], found 0 arguments'
 run bench paper; refused 2 'which table\? A1, .*E2'
 run bench paper E3; refused 2 "unknown table 'E3'; did you mean 'E1'\?"
 run bench papre E2; refused 2 "unknown measurement 'papre'; did you mean 'paper'\?"
-run bench paper E2 E2; refused 2 'wants WHAT \[TABLE\], not 3 arguments'
+run bench paper E2 E2; refused 2 'expected WHAT \[TABLE\], found 3 arguments'
 for sizes in '' ',' 9 '1e4,' 1.5e4 1e99 x -5 ' 100' 600000000 20,20,20,20,20,20,20,20,20; do
     run bench paper E2 --sizes="$sizes"; refused 2 "'--sizes'"
 done
 run bench paper E2 --enclose maybe; refused 2 "unknown way to enclose 'maybe'"
 run bench paper E2 --format csv; refused 2 "unknown format 'csv'"
-run bench paper E2 --data p.xyz,; refused 2 "'--data' wants files"
+run bench paper E2 --data p.xyz,; refused 2 "'--data' must be files"
 run bench paper E2 --data p.xyz -o p.xyz; refused 2 'choose another output'
 run bench paper E2 -o absent/e2.tsv; exits 4; says 'absent/e2.tsv'
 
@@ -424,13 +424,13 @@ else
     ln -s . here
     for other in x.svg ./x.svg "$PWD/x.svg" here/x.svg; do
         run bench paper A2 --plot x.svg -o "$other" "${few[@]}" --sizes 10
-        refused 2 'x.svg: .*files of their own'
+        refused 2 'x.svg: .*must go to different files'
         absent x.svg
     done
     : >there.svg
     ln -s there.svg link.txt
     run bench paper A2 --plot there.svg -o link.txt "${few[@]}" --sizes 10
-    refused 2 'there.svg: .*files of their own'
+    refused 2 'there.svg: .*must go to different files'
     mkdir sub
     run bench paper A2 --plot x.svg -o sub/x.svg "${few[@]}" --sizes 10; exits 0; says_nothing
     holds "one is a plot, the other a table" grep -q '^table' sub/x.svg

@@ -112,10 +112,10 @@ run bench peers unifrom; refused 2 "unknown set 'unifrom'; did you mean 'uniform
 run bench peers uniform,; refused 2 "unknown set ''"
 run bench peers --engines meshwalk-last --tasks random
 refused 2 'none of these engines takes any of these tasks'
-run bench peers --data p.xyz,; refused 2 "'--data' wants files"
+run bench peers --data p.xyz,; refused 2 "'--data' must be files"
 run bench peers --data p.xyz -o p.xyz; refused 2 'choose another output'
 run bench peers --sizes 9; refused 2 "'--sizes'"
-run bench peers --rounds 1001; refused 2 "'--rounds' wants at most 1000"
+run bench peers --rounds 1001; refused 2 "'--rounds' must be at most 1000"
 run bench peers --no-times; refused 2 'leave out --enclose and --no-times'
 run bench peers --enclose yes; refused 2 'leave out --enclose and --no-times'
 run bench peers --plot x.svg; refused 2 "'meshwalk bench scale'"
@@ -125,9 +125,9 @@ run bench near-vertices --rounds 2; refused 2 "are for 'bench peers'"
 run bench peers --sizes 1e8 --engines meshwalk -o absent/x.tsv; exits 4; says 'absent/x.tsv'
 
 # The plot.
-run bench scale --plot x.svg --sizes 100; refused 2 'two sizes or more'
-run bench scale --plot x.svg --data p.xyz; refused 2 'two sizes or more'
-run bench scale --plot x.svg -o x.svg --sizes 100,200; refused 2 'files of their own'
+run bench scale --plot x.svg --sizes 100; refused 2 'at least two sizes'
+run bench scale --plot x.svg --data p.xyz; refused 2 'at least two sizes'
+run bench scale --plot x.svg -o x.svg --sizes 100,200; refused 2 'must go to different files'
 run bench scale --plot x.svg --sizes 100,200,400 --engines meshwalk,meshwalk-grid --threads 2 \
     "${small[@]}"
 if grep -q 'without Cairo' "$logs/err"; then

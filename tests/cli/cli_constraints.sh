@@ -51,12 +51,12 @@ run triangulate --constraints s.poly --keep insid -o m.off
 refused 2 "unknown part to keep 'insid'; did you mean 'inside'\?"
 run triangulate --constraints s.poly --kind greedy -o m.off; refused 2 "for --kind delaunay only"
 run triangulate --constraints s.poly; refused 2 "-o MESH is missing"
-run triangulate -o m.off; refused 2 "wants POINTS, .*or --constraints FILE"
-run triangulate three.xyz --keep hull -o m.off; refused 2 "are about --constraints"
-run triangulate three.xyz --split -o m.off; refused 2 "are about --constraints"
-run triangulate --constraints s.poly --columns x,y -o m.off; refused 2 "are about POINTS"
-run triangulate --constraints s.poly --limit 7 -o m.off; refused 2 "--limit is about"
-run triangulate a b --constraints s.poly -o m.off; refused 2 "wants \[POINTS\]"
+run triangulate -o m.off; refused 2 "needs POINTS, .*or --constraints FILE"
+run triangulate three.xyz --keep hull -o m.off; refused 2 "need --constraints"
+run triangulate three.xyz --split -o m.off; refused 2 "need --constraints"
+run triangulate --constraints s.poly --columns x,y -o m.off; refused 2 "need POINTS"
+run triangulate --constraints s.poly --limit 7 -o m.off; refused 2 "--limit needs"
+run triangulate a b --constraints s.poly -o m.off; refused 2 "expected \[POINTS\]"
 run triangulate - --constraints - -o m.off; refused 2 "can be read only once"
 run triangulate --constraints absent.poly -o m.off; refused 3 "absent\.poly: No such file"
 run triangulate absent.xyz --constraints s.poly -o m.off; refused 3 "absent\.xyz: No such file"
@@ -230,7 +230,7 @@ says '^meshwalk: circle\.xyz: warning: .*min-weight.*local optimum: of 1 faces.*
 run triangulate r.xyz --kind min-weight -o r.off --json
 holds "the report is JSON" is_json "$logs/out"
 prints_line '"largest_face": '
-run triangulate r.xyz --limit 20 -o r.off; refused 2 '--limit is about'
+run triangulate r.xyz --limit 20 -o r.off; refused 2 '--limit needs'
 
 # GDAL, where the program has it: curves, layers, polygons with holes, heights.
 if $gdal; then

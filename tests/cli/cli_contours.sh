@@ -131,13 +131,94 @@ else
     left_out 'GDAL is not found'
 fi
 
+# Polygons: bands of values, which share the lines of their levels.
+run contours gap.off --levels 15,20,40 --polygons; exits 0; says_nothing
+prints 'polygon,min,max,ring,x,y
+0,10,15,0,0,0
+0,10,15,0,2,0
+0,10,15,0,1,1
+0,10,15,0,0,2
+0,10,15,0,0,0
+1,15,20,0,2,0
+1,15,20,0,4,0
+1,15,20,0,2,2
+1,15,20,0,0,4
+1,15,20,0,0,2
+1,15,20,0,1,1
+1,15,20,0,2,0
+2,20,40,0,4,0
+2,20,40,0,4,4
+2,20,40,0,0,4
+2,20,40,0,2,2
+2,20,40,0,4,0
+3,20,40,0,6,4
+3,20,40,0,4,4
+3,20,40,0,8,0
+3,20,40,0,6,4
+4,40,50,0,8,0
+4,40,50,0,8,4
+4,40,50,0,6,4
+4,40,50,0,8,0'
+# A flat roof lies in the band above its level, and is a hole of the one below it.
+run contours roof.off --levels 3 --polygons; exits 0
+holds 'the roof has no area' test "$(cut -d, -f1,4 "$logs/out" | sort -u | wc -l)" == 2
+run contours -q gap.off --levels 100 --polygons; exits 0
+holds 'two parts in it' test "$(tail -n 1 "$logs/out" | cut -d, -f1-3)" == 1,10,100
+printf '%s\n' OFF '4 2 0' '0 0 1' '4 0 2' '2 4 3' '2 2 4' '3 0 1 2' '3 0 1 3' >overlap.off
+run contours overlap.off --interval 1 --polygons; refused 3 'overlap'
+printf '%s\n' OFF '5 4 0' '0 0 1' '4 0 2' '4 4 3' '0 4 2' '2 0 1' '3 0 4 3' '3 4 1 2' '3 4 2 3' \
+    '3 0 1 4' >flat.off
+run contours flat.off --interval 1 --polygons; refused 3 'triangle 3 has no area'
+
+# GEOS finds all of them valid, and their areas are those of the mesh, whatever meets where: many
+# vertices at a level, a hair off it, missing, in large coordinates.
+parts() { # triangles of FILE with three values
+    awk 'NR == 2 { n = $1 } NR > 2 && NR <= n + 2 { z[NR - 3] = $3 }
+        NR > n + 2 { m += z[$2] != "nan" && z[$3] != "nan" && z[$4] != "nan" } END { print m }' "$1"
+}
+valid() { # valid FILE AREA ARGUMENTS...
+    local file=$1 area=$2
+    run contours -q "$file" --polygons -o bands.geojson "${@:3}"; exits 0
+    holds "polygons of $file ${*:3} are valid" \
+        same_text <(python3 "$here/polygon_check.py" bands.geojson | grep -v ^area) \
+        <(echo "sum $area")
+}
+if ! "$meshwalk" --version | grep -q 'GDAL .*found'; then
+    left_out 'GDAL is not found: no polygons are checked'
+elif ! python3 "$here/polygon_check.py" <(echo '{"features": []}') >"$logs/geos"; then
+    left_out 'GEOS is not found: no polygons are checked'
+else
+    for seed in 1 2; do
+        for values in 2 9; do
+            for missing in 0 0.05; do
+                grid 14 $values $seed $missing >grid.off
+                area=$(parts grid.off | awk '{ printf "%.9g", $1 / 2 }')
+                valid grid.off "$area" --interval 1
+                valid grid.off "$area" --interval 0.37
+            done
+        done
+    done
+    perl -e 'srand 3; print "x,y,z\n500000,4200000,1\n500900,4200000,1\n500900,4200900,1\n",
+        "500000,4200900,1\n"; for (1 .. 2000) { my $z = int rand 8;
+        $z += (rand() - 0.5) * 1e-12 if rand() < 0.5;
+        printf "%.3f,%.3f,%.17g\n", 500000 + rand 900, 4200000 + rand 900, $z }' >near.csv
+    run triangulate -q near.csv -o near.ply; exits 0
+    valid near.ply 810000 --interval 1
+    valid near.ply 810000 --interval 0.5
+    for ending in gpkg shp fgb; do
+        run contours -q near.ply --polygons --interval 2 -o bands.$ending; exits 0; says_nothing
+        run locate -q near.csv --polygons bands.$ending
+        exits 0
+    done
+fi
+
 # What is refused.
 run contours gap.off; refused 2 'which levels\?'
-run contours gap.off --interval 1 --levels 2; refused 2 'only one of them'
-run contours gap.off --levels 1,x; refused 2 "'--levels' wants numbers"
+run contours gap.off --interval 1 --levels 2; refused 2 'not both'
+run contours gap.off --levels 1,x; refused 2 "'--levels' must be numbers"
 run contours gap.off --levels ''; refused 2 ''
 for wrong in 0 -1 nan x 1x; do
-    run contours gap.off --interval $wrong; refused 2 "'--interval' wants a (positive )?number"
+    run contours gap.off --interval $wrong; refused 2 "'--interval' must be a (positive )?number"
 done
 run contours gap.off --levels 1 --base 2; refused 2 "'--base' is for --interval"
 run contours gap.off --interval 1e-9; refused 4 'more than 1000000 levels'

@@ -50,7 +50,7 @@ for option in crs points-crs; do
     for crs in 2056 EPSG: EPSG:2056/.. points.csv ./points.csv /etc/passwd http://127.0.0.1/ \
         'a b'; do
         run locate --$option "$crs" absent.off absent.csv
-        refused 2 "option '--$option' wants a coordinate system, as EPSG:2056 or WKT, not '"
+        refused 2 "option '--$option' must be a coordinate system, as EPSG:2056 or WKT, not '"
     done
 done
 run locate edited.ply none.csv; exits 0
@@ -81,7 +81,7 @@ if grep -Eq 'built with GDAL|cannot be loaded' "$logs/err"; then
     finish
 fi
 exits 0
-says 'gps\.csv: remark: its longitudes and latitudes are taken as WGS 84 \(EPSG:4326\); --points-crs tells another system'
+says 'gps\.csv: remark: its longitudes and latitudes are taken as WGS 84 \(EPSG:4326\); --points-crs names another system'
 says 'gps\.csv: remark: 1 points have no position in the coordinate system of the mesh; their status is bad'
 prints_line '^id,lon,lat,z,status$'
 prints_line '^a,7.438632421,46.951082725,(99\.9|100\.0)[0-9]*,inside$'
@@ -129,7 +129,7 @@ for ending in gpkg geojson shp fgb; do
 done
 run sample -q --status --points-crs EPSG:3035 berne.off laea.csv -o laea.geojson; exits 0
 run sample --status berne.off laea.geojson; exits 0; says_nothing; prints_line 'inside.*,inside$'
-run_on '1,1' sample berne.off - -q --crs '' ; refused 2 "'--crs' wants a text"
+run_on '1,1' sample berne.off - -q --crs '' ; refused 2 "'--crs' must be a text"
 rm berne.prj
 run_on '1,1' sample berne.off - -o unknown.gpkg; exits 0
 run sample --crs EPSG:2056 berne.off unknown.gpkg; exits 0
@@ -139,7 +139,7 @@ run sample --status --crs EPSG:2056 berne.off planar.geojson; exits 0; prints_li
 says 'planar\.geojson: warning: its coordinate system is not known'
 run sample --crs EPSG:2056 --points-crs EPSG:4326 berne.off a.gpkg; says_nothing
 run sample --crs EPSG:2056 --points-crs EPSG:4258 berne.off a.gpkg
-says 'a\.gpkg: warning: it says that it is in EPSG:4326 \(WGS 84\), --points-crs that it is in EPSG:4258 \(ETRS89\), which counts'
+says 'a\.gpkg: warning: its file says that it is in EPSG:4326 \(WGS 84\), but --points-crs says EPSG:4258 \(ETRS89\), which is used'
 run sample berne.off a.gpkg; exits 0
 says 'berne\.off: warning: its coordinate system is not known, and a\.gpkg is in EPSG:4326'
 # A datum without a known shift; a sphere takes longitudes and latitudes.
@@ -174,7 +174,7 @@ echo '{"type":"LineString","coordinates":[[7.438960837,46.951172702],[7.439387,4
 run triangulate survey.csv --constraints brook.geojson -q -o t.ply; exits 0 # unknown and known
 run info t.ply; prints_line '^crs +not known$'; prints_line '^low +7\.4'
 run triangulate survey.csv --constraints brook.geojson -o t.ply; exits 0
-says 'survey\.csv: warning: its coordinate system is not known, and brook\.geojson is in EPSG:4326.*--points-crs tells'
+says 'survey\.csv: warning: its coordinate system is not known, and brook\.geojson is in EPSG:4326.*--points-crs names it'
 run triangulate survey.csv --points-crs EPSG:2056 --constraints brook.geojson -o t.ply; exits 0
 says_nothing
 run info t.ply; prints_line '^crs +EPSG:2056'; prints_line '^low +2600000 1200000$'
@@ -195,10 +195,11 @@ run triangulate lonlat.csv -o x.ply; exits 0; says_nothing; run info x.ply
 prints_line '^crs +not known$'
 run triangulate lonlat.csv --crs EPSG:2056 -o x.ply; exits 0; says 'taken as WGS 84 \(EPSG:4326\)'
 run info x.ply; prints_line '^low +2599.* 11999'
-run triangulate lonlat.csv --crs x -o x.ply; refused 2 "'--crs' wants a coordinate system"
-run triangulate lonlat.csv --constraints-crs EPSG:4326 -o x.ply; refused 2 'is about --constraints'
+run triangulate lonlat.csv --crs x -o x.ply; refused 2 "'--crs' must be a coordinate system"
+run triangulate lonlat.csv --constraints-crs EPSG:4326 -o x.ply
+refused 2 "needs --constraints"
 run triangulate --points-crs EPSG:4326 --constraints brook.geojson -o x.ply
-refused 2 'about POINTS, which are missing'
+refused 2 'need POINTS, which are missing'
 
 # Without GDAL.
 mkdir without

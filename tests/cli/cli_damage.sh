@@ -96,4 +96,37 @@ one bom.obj '\xef\xbb\xbf# a comment\r\nv 0 0 0\r\nv 1 0 0\r\nv 0 1 0\r\nf 1 2 3
 one comment.off '# before\nOFF # here\n3 1 0\n\n0 0 0 # there\n1 0 0\n0 1 0\n3 0 1 2\n'
 one large.off 'OFF\n3 1 0\n-1e100 -1e100 0\n1e100 -1e100 0\n0 1e100 0\n3 0 1 2\n'
 only_files q.xyz
+
+# netCDF-4 in which one count and one address are changed: HDF5 1.10 follows them out of its memory.
+base64 -d <<'END' | gunzip >damaged.nc
+H4sIAAAAAAACA+1aXWwUVRS+M7O73bbTX1bKn2EKFSPU2pbaALHSZn9otd3WbtWI6DLsTu2Q7UzZHZqWmIBoUIwGY3yRxMiD8UET
+4w9PYnwgPpgIBENigryYmBgjKG2iwZggzr3n3p2f7kiLLcFkTrvdnTv3nnvP+b5z79kzPdobS1RVrKrgw2HE5AaVK01w3UrbO1Zf
+rxzsjQ3z4kl+HWkRwq4hbqngEYfv19biv9sF6D3EZqpEThHbiFYkojAKIBTVtUlFM1RdK6BlWIv54s1XNHF/W8sW6fEdw30x81Nr
+SMLDuABTUzWuFMbas2ktqWeVwlXaev6yup4sv2oLx0VwC89xxUHsXYjgFdc1rqUtEmoIo4aD5qcgsUWowLYE0On10P9TOu6uNWSA
+EPL0hbgJjAtR4/p7UimHWbG+gXgy1TeYTKeiPf1xJO40jTIHBGFAsmcgTvp30/4jY2pBMn9lSVOMaCwhZdVxRSuY7pL27DckTTes
+W5NyXpX35JQWiUkHwgviTf3Vpr9N/emkYmSyox0xdVzNotowKnqALwI09dLFbeBDZPMhu88vyIcINQOL0JsuHwYWz4cw0TFKvDHG
+s4VYTghcjeZI5OwP5YPR3kdhCiEIrU+x2yGrJ+Mn5+ZnQs4ohc3UbS+PHD6L9S0t7O3ol293PzwXQ4Fht0AMv7xdGO4K/gcMeQ8M
+E9EfH7AwPE8x6yuF4X2AIeP4cobhgDyVHjVxTGt4s7lG/de488QLSw/mZlT/7KoPimAGWBAKIobI7gQKWihcT5zPMTACLtjKvGHb
+CLCFwZLMaDqv5xRiTBWdFrskbegTek5/blrsBsuXmfiYLGPN6aKBTpBMCrLw4GzbCQCzsgxaHmG3alEJOff18n7sc2YL72kLaNXL
+YdwAcnH/xCuduwl4PUCxOjAZA5zO6Ho+q2qyocCZtNpmO6YD7jMl2a+m8akmmD81NjWWF9wOLJ5bYhd2j4AaYFiRY+YSNE3JGOqk
+akyT4XXO4RYb8cxBa2Zy499nJjuSGMPUF9BKGDbuYLhLwXKXAmc4zJzZsGbuXuNx5krbEeQT3aijEnXcEIp7TQgA+4ICprlIG/Qm
+bQ/gGgESsk0iagPxZiwke8024HI1OKRgyFpWzpvWyuMQAQ3UCxN5fS+GRtfSUzaqECU/fXL8D2uv6az0IB87LALuw4IwK0MzrrYP
+f++xlEVoPOTZeiUgLt11sAayzJADLHEd8LIceuX0jGwwWAO0J54VoY0fXftm8WB8sfJ/BOO0G8bDsyM2z18XQfVjXjAGS8E4vbEC
+Wt8+Hm+2lK1oXFoYL909dqEII0nued7K3gR3Fsfeb3qYnKRfFFbMPweILxhQd5LJOU6IZBW0HmIHBGk9IsHVXoZOsMiF1NOnPrM8
+/321VzQ2AYwsE6ibs8fOUjb/dSXyDDk0NgPJSpyTbK8svZWLWwFtEXxisjNvpFUtq0zNi9xr1aOvL16MDq13UnEe+cHixChMf28N
+XP26oEgoovZuZ3vEAvdVV1jNidGyUjF64Byl1JMb3vmOABsDYCtN87CBCTWXe0LO7VdKutPLPoT+PDjfiBUfggyAfh2+ldRjEyQA
+njtemOqQc4Zq7M8q49eunMLGstA2aGhLDIh+WFKNmYJF7Kl6f19qxEwYIDVrYJpLOAG/H6m1Pp899t7PO6KD/Zwtr2N9WXnhqiv2
+3e2Cq519pQp4tAed7RrL2kMe+pnsrkG++OKLL7744sudK5zvAl988cUXX3y5s4WUV3axpyTzrSyUqgiyykLAdY2/8T///qVVC1kR
+q4G8taQ1ELz6A/KFAp4xtJLcDRQLVFDM+YrWK3DV1Fa/TiejQ3l9QskbKq0IraP6JpU8fkDT1d6skSpcV0fL1pbW5rHs6INdbS1t
+rS1bMm98/PmtoOR+fsgqJWKOodeKfTIcT8SH48loHHzSyYNPsrIhFxTDco71LCl8s+LgrOufRYJNjfeUWpF421fErv+eOX3RvqIz
+JXgTWjTe4FrVb/v2rS3lA/Z4VHyNPf9bLB+4/00gE3aiwh5sMGFFVCb1qUOXnS0z253vXuLsx9ninretZ25/8qgdG9b9D12Cwxrs
+JAAA
+END
+if ! "$meshwalk" --version | grep -q 'libnetcdf is not found'; then
+    run info damaged.nc; refused 3 'damaged.nc: '
+    run sample damaged.nc q.xyz -o out.csv; refused 3 'damaged.nc: '; absent out.csv
+    run sample damaged.nc q.xyz --time all -o out.nc; refused 3 'damaged.nc: '; absent out.nc
+    run convert damaged.nc out.off; refused 3 'damaged.nc: '; absent out.off
+fi
+rm -f damaged.nc
 finish

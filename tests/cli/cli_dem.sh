@@ -98,15 +98,15 @@ refused 3 'utm\.tif: is in another system than --crs says'
 run triangulate --from utm.tif --tolerance 1 -o bad.ply --band 2
 refused 3 'utm\.tif: has 1 bands, so no band 2'
 run triangulate --from absent.tif --tolerance 1 -o bad.ply; refused 3 'absent\.tif: GDAL says: '
-run triangulate --from full.asc -o bad.ply; refused 2 '--from wants --tolerance Z'
+run triangulate --from full.asc -o bad.ply; refused 2 '--from needs --tolerance Z'
 run triangulate points.csv --tolerance 1 -o bad.ply
-refused 2 '--tolerance and --band are about --from'
+refused 2 '--tolerance and --band need --from'
 run triangulate points.csv --from full.asc --tolerance 1 -o bad.ply
-refused 2 '--from RASTER stands in the place of POINTS'
+refused 2 'give POINTS or --from RASTER, not both'
 run triangulate --from full.asc --tolerance 1 --kind min-weight -o bad.ply
 refused 2 '--from is for --kind delaunay only'
 run triangulate --from full.asc --tolerance 1 --max-edge 3 -o bad.ply
-refused 2 '--from and --max-edge exclude each other'
+refused 2 '--from and --max-edge cannot be used together'
 grid empty.asc 1
 run triangulate --from empty.asc --tolerance 1 -o bad.ply; exits 3
 grid line.asc '$j != 7'

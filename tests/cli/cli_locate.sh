@@ -67,9 +67,9 @@ for options in '--start grid --cells 1' '--start grid --cells 1000' \
 done
 for cells in 1073741825 4000000000; do
     run locate --start grid --cells $cells absent.off -
-    refused 2 "'--cells' wants at most 2\^30, not '$cells'"
+    refused 2 "'--cells' must be at most 2\^30, not '$cells'"
 done
-run locate --start layers --layers 9 absent.off -; refused 2 "'--layers' wants at most 8, not '9'"
+run locate --start layers --layers 9 absent.off -; refused 2 "'--layers' must be at most 8, not '9'"
 run_on "$points" locate --start layers --layers 8 square.off -; exits 0; prints "$answers"
 run_on "$(cat square.off)" locate - <(printf '%s' "$points"); exits 0; prints "$answers"
 
@@ -117,7 +117,7 @@ table=$'name,lat,lon\na,0.25,0.75\nb,0.75,0.25\n'
 run_on "$table" locate --only-answers --columns lon,lat square.off -; exits 0; prints "$inside"
 run_on "$table" locate --only-answers --columns 3,2 square.off -; exits 0; prints "$inside"
 run_on $'1,2,3\n' locate --columns 1,2,3 square.off -
-refused 2 "'--columns' wants 2 columns, x,y, not 3"
+refused 2 "'--columns' must name 2 columns, x,y, not 3"
 run_on "$table" locate --columns lon,height square.off -; refused 3 "no column 'height'"
 gzip -c square.off >zipped.off.gz
 run_on $'0.75 0.25\n0.25 0.75\n' locate zipped.off.gz -; exits 0; prints "$inside"

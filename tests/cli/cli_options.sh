@@ -62,24 +62,24 @@ run locate --walk lawsn a b; refused 2 "unknown walk 'lawsn'; did you mean 'laws
 run locate --start centr a b; refused 2 "unknown start 'centr'; did you mean 'centre'\?"
 run locate --finish lawson a b; refused 2 "unknown way to finish 'lawson'"
 run locate --arithmetic fuzzy a b; refused 2 "unknown arithmetic 'fuzzy'"
-run locate --walk; refused 2 "'--walk' wants an argument: NAME"
+run locate --walk; refused 2 "'--walk' needs an argument: NAME"
 run locate --any=yes a b; refused 2 "'--any' takes no argument"
-run locate a; refused 2 "wants MESH POINTS, not 1 argument;"
-run locate a b c; refused 2 "wants MESH POINTS, not 3 arguments"
+run locate a; refused 2 "expected MESH POINTS, found 1 argument;"
+run locate a b c; refused 2 "expected MESH POINTS, found 3 arguments"
 run locate '' b; refused 2 "empty name"
 run edit a b; refused 2 "edit: -o MESH is missing"
-run edit a -o b.off; refused 2 "wants MESH EDITS -o OUT, not 1 argument"
-run edit a b -o -; refused 2 "edit: a mesh on standard output wants --format"
+run edit a -o b.off; refused 2 "expected MESH EDITS -o OUT, found 1 argument"
+run edit a b -o -; refused 2 "edit: a mesh on standard output needs --format"
 run edit a b -o c; refused 2 "c: no mesh format has this ending"
 run edit - - -o c.off; refused 2 "can be read only once"
 run edit a b -o c.off --delaunay mak
 refused 2 "unknown way of --delaunay 'mak'; did you mean 'make'\?"
-run edit a b -o c.off --cells 1073741825; refused 2 "'--cells' wants at most 2\^30"
-run edit a b -o c.off --undo -1; refused 2 "'--undo' wants a whole number"
-run info a b; refused 2 "wants MESH, not 2 arguments"
+run edit a b -o c.off --cells 1073741825; refused 2 "'--cells' must be at most 2\^30"
+run edit a b -o c.off --undo -1; refused 2 "'--undo' must be a whole number"
+run info a b; refused 2 "expected MESH, found 2 arguments"
 run locate - -; refused 2 "can be read only once"
 run triangulate a; refused 2 "-o MESH is missing"
-run triangulate a -o -; refused 2 "wants --format"
+run triangulate a -o -; refused 2 "needs --format"
 run triangulate a -o b.ply --limit x; refused 2 "whole number"
 run triangulate a -o b.ply --kind gredy; refused 2 "did you mean 'greedy'\?"
 run triangulate a -o b.ply --class swamp; refused 2 "unknown class 'swamp'"
@@ -94,20 +94,20 @@ run star --finish straight a b; refused 2 "unknown way to finish 'straight'$"
 run star --finish forgetfull a b
 refused 2 "unknown way to finish 'forgetfull'; did you mean 'forgetful'\?"
 run star --center 1,2,3 a b; refused 2 "unknown option '--center'; did you mean '--centre'\?"
-run star --cells 1073741825 a b; refused 2 "'--cells' wants at most 2\^30, not '1073741825'"
-run star --levels 14 a b; refused 2 "'--levels' wants at most 13, not '14'"
+run star --cells 1073741825 a b; refused 2 "'--cells' must be at most 2\^30, not '1073741825'"
+run star --levels 14 a b; refused 2 "'--levels' must be at most 13, not '14'"
 run probe --start lst a b; refused 2 "unknown start 'lst'; did you mean 'last'\?"
-run probe --race 257 a b; refused 2 "'--race' wants at most 256, not '257'"
-run probe a; refused 2 "wants SURFACE QUERIES, not 1 argument;"
+run probe --race 257 a b; refused 2 "'--race' must be at most 256, not '257'"
+run probe a; refused 2 "expected SURFACE QUERIES, found 1 argument;"
 for c in info check; do
     run $c --as sphere a; refused 2 "unknown way to take a mesh 'sphere'"
     run $c --as str a; refused 2 "did you mean 'star'\?"
     for centre in 1,0,0 0,0,0; do
-        run $c --centre $centre a; refused 2 "'--centre' wants --as star"
-        run $c --as surface --centre=$centre a; refused 2 "'--centre' wants --as star"
+        run $c --centre $centre a; refused 2 "'--centre' needs --as star"
+        run $c --as surface --centre=$centre a; refused 2 "'--centre' needs --as star"
     done
-    run $c --as surface --lonlat a; refused 2 "'--lonlat' wants --as star"
-    run $c --weld a; refused 2 "'--weld' wants --as surface"
+    run $c --as surface --lonlat a; refused 2 "'--lonlat' needs --as star"
+    run $c --weld a; refused 2 "'--weld' needs --as surface"
 done
 run check --fix weld a; refused 2 "check: -o MESH is missing"
 run check --fix wled a -o b.off; refused 2 "unknown repair 'wled'; did you mean 'weld'\?"
@@ -115,17 +115,18 @@ run check --fix weld, a -o b.off; refused 2 "unknown repair ''"
 run check --fix weld a -o b; refused 2 "b: no mesh format has this ending"
 run check --fix weld --numbers b.off a -o b.off
 refused 2 "--output and --numbers cannot both go to b.off"
-run check --fix all --as star --lonlat a -o b.off; refused 2 "--fix mends no mesh of --lonlat"
+run check --fix all --as star --lonlat a -o b.off
+refused 2 "--fix cannot mend a mesh with --lonlat"
 for words in '--numbers n.csv' '--tolerance 1' '--format ply'; do
     # shellcheck disable=SC2086 # words
-    run check $words a; refused 2 "about --fix"
+    run check $words a; refused 2 "need --fix"
 done
 
 # Numbers are taken as a whole or not at all.
 for value in '' x 1x ' 1' '1,' '1,5' 0x1p3 nan inf 1e999 -1 -0.5 1e-400 0.1E-400 2e-324 \
     ".$(printf '%0400d' 1)"; do
-    run locate --tolerance "$value" a b; refused 2 "'--tolerance' wants a length"
-    run probe --max-distance "$value" a b; refused 2 "'--max-distance' wants a length"
+    run locate --tolerance "$value" a b; refused 2 "'--tolerance' must be a length"
+    run probe --max-distance "$value" a b; refused 2 "'--max-distance' must be a length"
 done
 for value in 0 0.000 0e9 .0E-400 -0 4e-324 1e-320 5e-324 1.5 007; do
     run locate --tolerance "$value" a b; refused 3 "a: No such file"
@@ -133,20 +134,20 @@ for value in 0 0.000 0e9 .0E-400 -0 4e-324 1e-320 5e-324 1.5 007; do
 done
 for value in '' x 1 1,2 1,2, 1,2,3,4 1,2,x ' 1,2,3' '1, 2,3' '1;2;3' 1,2,inf nan,0,0 1,2,1e999 \
     0x1,2,3 ,,; do
-    run star --centre "$value" a b; refused 2 "'--centre' wants a point X,Y,Z, not"
+    run star --centre "$value" a b; refused 2 "'--centre' must be a point X,Y,Z, not"
 done
 for value in '' x 1.5 -1 +1 ' 1' 1e3 0x10 4294967296 99999999999999999999; do
-    run locate --threads "$value" a b; refused 2 "'--threads' wants"
+    run locate --threads "$value" a b; refused 2 "'--threads' must be"
 done
 run locate --threads 257 a b; refused 2 "at most 256"
 for option in steps cells layers; do
-    run locate --$option -1 a b; refused 2 "'--$option' wants a whole number"
+    run locate --$option -1 a b; refused 2 "'--$option' must be a whole number"
 done
 for value in '' x 0 -1 1.5 4294967295 cube cuberoot; do
-    run locate --sample "$value" a b; refused 2 "'--sample' wants .*, cube-root or fourth-root"
+    run locate --sample "$value" a b; refused 2 "'--sample' must be .*, cube-root or fourth-root"
 done
 for value in '' x -1 1.0 18446744073709551616; do
-    run locate --seed "$value" a b; refused 2 "'--seed' wants"
+    run locate --seed "$value" a b; refused 2 "'--seed' must be"
 done
 only_files # none
 

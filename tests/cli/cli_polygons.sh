@@ -143,7 +143,7 @@ prints 'x,y,status,feature,others
 
 # What is refused, before anything is printed.
 printf '%s\n' "$square" >square.off
-run locate square.off; refused 2 'locate: wants MESH POINTS, not 1 argument'
+run locate square.off; refused 2 'locate: expected MESH POINTS, found 1 argument'
 run locate --polygons parcels.geojson square.off absent.csv
 refused 2 "only POINTS may follow, not also 'absent.csv'"
 run locate --polygons - -; refused 2 'cannot be both'
@@ -188,9 +188,9 @@ prints 'id;x;y;status;feature;others;id_mw;use;area;n
 11;;;bad;-1;;;;;'
 run_on "$points" locate --polygons parcels.geojson --attribute ID -; exits 0; prints_line ';id_mw$'
 run_on "$points" locate --polygons parcels.geojson --attribute use,owner -
-refused 3 "parcels.geojson: has no attribute 'owner', but: id, use, area, n"
+refused 3 "parcels.geojson: has no attribute 'owner'; it has: id, use, area, n"
 run_on "$points" locate --polygons parcels.geojson --polygon-layer none -
-refused 3 "has no layer 'none', but: parcels"
+refused 3 "has no layer 'none'; it has: parcels"
 # Through a vector file, both ways; with several layers one has to be chosen.
 cat >points.geojson <<'END'
 {"type":"FeatureCollection","features":[

@@ -173,7 +173,7 @@ run_on "$table" probe --only-answers --columns 2,3,4,5,6,7 cube.off -; exits 0; 
 run_on "$table" probe --only-answers cube.off -
 refused 2 'standard input: which of its 7 columns are x,y,z,mx,my,mz\? They are: '
 run_on "$table" probe --only-answers --columns x,y,z cube.off -
-refused 2 "'--columns' wants 6 columns, x,y,z,mx,my,mz, not 3"
+refused 2 "'--columns' must name 6 columns, x,y,z,mx,my,mz, not 3"
 printf '.75,.25,2,0,0\n' >five.csv
 run probe --only-answers cube.off five.csv -o o.csv
 refused 3 'five\.csv: has 5 columns, but a row is x,y,z,mx,my,mz'; absent o.csv

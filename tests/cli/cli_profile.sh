@@ -89,7 +89,7 @@ if "$meshwalk" --version | grep -q 'GDAL .*found'; then
     run profile -q --attribute lanes gap.off roads.geojson; exits 0
     prints_line '^2,1,3,1,6,1,,-1,end$'
     run profile -q --attribute width gap.off roads.geojson
-    refused 3 "has no attribute 'width', but: name, lanes, Z"
+    refused 3 "has no attribute 'width'; it has: name, lanes, Z"
     for ending in gpkg shp fgb geojson; do
         run profile -q gap.off roads.geojson -o points.$ending; exits 0; says_nothing
         run info --json points.$ending

@@ -79,8 +79,8 @@ exits 0
 prints_line '^resolution +2$'
 prints_line '^extent +0 0 100 100$'
 run raster square.off -o out.tif --json; exits 0; holds "the report is JSON" is_json "$logs/out"
-run raster square.off -o out.tif --extent 0,0,1 ; refused 2 "'--extent' wants XMIN,YMIN,XMAX,YMAX"
-run raster square.off -o out.tif --extent 0,0,0,1; refused 2 "'--extent' wants"
+run raster square.off -o out.tif --extent 0,0,1 ; refused 2 "'--extent' must be XMIN,YMIN,XMAX,YMAX"
+run raster square.off -o out.tif --extent 0,0,0,1; refused 2 "'--extent' must be"
 run raster square.off -o out.tif --resolution 1e-12
 refused 4 'a raster with pixels of 1e-12 has too many'
 run raster square.off -o out.tif --resolution 1e-7; refused 4 'a raster with pixels of 1e-07? has too many'
@@ -93,12 +93,13 @@ exits 0
 prints_line '^columns +13$'
 prints_line '^extent +10 19.199999999999996 58.1 71$'
 prints_line '^nodata +-9999$'; says 'out\.tif: warning: no pixel has a value'
-run raster square.off -o out.tif --like like.tif --resolution 1; refused 2 '--like tells the pixels'
+run raster square.off -o out.tif --like like.tif --resolution 1
+refused 2 'with --like, which sets the pixels'
 run raster square.off -o like.tif --like like.tif; refused 2 'like\.tif'
 run raster square.off -o out.tif --like square.off; refused 3 'square\.off: GDAL says: '
 run raster square.off -o a.tif --resolution 0.25 --crs EPSG:2056; exits 0
 run raster square.off -o b.tif --like a.tif --crs EPSG:21781
-refused 3 'square\.off is in EPSG:21781 .*, a\.tif in EPSG:2056 .*: bring one to the other first'
+refused 3 'square\.off is in EPSG:21781 .*, a\.tif in EPSG:2056 .*: transform one of them first'
 run raster square.off -o b.tif --like a.tif
 exits 0
 says 'square\.off: warning: its coordinate system is not known, and a\.tif is in EPSG:2056'
@@ -112,8 +113,8 @@ holds "slope, aspect, hillshade, triangle" test "$(raw d out.img | cut -c 1-9 | 
 run raster -q square.off -o out.img --driver ENVI --resolution 0.5 --derive hillshade; exits 0
 holds "hillshade as bytes" test "$(raw C out.img | xargs)" == "105 105 105 105"
 run raster square.off -o out.tif --derive slope,slope
-refused 2 "'--derive' wants some of slope,aspect,hillshade,triangle"
-run raster square.off -o out.tif --derive heights; refused 2 "'--derive' wants some of"
+refused 2 "'--derive' must be some of slope,aspect,hillshade,triangle"
+run raster square.off -o out.tif --derive heights; refused 2 "'--derive' must be some of"
 run raster square.off -o out.tif --derive slope --crs EPSG:4326 --resolution 0.25
 exits 0
 says 'warning: it is in longitudes and latitudes, so its slopes are heights over degrees'
@@ -125,15 +126,15 @@ run_on $'x,y,z\n0,0,1\n1,0,-99999\n1,1,3\n0,1,4\n' triangulate -q - -o missing.p
 run raster missing.ply -o out.tif --resolution 0.25
 exits 0
 prints_line '^empty +6$'
-says '--vertex-nodata none would take it for a value'
+says '--vertex-nodata none would treat it as a value'
 run raster -q missing.ply -o out.tif --resolution 0.25 --vertex-nodata none; prints ''; exits 0
 run raster square.off -o out.tif --resolution 0.5 --nodata 1
 exits 0
-says 'warning: 2 of its pixels have a value that is that of --nodata'
+says 'warning: 2 of its pixels have the value of --nodata'
 run raster square.off -o out.tif --nodata x
-refused 2 "'--nodata' wants a number that a pixel can have"
+refused 2 "'--nodata' must be a number that a pixel can have"
 run raster square.off -o out.tif --nodata -1 --derive hillshade
-refused 2 "'--nodata' wants a number that a pixel can have"
+refused 2 "'--nodata' must be a number that a pixel can have"
 run raster -q square.off -o out.img --driver ENVI --type float64 \
     --extent -1,-1,2,2 --resolution 1 --outside nearest
 exits 0
@@ -158,12 +159,12 @@ holds "text" grep -q '^ncols *4' out.asc
 run raster square.off -o out.tif --creation COMPRESS=DEFLATE,TILED=YES; exits 0
 run raster square.off -o bad.tif --creation COMPRESS=NO_SUCH; refused 4 'bad\.tif: GDAL says: '
 absent bad.tif
-run raster absent.off -o out.xyzzy; refused 2 'out\.xyzzy: no format of rasters has this ending'
+run raster absent.off -o out.xyzzy; refused 2 'out\.xyzzy: no raster format has this ending'
 run raster absent.off -o out.tif --driver Nothing
 refused 2 "this GDAL does not write rasters as 'Nothing'"
 run raster absent.off -o absent/out.tif; refused 4 'absent/out\.tif: No such file'
 run raster absent.off; refused 2 'a raster is written to a file: -o DEM\.tif'
-run raster absent.off -o out.tif --crs nowhere; refused 2 "'--crs' wants a coordinate system"
+run raster absent.off -o out.tif --crs nowhere; refused 2 "'--crs' must be a coordinate system"
 run raster square.off -o square.off --driver GTiff; refused 2 'square\.off'
 printf '%s\n' "$overlap" >overlap.off
 run raster overlap.off -o bad.tif; refused 3 "'meshwalk check overlap\.off' lists every defect"

@@ -38,7 +38,7 @@ if ! grep -q 'built without Jansson' "$logs/err"; then
     holds "ten are named" test "$(grep -c 'of polygon 0 has fewer' "$logs/err")" == 10
 fi
 run triangulate many.xyz --strict -o m.off
-refused 2 '--keep, --split and --strict are about --constraints'
+refused 2 '--keep, --split and --strict need --constraints'
 
 # The same by GDAL, from another format.
 cat >rings.csv <<'CSV'

@@ -67,14 +67,13 @@ holds "nothing is written then" test ! -e other.nc
 # What is refused.
 run sample flow.nc points.csv --time 7; refused 3 'flow.nc: has 3 steps, from 0: there is no step 7'
 for time in x 2..1 1.. nearest: nearest:nan -1; do
-    run sample flow.nc points.csv "--time=$time"; refused 2 "'--time' wants all, FIRST..LAST or N"
+    run sample flow.nc points.csv "--time=$time"; refused 2 "'--time' must be all, FIRST..LAST or N"
 done
 run sample flow.nc points.csv --time all --field zeta,w
 refused 3 "flow.nc: has no field 'w' over time; --field may be of: zeta u"
 run sample flow.nc points.csv --time all --outside nearest
 refused 2 "'--outside' is not for values"
 run sample flow.nc points.csv --time-column t --wide; refused 2 '--wide is for --time'
-run sample flow.nc points.csv --recover; refused 2 "'--recover' is for values over time"
 run sample flow.nc points.csv --time-column hour -q; refused 2 'which of its 4 columns are x,y,hour'
 printf '%s\n' 'OFF' '3 1 0' '0 0 0' '1 0 0' '0 1 0' '3 0 1 2' >three.off
 run sample three.off points.csv --values flow.nc; refused 3 'flow.nc'

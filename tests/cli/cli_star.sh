@@ -161,13 +161,13 @@ refused 2 '; --lonlat reads longitude and latitude'
 run_on $'5,1\n' star octahedron.off - -o o.csv; exits 3
 says 'has 2 columns, but a row is x,y,z; --lonlat'
 run_on $'a,b,c,d\n5,-1,1,2\n' star --columns a,b octahedron.off -
-refused 2 "'--columns' wants 3 columns, x,y,z, not 2"
+refused 2 "'--columns' must name 3 columns, x,y,z, not 2"
 for list in 1,2,3 c,a,b; do
     run_on $'a,b,c,d\n90,0,10,2\n' star --lonlat --columns $list octahedron.off -
-    refused 2 "'--columns' wants 2 columns, lon,lat, not 3"
+    refused 2 "'--columns' must name 2 columns, lon,lat, not 3"
 done
 run_on $'a,b,c,d\n5,-1,1,2\n' star --columns 1,2,3,4 octahedron.off -
-refused 2 "'--columns' wants 3 columns, x,y,z, not 4"
+refused 2 "'--columns' must name 3 columns, x,y,z, not 4"
 run_on $'a,b,c,d\n5,-1,1,2\n' star --columns a,b,e octahedron.off -; refused 3 "no column 'e'"
 absent o.csv
 
@@ -205,7 +205,7 @@ run_on $'1 2 3\n' star globe.node -; refused 3 'globe\.node: '
 says 'has no z; --lonlat takes x and y as longitude'
 sed 's/^7 .*/7 0 91/' globe.node >far.node; cp globe.ele far.ele
 run_on $'1 2\n' star --lonlat far.node -
-refused 3 'far\.node: vertex 7: 0, 91 is no longitude and latitude'
+refused 3 'far\.node: vertex 7: 0, 91 are not a longitude and a latitude'
 
 # Facets of mixed orientation; weights are those of the corners as the file has them.
 sed 's/^3 0 1 4$/3 1 0 4/; s/^3 3 2 5$/3 3 5 2/' octahedron.off >mixed.off

@@ -85,7 +85,7 @@ refused 2 'which of its 5 columns are x,y\?.*id, depth, a.*--columns'
 table 'lon,lat,x,y,z\n1,0,0,3,1\n2,0,1,4,5\n3,1,0,5,6\n'; refused 2 'Both x,y and lon,lat fit'
 table 'x,y,z\n1,0,0\n2,0,abc\n3,1,0\n'; refused 3 "t\.csv:3: column 3: 'abc' is not a number"
 table 'x,y,height\n1,0,0\n2,0,abc\n3,1,0\n'
-refused 3 "t\.csv:3: column 'height', the height, holds no number there"
+refused 3 "t\.csv:3: column 'height', the height, has no number there"
 absent t.ply
 
 # --max-edge peels the border, opens no hole, and stops at constraints.
@@ -104,7 +104,7 @@ run triangulate grid.xyz --max-edge 1 -o all.off; exits 0; says_nothing; prints_
 printf '{"type":"LineString","coordinates":[[4,0],[20,2],[4,4]]}' >line.json
 run triangulate far.xyz --max-edge 1.9 --constraints line.json -o held.off; exits 0
 prints_line '^peeled +0$'
-run triangulate grid.xyz --max-edge -1 -o none.off; refused 2 "'--max-edge' wants a length"
+run triangulate grid.xyz --max-edge -1 -o none.off; refused 2 "'--max-edge' must be a length"
 
 # No triangulation: a clear message, code 3, and no file.
 none() { # none NAME PATTERN TEXT
@@ -161,14 +161,14 @@ run triangulate --kind regular --columns x,y --weight mass weighted.csv -o no.of
 refused 3 "no column 'mass' .*--columns"
 run triangulate --kind regular --weight weight weighted.csv -o no.off
 refused 3 "weighted.csv: --weight: there is no column 'weight'"
-run triangulate --kind regular weighted.csv -o no.off; refused 2 'wants --weight COLUMN'
-run triangulate --weight mass weighted.csv -o no.off; refused 2 'about --kind regular'
+run triangulate --kind regular weighted.csv -o no.off; refused 2 'needs --weight COLUMN'
+run triangulate --weight mass weighted.csv -o no.off; refused 2 'need --kind regular'
 run triangulate --kind regular --weight mass weighted.csv -o no.off --hidden no.off
 refused 2 'cannot both go to'
 run triangulate --kind regular --weight mass weighted.csv -o no.off --hidden weighted.csv
 refused 2 'input and output'
 run triangulate --kind regular --weight mass weighted.csv -o no.off --hidden -
-refused 2 'wants a file'
+refused 2 '--hidden must be a file'
 sed 's/,9$/,nan/' weighted.csv >missing.csv
 run triangulate --kind regular --weight mass missing.csv -o no.off
 refused 3 'missing.csv: .*weight of point 4 is not finite'

@@ -52,7 +52,7 @@ run locate --only-answers --where 'n = 3' square.off one.geojson; exits 0
 prints $'x,y,status,triangle,w0,w1,w2\n0.75,0.25,inside,0,0.25,0.5,0.25'
 run sample --where 'm = 3' square.off one.geojson
 refused 2 "'--where' is not a valid condition on the layer: GDAL says: "
-run sample --layer none square.off one.geojson; refused 3 "has no layer 'none', but: one"
+run sample --layer none square.off one.geojson; refused 3 "has no layer 'none'; it has: one"
 run sample --columns x,y square.off one.geojson; refused 2 "'--columns' is for tables"
 
 # Layers: only those count that have features.

@@ -15,7 +15,7 @@ refused 2 "standard input: option '--layer' is for files that GDAL reads"
 run_on $'x,y\n0,0\n1,0\n0,1\n' triangulate - -o out.off --where a
 refused 2 "'--where' is for files that GDAL reads"
 run triangulate --layer a --constraints a.geojson -o out.off
-refused 2 'are about POINTS, which are missing'
+refused 2 'need POINTS, which are missing'
 collection "$(feature '{"elev":5}' "$(point 0,0)")" "$(feature '{"elev":6}' "$(point 1,0)")" \
     "$(feature '{"elev":7.5}' "$(point 1,1)")" "$(feature '{}' "$(point 0,1)")" >plain.geojson
 run triangulate plain.geojson -o out.off
@@ -62,15 +62,15 @@ prints_line '^heights +z$'; prints_line '^fields +n$'
 says "column 'h' becomes no field: texts stand there, the first in feature 0"
 holds "z of each point" grep -qx '1 0 4' out.off
 run triangulate multi.geojson -o out.off --columns x,y,h
-refused 3 "multi\.geojson: feature 0: column 'h', the height, holds no number there"
+refused 3 "multi\.geojson: feature 0: column 'h', the height, has no number there"
 sed -i 's/"1,5"/" -1.5"/' multi.geojson
 run triangulate multi.geojson -o out.off --columns X,y,h,N; exits 0; prints_line '^heights +h$'
 prints_line '^fields +n$'
 holds "numbers as texts" grep -qx '1 0 -1.5' out.off
 run triangulate multi.geojson -o out.off --columns 1,2,3; exits 0; prints_line '^heights +z$'
 run triangulate multi.geojson -o out.off --columns y,x; refused 3 "'y' is where x or y should be"
-run triangulate multi.geojson -o out.off --columns x,y,m; refused 3 "'m' is no column"
-run triangulate multi.geojson -o out.off --columns x,y,h,h; refused 3 "'h' is there twice"
+run triangulate multi.geojson -o out.off --columns x,y,m; refused 3 "'m' is not a column"
+run triangulate multi.geojson -o out.off --columns x,y,h,h; refused 3 "'h' is named twice"
 run triangulate multi.geojson -o out.off --columns x; refused 3 "'x' is only one column"
 run triangulate multi.geojson -o out.off --class ground; refused 2 "'--class' is for LAS"
 collection "$(feature '{"elev":5}' "$(point 0,0,0)")" "$(feature '{"elev":6}' "$(point 1,0,0)")" \
@@ -86,7 +86,7 @@ collection "$(feature '{}' "$(point 0,0)")" \
     "$(feature '{}' '{"type":"LineString","coordinates":[[0,0],[1,1]]}')" >line.geojson
 run triangulate line.geojson -o out.ply
 refused 3 'line\.geojson: feature 1 is a LINESTRING, not a point'
-run triangulate none.geojson -o out.ply --layer a; refused 3 "has no layer 'a', but: none"
+run triangulate none.geojson -o out.ply --layer a; refused 3 "has no layer 'a'; it has: none"
 run triangulate zero.geojson -o out.ply --where 'm = 3'
 refused 2 "'--where' is not a valid condition"
 cat >tracks.gpx <<'END'

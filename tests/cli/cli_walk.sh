@@ -89,39 +89,39 @@ says 'touched nothing'
 run walk --as surface --max-distance 0 --from 0.5,0.25,0.25 --to 0.5,0.25,0 octahedron.off; exits 0
 says_nothing
 run walk --as surface --from 1,2,3 --to 1,2,3 octahedron.off
-refused 2 "'--to' wants another point than --from"
+refused 2 "'--to' must be another point than --from"
 
 # What is refused, before anything is read.
 run walk row.off; refused 2 "'--from' is missing"
 run walk --from 1,2 absent.off; refused 2 "'--to' is missing"
-run walk --from 1,2,3 --to 1,2 absent.off; refused 2 "'--from' wants X,Y with --as plane"
-run walk --as star --from 1,2,3 --to 1,2 absent.off; refused 2 "'--to' wants X,Y,Z"
-run walk --as star --lonlat --from 1,2,3 --to 1,2 absent.off; refused 2 "'--from' wants LON,LAT"
+run walk --from 1,2,3 --to 1,2 absent.off; refused 2 "'--from' must be X,Y with --as plane"
+run walk --as star --from 1,2,3 --to 1,2 absent.off; refused 2 "'--to' must be X,Y,Z"
+run walk --as star --lonlat --from 1,2,3 --to 1,2 absent.off; refused 2 "'--from' must be LON,LAT"
 run walk --as star --lonlat --from 1,91 --to 1,2 octahedron.off
-refused 2 "'--from' wants a latitude"
+refused 2 "'--from' must be a latitude"
 run walk --as star --from 0,0,0 --to 1,2,3 octahedron.off
-refused 2 "'--from' wants another point than the centre"
+refused 2 "'--from' must be another point than the centre"
 for value in '' x 1 '1,' 1,x 1,2,3,4 1,inf ' 1,2' '1;2'; do
     run walk --from "$value" --to 1,2 row.off
-    refused 2 "'--from' wants coordinates X,Y or X,Y,Z, not"
+    refused 2 "'--from' must be coordinates X,Y or X,Y,Z, not"
 done
 run walk --from 1,2 --to 3,4 --walk lawsn row.off; refused 2 "did you mean 'lawson'\?"
 run walk --from 1,2 --to 3,4 --walk all row.off
-refused 2 '--walk all wants --as plane and a picture'
-run walk --from 1,2 --to 3,4 --walk all row.off -o all.csv; refused 2 '--walk all wants'
+refused 2 '--walk all needs --as plane and a picture'
+run walk --from 1,2 --to 3,4 --walk all row.off -o all.csv; refused 2 '--walk all needs'
 run walk --as star --from 1,2,3 --to 3,4,5 --walk all row.off -o all.svg
-refused 2 '--walk all wants'
+refused 2 '--walk all needs'
 run walk --as star --from 1,2,3 --to 3,4,5 --walk lawson row.off
 refused 2 "no walk 'lawson' with --as star"
 run walk --as surface --from 1,2,3 --to 3,4,5 --walk straight row.off
-refused 2 "'--walk' wants --as"
+refused 2 "'--walk' needs --as"
 for option in max-distance samples iterations; do
-    run walk --from 1,2 --to 3,4 --$option 2 row.off; refused 2 "'--$option' wants --as surface"
+    run walk --from 1,2 --to 3,4 --$option 2 row.off; refused 2 "'--$option' needs --as surface"
 done
 run walk --from 1,2 --to 3,4 --max-distance 0 row.off
-refused 2 "'--max-distance' wants --as surface"
-run walk --from 1,2 --to 3,4 --centre 0,0,0 row.off; refused 2 "'--centre' wants --as star"
-run walk --lonlat --from 1,2 --to 3,4 row.off; refused 2 "'--lonlat' wants --as star"
+refused 2 "'--max-distance' needs --as surface"
+run walk --from 1,2 --to 3,4 --centre 0,0,0 row.off; refused 2 "'--centre' needs --as star"
+run walk --lonlat --from 1,2 --to 3,4 row.off; refused 2 "'--lonlat' needs --as star"
 run walk --from 1,2 --to 3,4 absent.off; refused 3 'absent.off'
 for name in walk.gif walk.txt walk; do
     run walk --from 0.1,0.2 --to 3.9,0.8 row.off -o $name
@@ -207,11 +207,15 @@ run walk --as star --lonlat --from 45,30 --to -135,-30 octahedron.off --animate 
 holds "frames of a polyhedron" chunks star.png >star.chunks
 run walk --from 9,9 --to 9,8 row.off --animate none.png; exits 0
 run walk --from 1,2 --to 3,4 row.off --animate steps.gif
-refused 2 "'--animate' wants a .png or .apng file"; absent steps.gif
-run walk --from 1,2 --to 3,4 row.off --walk all --animate all.png -o all.svg
-refused 2 "'--animate' wants one walk"
+refused 2 "'--animate' must be a .png or .apng file"; absent steps.gif
+run walk --from 0.1,0.2 --to 3.9,0.8 row.off --walk all --animate all.png -o all.svg; exits 0
+holds "a race and a sheet" test -s all.svg
+holds "the race has more than one picture" grep -qa acTL all.png
+run walk --from 0.1,0.2 --to 3.9,0.8 row.off --walk all --animate race.png; exits 0; prints ''
+run walk --from 0.1,0.2 --to 3.9,0.8 row.off --walk all --animate race.png -o list.csv
+refused 2 'needs --as plane and a picture'
 run walk --from 1,2 --to 3,4 row.off --animate same.png -o same.png
-refused 2 "'--animate' wants another file"
+refused 2 "'--animate' must be another file"
 run walk --from 1,2 --to 3,4 row.off --animate absent/a.png; exits 4; says 'absent/a.png'
 # Of a mesh with 80,000 triangles, lines near the walk.
 awk 'BEGIN { srand(1); for (i = 0; i < 40000; i++) print rand(), rand() }' >points.xyz

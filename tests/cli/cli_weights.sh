@@ -14,13 +14,32 @@ run_on "$points" weights square.off - -o w.npz --strict; exits 1
 run_on "$points" weights square.off - -o w.npz --stats --json; exits 0; says '"outside": 1'
 
 # What is refused, and what is left behind: nothing.
-run_on "$points" weights square.off -; refused 2 'weights wants an output'
+run_on "$points" weights square.off -; refused 2 'weights needs an output'
 run_on "$points" weights square.off - -o square.off; refused 2 'square.off'
 run_on "$points" weights square.off - -o none/w.npz; refused 4 'none/w.npz: '
 run_on "$points" weights none.off - -o w2.npz; refused 3 'none.off: '
-run apply w.npz w.npz; refused 2 'apply wants an output'
+run apply w.npz w.npz; refused 2 'apply needs an output'
 run apply w.npz w.npz -o w.npz; refused 2 'w.npz'
 holds "nothing else was written" test "$(echo *)" == 'square.off w.npz'
+
+# To cells: two triangles, a mesh of the same square moved by half, and no points' options.
+sed 's/^\(0\|1\) \(0\|1\) /\1.5 \2 /' square.off >moved.off
+conservative="--method conservative"
+run weights square.off square.off $conservative -o same.npz --stats; exits 0; prints ''
+says '^target cells +2$'; says '^common area +1$'
+run weights square.off moved.off $conservative -o part.npz; exits 0
+says 'square.off: remark: 50 % of its area lies outside moved.off: sums over it are not conserved'
+run weights square.off moved.off $conservative -o part.npz -q --strict; exits 1; says_nothing
+run weights square.off square.off $conservative --values vertices --stats --json -o v.npz; exits 0
+says '"source_vertices": 4'; says '"weights": 8|"weights": 6'
+run weights square.off square.off $conservative; refused 2 'weights needs an output|wants an output'
+run weights square.off square.off $conservative -o square.off; refused 2 'square.off'
+run weights square.off square.off $conservative --columns 1,2 -o x.npz
+refused 2 "'--columns' is for points"
+run_on "$points" weights square.off - --norm fracarea -o x.npz; refused 2 "'--norm' is for"
+run weights square.off none.off $conservative -o x.npz; refused 3 'none.off'
+run weights square.off none.tif $conservative -o x.npz; refused 3 'none.tif'
+rm -f same.npz part.npz v.npz moved.off
 
 if ! "$meshwalk" --version | grep -q '^  netCDF .*found' ||
     "$meshwalk" --version | grep -q 'libnetcdf is not found'; then

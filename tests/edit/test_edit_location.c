@@ -27,7 +27,7 @@ static const char *const mesh_name[] = {"uniform",  "grid",    "circle",
                                         "clusters", "patches", "holes"};
 
 /* A point as those of a mesh lie, all of them about within the square from 0 to 16; a few outside.
- * */
+ */
 static void random_place(int kind, uint64_t *random, double p[2])
 {
     for (int k = 0; k < 2; k++) p[k] = 16 * random_unit(random);
@@ -124,7 +124,7 @@ static mw_status move_somewhere(mw_editor *editor, int kind, uint64_t *random)
 }
 
 /* One edit of any kind; `grow` of 8 of those that insert or remove insert. Refused ones are none.
- * */
+ */
 static bool random_edit(mw_editor *editor, int kind, uint32_t grow, uint64_t *random)
 {
     uint32_t v, w;

@@ -352,7 +352,7 @@ static void ask_some(const points_session *s, const twin *t, twin_cursors *r, ui
 }
 
 /* Vertices come and go between the points, also in the editor that keeps nothing, if there is one.
- * */
+ */
 static void mix(const points_session *s, twin *t, mw_editor *plain, uint64_t *random)
 {
     for (int i = 0; i < 12; i++) {

@@ -41,7 +41,7 @@ static mw_edit any_edit(const twin *t, uint64_t *random)
 }
 
 /* An edit that changes nothing, as an insertion at a vertex, is not counted: it cannot be undone.
- * */
+ */
 static uint64_t edits_done(const twin *t)
 {
     mw_editor_info info;

@@ -316,7 +316,7 @@ static void test_numbers(void **state)
     write_ugrid("a.nc", (ugrid_form){1, 1, false, MW_NETCDF_INT}, "m");
     expect_refused("fvcom", MW_ERROR_INPUT, "a.nc: no mesh in the layout fvcom");
     expect_refused("fvco", MW_ERROR_ARGUMENT, "no layout 'fvco'");
-    expect_refused("ugrid:2", MW_ERROR_ARGUMENT, "behind the colon");
+    expect_refused("ugrid:2", MW_ERROR_ARGUMENT, "after the colon");
     files_clear();
 }
 
@@ -433,6 +433,43 @@ static void test_writer(void **state)
     files_clear();
 }
 
+/* Faces stay whole, with one value each, and are read as the same triangles; one whose triangles
+ * differ is written as triangles. */
+static void test_written_faces(void **state)
+{
+    (void)state;
+    need_libnetcdf();
+    write_ugrid("a.nc", (ugrid_form){1, 1, false, MW_NETCDF_INT}, "m");
+    mw_mesh_file file = read_layout("a.nc", NULL), back;
+    char name[] = "u", *names[] = {name};
+    double values[4], *columns[] = {values};
+    for (size_t t = 0; t < 4; t++) values[t] = file.faces[t] + 0.5;
+    file.triangle_field_names = names;
+    file.triangle_fields = columns;
+    file.triangle_field_count = 1;
+    for (size_t faces = file.face_count; faces <= 4; faces++) {
+        assert_int_equal(mw_write_mesh("b.nc", &file, NULL, NULL, NULL), MW_OK);
+        back = read_layout("b.nc", "ugrid");
+        assert_int_equal(back.triangle_count, 4);
+        assert_int_equal(back.faces ? back.face_count : back.triangle_count, faces);
+        assert_memory_equal(back.triangles, file.triangles, 12 * sizeof *file.triangles);
+        assert_memory_equal(back.triangle_fields[0], values, sizeof values);
+        for (size_t t = 0; t < 4 && faces == file.face_count; t++)
+            assert_int_equal(back.faces[t], file.faces[t]);
+        mw_mesh_file_release(&back);
+        for (size_t t = 1; t < 4; t++) /* one whole face less */
+            if (values[t] == values[t - 1]) {
+                values[t] += 7;
+                break;
+            }
+    }
+    file.triangle_field_names = NULL;
+    file.triangle_fields = NULL;
+    file.triangle_field_count = 0;
+    mw_mesh_file_release(&file);
+    files_clear();
+}
+
 /* Counts as other programs found them; shared/data/README.md. */
 static void test_models(void **state)
 {
@@ -472,9 +509,11 @@ static void test_models(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_ugrid), cmocka_unit_test(test_packed),  cmocka_unit_test(test_named),
-        cmocka_unit_test(test_dual),  cmocka_unit_test(test_numbers), cmocka_unit_test(test_crs),
-        cmocka_unit_test(test_wrong), cmocka_unit_test(test_models),  cmocka_unit_test(test_writer),
+        cmocka_unit_test(test_ugrid),   cmocka_unit_test(test_packed),
+        cmocka_unit_test(test_named),   cmocka_unit_test(test_dual),
+        cmocka_unit_test(test_numbers), cmocka_unit_test(test_crs),
+        cmocka_unit_test(test_wrong),   cmocka_unit_test(test_models),
+        cmocka_unit_test(test_writer),  cmocka_unit_test(test_written_faces),
     };
     return cmocka_run_group_tests(tests, files_enter, files_leave);
 }

@@ -196,7 +196,7 @@ static void test_concave(void **state)
 }
 
 /* Strips of triangles: every second one turned, -1 between strips, corners repeated to join them.
- * */
+ */
 static void test_ply_strips(void **state)
 {
     (void)state;

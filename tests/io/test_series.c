@@ -155,7 +155,7 @@ static void test_counts(void **state)
     (void)state;
     need_libnetcdf();
     write_model("a.nc", (model){NULL, {3, 4, 6}, 3, true});
-    expect_refused(NULL, "no mesh in a layout known here");
+    expect_refused(NULL, "no mesh in a known layout");
     mw_series_options options = {.vertex_count = 4, .face_count = 2};
     mw_series *series = open_series("a.nc", &options);
     expect_values(series, "zeta", 0, 4, (double[]){1, 2, 3, 4});
@@ -182,7 +182,8 @@ static void test_several(void **state)
     expect_values(series, "zeta", 4, 4, (double[]){9, 10, 11, 12});
     mw_series_close(series);
     write_model("b.nc", (model){NULL, {4, 6}, 2, false});
-    expect_refused(&options, "b.nc: its first time, 4, is not behind that of the file before, 4");
+    expect_refused(&options,
+                   "b.nc: its first time, 4, is not later than the last one of the file before, 4");
     write_model("b.nc", (model){"julian", {5, 6}, 2, false});
     expect_refused(&options, "b.nc: its times are");
     files_write_text("a.nc", "x y\n");

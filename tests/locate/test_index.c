@@ -673,7 +673,7 @@ static void test_spiral(void **state)
 
 /* A query tests triangles of its bucket, and begins in the one that has it; the tests are counted
  * alone and in batches. Slivers across the extent are in many buckets each: then these are fewer.
- * */
+ */
 static void test_triangle_buckets(void **state)
 {
     (void)state;

@@ -327,7 +327,7 @@ static void test_zeroed_cursor_in_space(void **state)
 /* --- sizes of samples ------------------------------------------------------------------------- */
 
 /* The printed sizes of Appendix D, Table 1, and twice the fourth root; never more than triangles.
- * */
+ */
 static void test_sample_sizes(void **state)
 {
     (void)state;

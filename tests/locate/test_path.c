@@ -20,7 +20,7 @@
 enum { ROOM = 20000 };
 
 /* What is tried: a mesh, its locator, and whether there may be ghosts or open borders on the way.
- * */
+ */
 typedef struct path_trial {
     const arrays *a;
     const mw_mesh *mesh;
@@ -84,7 +84,7 @@ static bool same(const mw_location *a, const mw_location *b)
 }
 
 /* A query, and its path by a cursor in the same state: what they do and leave behind is the same.
- * */
+ */
 static void try_query(path_trial *r, mw_cursor *cursor, const double q[2])
 {
     mw_cursor written = *cursor, cut = *cursor, uncounted = *cursor;

@@ -420,7 +420,7 @@ static void test_describe_square(void **state)
 }
 
 /* A 3 x 3 grid without its middle cell, in one piece or in two that touch along coincident edges.
- * */
+ */
 static void test_describe_ring(void **state)
 {
     (void)state;

@@ -71,7 +71,7 @@ static void split_vertices(mesh_maker *m)
 
 /* Put `count` vertices inside an edge, in a random triangle only, as a fan from its apex. With
  * `flat`, fill the gap with flat triangles; else the triangle beyond has vertices inside its edge.
- * */
+ */
 static void break_edge(mesh_maker *m, bool flat)
 {
     arrays *a = &m->a;

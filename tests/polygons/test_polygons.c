@@ -191,7 +191,7 @@ static size_t scene_check(void)
 /* --- tests --- */
 
 /* Random rings on a small lattice: they cross, touch, overlap, repeat, and run back on themselves.
- * */
+ */
 static void scene_make_lattice(uint64_t seed)
 {
     enum { SIDE = 6 };
@@ -378,7 +378,7 @@ static void what_is_no_polygon_is_refused(void **state)
     open.segment_count = 3;
     expect_refused(open, MW_ERROR_INPUT, "polygon 3 is not closed");
     none.segment_count = 0;
-    expect_refused(none, MW_ERROR_INPUT, "there is no polygon");
+    expect_refused(none, MW_ERROR_INPUT, "there are no polygons");
     unnumbered.polygon = NULL;
     expect_refused(unnumbered, MW_ERROR_ARGUMENT, "the polygon of each segment");
     seeded.hole_seeds = scene.point;

@@ -103,3 +103,45 @@ def test_a_globe(program: str, tmp_path: Path, random: np.random.Generator) -> N
     np.testing.assert_array_equal(hit.triangle, [int(row["triangle"]) for row in table])
     weights = [[float(row[f"w{k}"]) for k in range(3)] for row in table]
     np.testing.assert_array_equal(hit.weights, weights)
+
+
+def test_conservative_weights(data: Path, program: str, tmp_path: Path) -> None:
+    """The program keeps sums, as SciPy's product tells."""
+    from scipy.sparse import load_npz
+
+    mesh = tmp_path / "terrain.ply"
+    _program(program, "triangulate", data / "jacksboro.csv", "-o", mesh)
+    terrain = meshwalk.read(mesh)
+    low, high = terrain.points[:, :2].min(0), terrain.points[:, :2].max(0)
+    size = 500
+    columns, rows = np.ceil((high - low) / size).astype(int)
+    grid = tmp_path / "grid.asc"
+    grid.write_text(
+        f"ncols {columns}\nnrows {rows}\nxllcorner {low[0]}\nyllcorner {low[1]}\n"
+        f"cellsize {size}\n" + "0 " * (columns * rows) + "\n"
+    )
+    corner = terrain.points[terrain.triangles][:, :, :2]
+    one, two = corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0]
+    area = np.abs(one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0]) / 2
+    field = terrain.fields["z"][terrain.triangles].mean(1)
+
+    conservative = ("weights", mesh, grid, "--method", "conservative", "-o")
+    _program(program, *conservative, tmp_path / "w.npz")
+    weights = load_npz(tmp_path / "w.npz")
+    assert weights.shape == (rows * columns, len(area))
+    assert np.isclose((weights @ field).sum() * size**2, (field * area).sum(), rtol=1e-12)
+    np.testing.assert_allclose(weights.sum(0) * size**2, area, rtol=1e-11)
+    heights = (weights @ field).reshape(rows, columns)
+    assert heights.min() >= 0
+
+    _program(program, *conservative, tmp_path / "v.npz", "--values", "vertices")
+    linear = load_npz(tmp_path / "v.npz")
+    assert np.isclose(
+        (linear @ terrain.fields["z"]).sum() * size**2, (field * area).sum(), rtol=1e-12
+    )
+
+    _program(program, *conservative, tmp_path / "m.npz", "--norm", "fracarea")
+    means = load_npz(tmp_path / "m.npz")
+    covered = weights.sum(1)
+    np.testing.assert_allclose(means.sum(1)[covered > 0], 1, rtol=1e-12)
+    np.testing.assert_allclose((means @ field) * covered, weights @ field, rtol=1e-11)

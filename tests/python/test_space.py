@@ -90,7 +90,7 @@ def test_globe(random: np.random.Generator) -> None:
         np.column_stack([(queries[:100, 0] + 180) % 360 - 180, queries[:100, 1]]),
         atol=1e-12,
     )
-    with pytest.raises(ValueError, match=r"lonlat\[1\] is no longitude .* 0\.0, 91\.0"):
+    with pytest.raises(ValueError, match=r"lonlat\[1\] is not a longitude .* 0\.0, 91\.0"):
         meshwalk.Surface.from_lonlat([[0, 0], [0, 91], [90, 0]], [[0, 1, 2]])
 
 

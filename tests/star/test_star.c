@@ -157,7 +157,7 @@ static void test_facets_without_area(void **state)
 }
 
 /* Each facet has vertices of its own; and a row of vertices at one place makes facets that vanish.
- * */
+ */
 static void test_welded(void **state)
 {
     (void)state;

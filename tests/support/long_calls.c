@@ -6,6 +6,8 @@
 #include <meshwalk/polygons.h>
 #include <meshwalk/weights.h>
 #include <meshwalk/segment.h>
+#include <meshwalk/volume.h>
+#include <meshwalk/remap.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,6 +19,13 @@ static void sum_add(uint64_t *sum, uint64_t value)
 {
     *sum = (*sum ^ value) * UINT64_C(0x9e3779b97f4a7c15);
     *sum ^= *sum >> 29;
+}
+
+static void sum_add_number(uint64_t *sum, double value)
+{
+    uint64_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    sum_add(sum, bits);
 }
 
 static void sum_add_mesh(uint64_t *sum, const mw_mesh *mesh)
@@ -489,6 +498,55 @@ static mw_status run_segments(const call_inputs *in, const call_setting *how, ui
     return status;
 }
 
+/* Each vertex is as high as its x. */
+static mw_status run_volume_above(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                                  mw_error *error)
+{
+    mw_volume_info info;
+    mw_volume_options options = {.threads = how->threads, .progress = how->progress};
+    mw_status status = mw_volume_above(in->locator, in->points, 0.5, &options, &info, error);
+    if (!status) sum_add(sum, info.parts), sum_add_number(sum, info.cut);
+    return status;
+}
+
+static mw_status run_volume_between(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                                    mw_error *error)
+{
+    mw_volume_info info;
+    mw_volume_options options = {.threads = how->threads, .progress = how->progress};
+    mw_status status =
+        mw_volume_between(in->locator, in->points, in->locator, in->points, &options, &info, error);
+    if (!status) sum_add(sum, info.parts), sum_add_number(sum, info.cut);
+    return status;
+}
+
+static mw_status remap_sum(mw_status status, mw_remap *r, uint64_t *sum)
+{
+    expect(!status == (r->weights != NULL), "there are weights");
+    if (!status) sum_add_number(sum, r->common_sum), sum_add_number(sum, r->source_fraction[0]);
+    mw_remap_release(r);
+    return status;
+}
+
+static mw_status run_remap_to_mesh(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                                   mw_error *error)
+{
+    mw_remap r;
+    mw_remap_mesh mesh = {.locator = in->locator};
+    mw_remap_options options = {.threads = how->threads, .progress = how->progress};
+    return remap_sum(mw_remap_to_mesh(&mesh, &mesh, &options, &r, error), &r, sum);
+}
+
+static mw_status run_remap_to_pixels(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                                     mw_error *error)
+{
+    mw_remap r;
+    mw_remap_mesh mesh = {.locator = in->locator};
+    mw_remap_pixels pixels = {0, 1, 0.1, 0.1, 10, 10};
+    mw_remap_options options = {.threads = how->threads, .progress = how->progress};
+    return remap_sum(mw_remap_to_pixels(&mesh, &pixels, &options, &r, error), &r, sum);
+}
+
 static mw_status run_table(const call_inputs *in, const call_setting *how, uint64_t *sum,
                            mw_error *error)
 {
@@ -918,6 +976,10 @@ const long_call long_calls[] = {
     {"mw_index_create, chains", run_index_chains},
     {"mw_locate_batch", run_batch},
     {"mw_segment_batch", run_segments},
+    {"mw_remap_to_mesh", run_remap_to_mesh},
+    {"mw_remap_to_pixels", run_remap_to_pixels},
+    {"mw_volume_above", run_volume_above},
+    {"mw_volume_between", run_volume_between},
     {"mw_interpolate_table", run_table},
     {"mw_operator_create", run_operator},
     {"mw_operator_create_from_entries", run_operator_entries},

@@ -378,7 +378,7 @@ static void test_not_finite(void **state)
 /* --- the prober ------------------------------------------------------------------------------- */
 
 /* The order of the file is kept where it is good, and neither order nor threads change an answer.
- * */
+ */
 static void test_order(void **state)
 {
     (void)state;

@@ -1022,7 +1022,7 @@ static void test_wrong_arguments(void **state)
     expect(s, &given, none, MW_ERROR_ARGUMENT, "arrays are missing");
     given = view(s);
     given.point_count = 3;
-    expect(s, &given, none, MW_ERROR_ARGUMENT, "segment 2: 3 is no point; there are 3");
+    expect(s, &given, none, MW_ERROR_ARGUMENT, "segment 2: 3 is not a point; there are 3");
     given.segment_count = 2;
     given.point_count = 3;
     assert_int_equal(mw_constrained_delaunay(&given, &none, NULL, NULL, NULL, &mesh, &error),
@@ -1119,6 +1119,7 @@ static void test_memory(void **state)
     add_box(s, 0, 0, 9, 9, 3);
     add_box(s, 1, 1, 4, 4, 3);
     add_line(s, -1, 5, 12, 7);
+    for (int i = 0; i < 4; i++) add_line(s, -1 - i, 0, 10 + i, 0);
     for (int i = 0; i < 150; i++) add_point(s, 10 * uniform(s), 10 * uniform(s));
     add_hole(s, 8, 8);
     mw_constraints given = view(s);
@@ -1226,6 +1227,65 @@ static void test_real(void **state)
     }
 }
 
+/* --- segments along one line ------------------------------------------------------------------ */
+
+/* Segments between random points of a line, those of line y at y * (0, 1): many lie on one another.
+ * Every edge along the line is owned by the lowest segment that covers it, in its direction. */
+static void check_overlapping(uint32_t lines, uint32_t points, uint32_t per_line, double dx,
+                              double dy, uint64_t *random)
+{
+    const uint32_t n = lines * points, segments = lines * per_line;
+    double *p = malloc(2 * n * sizeof *p);
+    uint32_t *s = malloc(2 * segments * sizeof *s), *lowest = malloc(n * sizeof *lowest);
+    for (uint32_t i = 0; i < n; i++) {
+        p[2 * i] = dx * (i % points);
+        p[2 * i + 1] = dy * (i % points) + i / points;
+        lowest[i] = MW_NONE;
+    }
+    for (uint32_t i = 0; i < segments; i++) {
+        const uint32_t line = mw__random_below(random, lines);
+        for (uint32_t k = 0; k < 2; k++)
+            s[2 * i + k] = line * points + mw__random_below(random, points);
+        const uint32_t a = s[2 * i], b = s[2 * i + 1];
+        for (uint32_t v = a < b ? a : b; v < (a < b ? b : a) && points < 1000; v++)
+            if (lowest[v] == MW_NONE) lowest[v] = i;
+    }
+    mw_constraints given = {
+        .points = p, .point_count = n, .segments = s, .segment_count = segments};
+    mw_constrained_edges edges;
+    mw_mesh *mesh;
+    mw_error error;
+    if (mw_constrained_delaunay(&given, NULL, NULL, NULL, &edges, &mesh, &error))
+        fail_msg("%s", error.message);
+    for (size_t i = 0; i < edges.count && points < 1000; i++) {
+        const uint32_t a = edges.edge[2 * i], b = edges.edge[2 * i + 1], low = a < b ? a : b,
+                       *given_ends = &s[2 * edges.segment[i]];
+        assert_int_equal(a < b ? b - a : a - b, 1);
+        assert_int_equal(edges.segment[i], lowest[low]);
+        assert_int_equal(a < b, given_ends[0] < given_ends[1]);
+        lowest[low] = MW_NONE;
+    }
+    for (uint32_t v = 0; v < n && points < 1000; v++) assert_int_equal(lowest[v], MW_NONE);
+    mw_constrained_edges_release(&edges);
+    mw_mesh_destroy(mesh);
+    free(p);
+    free(s);
+    free(lowest);
+}
+
+/* The last of them would list 10^9 pairs of a segment and an edge. */
+static void test_overlapping(void **state)
+{
+    (void)state;
+    uint64_t random = 5;
+    for (int i = 0; i < 40; i++) {
+        const double dx = mw__random_below(&random, 3) - 1.0, dy = 3 * dx;
+        check_overlapping(2 + mw__random_below(&random, 3), 2 + mw__random_below(&random, 40),
+                          mw__random_below(&random, 30), dx == 0 ? 1 : dx, dy, &random);
+    }
+    check_overlapping(2, 40000, 40000, 1, 1, &random);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -1236,6 +1296,7 @@ int main(void)
         cmocka_unit_test(test_polygons),
         cmocka_unit_test(test_parcels),
         cmocka_unit_test(test_touching),
+        cmocka_unit_test(test_overlapping),
         cmocka_unit_test(test_flood),
         cmocka_unit_test(test_union),
         cmocka_unit_test(test_crossing_is_told),

@@ -80,7 +80,7 @@ static void test_report(void **state)
 }
 
 /* An edge between two triangles counts once; the kinds are in the order that their names promise.
- * */
+ */
 static void test_sums(void **state)
 {
     (void)state;

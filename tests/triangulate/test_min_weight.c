@@ -473,7 +473,7 @@ static void test_scales(void **state)
 
 /* Coordinates so far apart that scaling brings points together: the way from one to the other has
  * no direction then, and must rule out no edge. If it does, the last four sets come out too heavy.
- * */
+ */
 static void test_span(void **state)
 {
     (void)state;
@@ -505,7 +505,7 @@ static void test_span(void **state)
 /* --- candidates --- */
 
 /* Is there a point in the triangle on the left of pq with base angles a little less than pi / 4.6?
- * */
+ */
 static bool holds_point(const double *points, uint32_t n, uint32_t p, uint32_t q)
 {
     double ux = points[2 * q] - points[2 * p], uy = points[2 * q + 1] - points[2 * p + 1],

@@ -295,7 +295,7 @@ static bool sides_agree(const double told[3], mpz_t side[3], const long exponent
 }
 
 /* Let the line go through a vertex, a point of an edge or one inside, as far as rounding lets it.
- * */
+ */
 static void aim(double p[15])
 {
     static const double weights[][3] = {

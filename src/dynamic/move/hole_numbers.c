@@ -1,12 +1,13 @@
 /* hole_numbers.c - which hole each ghost lies in, after a move that may have led parts of the mesh
  * from one hole into another.
  *
- * That takes a vertex where triangles meet that are not beside one another, with different holes,
- * or a hole and the outside, in the gaps between them. The border is the same before and after, and
- * so is the number of holes [Euler]; but a part of the border may bound another hole. A region is
- * all ghosts that can be reached from one another without crossing the border. A region at the
- * hull is no hole. Each hole keeps its number where most of its border edges are; regions without a
- * number then take those left. O(n log n) for the n ghosts in the regions that the edit changed. */
+ * This can only happen at a vertex where several groups of triangles meet, with different holes, or
+ * a hole and the outside, in the gaps between them. The border edges are the same before and after,
+ * and by Euler's formula so is the number of holes; but a part of the border may then bound another
+ * hole. A region is all ghosts that can be reached from one another without crossing the border. A
+ * region at the hull is no hole. Each hole keeps its number where most of its border edges are;
+ * regions without a number then take those left. O(n log n) for the n ghosts in the regions that
+ * the edit changed. */
 #include "dynamic/move/hole_numbers.h"
 
 #include "dynamic/journal.h"

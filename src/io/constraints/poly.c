@@ -1,7 +1,7 @@
-/* Triangle's .poly: the vertices as in .node, or "0" and the vertices in the .node file of the
- * same name; then "count markers" and "number a b marker" a line for the segments; then "count"
- * and "number x y" a line for the holes. What follows, the attributes of regions, is passed
- * over, and so are markers and the numbers of segments and holes. */
+/* Triangle's .poly: the vertices as in .node, or "0" and the vertices in the .node file of the same
+ * name; then "count markers" and "number a b marker" a line for the segments; then "count" and
+ * "number x y" a line for the holes. Markers, the numbers of segments and holes, and the attributes
+ * of regions at the end are skipped. */
 #include "io/constraints/poly.h"
 
 #include "io/mesh/node_ele.h"

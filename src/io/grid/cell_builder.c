@@ -124,7 +124,7 @@ mw_status mw__cells_finish(mw_cell_builder *cells, mw_mesh_builder *builder, mw_
     size_t count = cells->ends.count;
     int64_t volume = 0;
     if (cells->types.count != count)
-        return mw__source_fail(builder->source, error, "%zu cells, but the types of %zu", count,
+        return mw__source_fail(builder->source, error, "%zu cells, but types for %zu", count,
                                cells->types.count);
     size_t *face_ends = mw__alloc(count, sizeof *face_ends);
     if (!face_ends) return mw__fail_memory(error);

@@ -1,7 +1,7 @@
 /* Writing ADCIRC's fort.14, which has triangles only, and SCHISM's .gr3, which has quadrilaterals,
- * too. Marked edges become boundaries: open ones if their mark begins with "open", else land, of
- * the type that stands behind "type" in the mark. Types whose vertices have further values
- * (barriers) cannot be written, and are left out. */
+ * too. Marked edges become boundaries: open ones if their mark begins with "open", else land
+ * boundaries, whose type is the number after "type" in the mark. Types whose vertices have further
+ * values (barriers) cannot be written, and are left out. */
 #include "io/grid/grid_writers.h"
 #include "io/text/number_text.h"
 

@@ -2,6 +2,7 @@
 #ifndef MW_SRC_IO_GRID_GRID_WRITERS_H
 #define MW_SRC_IO_GRID_GRID_WRITERS_H
 
+#include "io/mesh/face_fan.h"
 #include "io/mesh/mesh_writers.h"
 
 mw_status mw__write_fort14(const char *path, const mw_mesh_file *file, mw_job *job,
@@ -10,14 +11,6 @@ mw_status mw__write_gr3(const char *path, const mw_mesh_file *file, mw_job *job,
 mw_status mw__write_2dm(const char *path, const mw_mesh_file *file, mw_job *job, mw_error *error);
 mw_status mw__write_msh(const char *path, const mw_mesh_file *file, mw_job *job, mw_error *error);
 mw_status mw__write_vtu(const char *path, const mw_mesh_file *file, mw_job *job, mw_error *error);
-
-/* How many triangles, from triangle t on, are one face of at most `corners` corners: so many if
- * they are the whole face, as a fan, which is how faces are cut; else 1. */
-size_t mw__face_triangles(const mw_mesh_file *file, size_t t, size_t corners);
-/* Corner k of the face that begins with triangle t. */
-uint32_t mw__face_corner(const mw_mesh_file *file, size_t t, size_t k);
-/* How many faces are written so. */
-size_t mw__face_count(const mw_mesh_file *file, size_t corners);
 
 /* The values of that name, of vertices or of triangles; NULL if there are none. */
 const double *mw__vertex_values(const mw_mesh_file *file, const char *name);

@@ -264,8 +264,9 @@ static mw_status msh_sort_vertices(msh_mesh *m, mw_error *error)
     size_t twice;
     mw_status status = mw__ranks_sort(&m->vertices, &twice, error);
     if (!status && twice != SIZE_MAX)
-        status = mw__source_fail(msh_source(m), error,
-                                 "vertex %zu of the file has the number of another one", twice + 1);
+        status =
+            mw__source_fail(msh_source(m), error,
+                            "vertex %zu of the file has the same number as another one", twice + 1);
     m->builder->points_complete = true;
     return status;
 }

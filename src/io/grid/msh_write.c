@@ -1,6 +1,6 @@
-/* Writing MSH of Gmsh, version 2.2 as text: marked edges are lines in physical groups with the
- * names of the marks, faces are triangles and quadrilaterals in the physical group that the
- * triangle field "physical" (or "material") tells. */
+/* Writing MSH of Gmsh, version 2.2 as text: marked edges become lines in physical groups named like
+ * their marks; faces become triangles and quadrilaterals, and the triangle field "physical" (or
+ * "material") is the number of their physical group. */
 #include "io/grid/grid_writers.h"
 
 #include <math.h>

@@ -1,6 +1,6 @@
 /* NPZ, arrays of NumPy in a zip file, stored or deflated. "points" (or "vertices") has two or three
  * columns, "triangles" (or "faces") three or four columns of vertices from 0. Other arrays of
- * numbers are values: of vertices or of faces, as their length says. */
+ * numbers are values of the vertices or of the faces: their length decides. */
 #include "io/grid/byte_array.h"
 #include "io/grid/grid_readers.h"
 #include "io/grid/value_source.h"
@@ -61,7 +61,7 @@ static mw_status zip_find_directory(npz_file *z, mw_error *error)
             return npz_fail(z, at, error, "%s", "zip files of more than 4 GB are not read");
         return MW_OK;
     }
-    return npz_fail(z, size, error, "%s", "this is no zip file, or its end is missing");
+    return npz_fail(z, size, error, "%s", "this is not a zip file, or its end is missing");
 }
 
 /* Where the data of an entry stand, packed. */
@@ -184,7 +184,7 @@ static mw_status npy_read_header(const npz_file *z, npz_array *a, mw_error *erro
         length = at == 10 ? mw__get_u16(a->data + 8) : mw__get_u32(a->data + 8);
     }
     if (at == 0 || length > a->size - at || length > MW_BYTES_LIMIT)
-        return npz_fail(z, 0, error, "%s: this is no array of NumPy", a->name);
+        return npz_fail(z, 0, error, "%s: this is not a NumPy array", a->name);
     char *header = strndup((const char *)a->data + at, length);
     if (!header) return mw__fail_memory(error);
     a->data += at + length;

@@ -1,8 +1,8 @@
-/* 2DM, the meshes of SMS: a card a line. Read are ND (vertex: number x y z), E3T and E4Q (triangle
- * and quadrilateral: number, corners, material). Cards of lines (E2L, E3L), node strings and
- * everything that is no element are passed over; elements with vertices on their sides (E6T, E8Q,
- * E9Q) are refused. Numbers may have gaps and come in any order: vertices and faces are counted in
- * the order of their numbers, as datasets list their values. */
+/* 2DM, the meshes of SMS: one card on each line. Read are ND (vertex: number x y z), E3T and E4Q
+ * (triangle and quadrilateral: number, corners, material). Cards of lines (E2L, E3L), node strings
+ * and all other cards are skipped; elements with vertices on their sides (E6T, E8Q, E9Q) are
+ * refused. Numbers may have gaps and come in any order: vertices and faces are counted in the order
+ * of their numbers, as datasets list their values. */
 #include "io/grid/grid_readers.h"
 #include "io/grid/number_list.h"
 #include "io/text/counted_rows.h"
@@ -44,7 +44,7 @@ static mw_status sms_read_element(sms_mesh *m, mw_number_row *row, int corners, 
     for (int k = 0; !status && k < corners; k++) {
         status = mw__row_integer(row, "corner", &element[1 + k], error);
         if (!status && element[1 + k] <= 0)
-            status = mw__source_fail(m->source, error, "%" PRId64 " is no number of a vertex",
+            status = mw__source_fail(m->source, error, "%" PRId64 " is not a vertex number",
                                      element[1 + k]);
     }
     /* the material may be missing */
@@ -97,7 +97,7 @@ static mw_status sms_sort(sms_mesh *m, mw_rank_list *ranks, const char *what, co
     mw_status status = mw__ranks_sort(ranks, &twice, error);
     if (!status && twice != SIZE_MAX)
         status = mw__source_fail_at(m->source, (uint64_t)lines[stride * twice], error,
-                                    "this %s has the number of another one", what);
+                                    "this %s has the same number as another one", what);
     return status;
 }
 

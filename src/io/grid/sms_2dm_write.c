@@ -1,6 +1,6 @@
 /* Writing 2DM: triangles and quadrilaterals with their material (the triangle field "material", or
- * "physical", else 1), vertices with their height, which is the field "depth" turned round where a
- * mesh has no heights. */
+ * "physical", else 1), vertices with their height. If the mesh has no heights, the height is the
+ * field "depth" with the opposite sign. */
 #include "io/grid/grid_writers.h"
 
 #include <math.h>

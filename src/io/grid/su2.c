@@ -47,7 +47,7 @@ static mw_status su2_read_element(mw_source *source, const char *line, mw_mesh_b
     if (!status && type != 5 && type != 9)
         status = mw__source_fail(source, error,
                                  "an element of type %" PRId64
-                                 "; in the plane there are 5 (triangle) and 9 (quadrilateral)",
+                                 "; only 5 (triangle) and 9 (quadrilateral) are read",
                                  type);
     mw__build_face(builder);
     for (int64_t k = 0; !status && k < (type == 5 ? 3 : 4); k++) {

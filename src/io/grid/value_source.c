@@ -117,7 +117,7 @@ mw_status mw__value_integer(mw_value_source *values, mw_number_type type, const 
     if (status) return status;
     uint64_t bits = mw__get_bytes(bytes, type.size, values->big);
     if (type.kind == MW_NUMBER_FLOAT || (type.kind == MW_NUMBER_UNSIGNED && bits > INT64_MAX))
-        return mw__source_fail(values->source, error, "the %s is no integer of 63 bits", what);
+        return mw__source_fail(values->source, error, "the %s is not an integer below 2^63", what);
     *value = type.kind == MW_NUMBER_UNSIGNED ? (int64_t)bits : value_sign_extend(bits, type.size);
     return MW_OK;
 }

@@ -420,7 +420,7 @@ static mw_status vtk_read_header(vtk_mesh *m, mw_error *error)
     if (status) return status;
     if (!word || (strcasecmp(word, "UNSTRUCTURED_GRID") != 0 && strcasecmp(word, "POLYDATA") != 0))
         return mw__source_fail(vtk_source(m), error,
-                               "a dataset '%s'; UNSTRUCTURED_GRID and POLYDATA are read",
+                               "dataset '%s' is not read, only UNSTRUCTURED_GRID and POLYDATA",
                                word ? mw__excerpt(word).text : "");
     vtk_source(m)->binary = m->values.binary;
     return MW_OK;

@@ -123,7 +123,7 @@ static mw_status vtu_count(const vtu_mesh *m, const vtu_tag *tag, const char *na
         return vtu_fail(m, tag->begin, error, "no attribute %s", name);
     const char *end = mw__read_integer(text, count);
     if (!end || *end || *count < 0 || !mw__integer_fits(*count))
-        return vtu_fail(m, tag->begin, error, "%s is no count", name);
+        return vtu_fail(m, tag->begin, error, "%s is not a count", name);
     return MW_OK;
 }
 
@@ -250,7 +250,7 @@ static mw_status vtu_read_array(const vtu_mesh *m, const vtu_tag *tag, mw_number
         if (status) return status;
         if (!m->appended || offset > vtu_file_end(m) - m->appended)
             return vtu_fail(m, tag->begin, error, "%s",
-                            "the array is appended, but there is nothing");
+                            "the array is in <AppendedData>, which ends before it or is missing");
         return vtu_read_data(m, tag, m->appended + offset, m->appended_text, type, list, error);
     }
     if (tag->empty) return MW_OK;
@@ -298,7 +298,8 @@ static mw_status vtu_take_cells(vtu_mesh *m, const vtu_tag *tag, const char *nam
     for (size_t i = 0; !status && i < list->count; i++) {
         double value = list->values[i];
         if (!(value >= 0 && value < 0x1p53 && value == (double)(int64_t)value))
-            return vtu_fail(m, tag->begin, error, "%s that are no counts", name);
+            return vtu_fail(m, tag->begin, error, "%s: the numbers must be whole and at least 0",
+                            name);
         status = mw__integers_add(to, (int64_t)value, error);
     }
     return status;
@@ -345,8 +346,8 @@ static mw_status vtu_open_file(vtu_mesh *m, const vtu_tag *tag, mw_error *error)
     char text[64] = "";
     vtu_attribute(tag, "type", text, sizeof text);
     if (strcmp(text, "UnstructuredGrid") != 0)
-        return vtu_fail(m, tag->begin, error, "a file of type '%s'; UnstructuredGrid is read",
-                        text);
+        return vtu_fail(m, tag->begin, error,
+                        "files of type '%s' are not read, only UnstructuredGrid", text);
     m->big = vtu_attribute(tag, "byte_order", text, sizeof text) && strcmp(text, "BigEndian") == 0;
     m->header_size =
         vtu_attribute(tag, "header_type", text, sizeof text) && strcmp(text, "UInt64") == 0 ? 8 : 4;

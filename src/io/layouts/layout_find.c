@@ -267,7 +267,7 @@ mw_status mw__layout_check(const char *wanted, mw_error *error)
     if (!*first || strcmp(first, ":0") == 0 || strcmp(first, ":1") == 0) return MW_OK;
     return mw__fail(
         error, MW_ERROR_ARGUMENT,
-        "layout '%.40s': behind the colon stands 0 or 1, what vertices are counted from", wanted);
+        "layout '%.40s': after the colon, expected 0 or 1, the number of the first vertex", wanted);
 }
 
 /* Try one layout; layout->x stays NULL if it is not that of the file. */
@@ -312,5 +312,5 @@ mw_status mw__layout_find(const mw_netcdf *file, const char *wanted, mw_layout *
     if (wanted)
         return mw__netcdf_fail(file, NULL, error, "no mesh in the layout %.*s",
                                (int)layout_name_length(wanted), wanted);
-    return mw__netcdf_fail(file, NULL, error, "no mesh in a layout known here (%s)", names);
+    return mw__netcdf_fail(file, NULL, error, "no mesh in a known layout (%s)", names);
 }

@@ -5,9 +5,9 @@
 
 #include "io/layouts/mesh_layout.h"
 
-/* Find the mesh. `wanted`: the name of a layout, with ":0" or ":1" behind it for the number of the
- * first vertex; NULL: whichever is there. MW_ERROR_INPUT: there is none, or it is not complete;
- * MW_ERROR_ARGUMENT: no such layout. */
+/* Find the mesh. `wanted`: the name of a layout, perhaps followed by ":0" or ":1", the number of
+ * the first vertex; NULL: any layout that the file has. MW_ERROR_INPUT: the file has no such mesh,
+ * or an incomplete one; MW_ERROR_ARGUMENT: `wanted` is not the name of a layout. */
 mw_status mw__layout_find(const mw_netcdf *file, const char *wanted, mw_layout *layout,
                           mw_error *error);
 

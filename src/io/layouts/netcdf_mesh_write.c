@@ -1,6 +1,7 @@
 /* A mesh as UGRID 1.0 in netCDF-4, with its fields and its coordinate system as a CF grid
  * mapping. */
 #include "io/layouts/netcdf_mesh.h"
+#include "io/mesh/face_fan.h"
 #include "io/netcdf/netcdf_output.h"
 
 #include <inttypes.h>
@@ -11,6 +12,8 @@
 
 /* Values that are written at a time. */
 enum { WRITE_BLOCK = 1 << 16 };
+/* Stands behind the corners of a face with fewer than the most. */
+enum { NO_CORNER = -1 };
 
 /* Numbers of dimensions and variables in the file. */
 typedef struct mesh_writing {
@@ -18,6 +21,7 @@ typedef struct mesh_writing {
     const mw_mesh_file *file;
     mw_job *job;
     uint64_t done, total; /* values */
+    size_t faces, width;  /* in the file: width 3 if all are triangles */
     int node, face, corner;
     int mesh, x, y, z, corners, crs;
     int *fields; /* those of the vertices, then those of the triangles */
@@ -69,8 +73,8 @@ static void write_define_mesh(mesh_writing *w)
 {
     mw_netcdf_output *output = w->output;
     w->node = mw__netcdf_output_dimension(output, "mesh2d_nNodes", w->file->point_count);
-    w->face = mw__netcdf_output_dimension(output, "mesh2d_nFaces", w->file->triangle_count);
-    w->corner = mw__netcdf_output_dimension(output, "mesh2d_nMax_face_nodes", 3);
+    w->face = mw__netcdf_output_dimension(output, "mesh2d_nFaces", w->faces);
+    w->corner = mw__netcdf_output_dimension(output, "mesh2d_nMax_face_nodes", w->width);
     w->mesh = mw__netcdf_output_variable(output, "mesh2d", MW_NETCDF_INT, 0, NULL);
     mw__netcdf_output_text(output, w->mesh, "cf_role", "mesh_topology");
     mw__netcdf_output_number(output, w->mesh, "topology_dimension", MW_NETCDF_INT, 2);
@@ -88,6 +92,9 @@ static void write_define_mesh(mesh_writing *w)
                                             wide ? MW_NETCDF_INT64 : MW_NETCDF_INT, 2,
                                             (int[]){w->face, w->corner});
     mw__netcdf_output_text(output, w->corners, "cf_role", "face_node_connectivity");
+    if (w->width > 3)
+        mw__netcdf_output_number(output, w->corners, "_FillValue",
+                                 wide ? MW_NETCDF_INT64 : MW_NETCDF_INT, NO_CORNER);
     mw__netcdf_output_number(output, w->corners, "start_index",
                              wide ? MW_NETCDF_INT64 : MW_NETCDF_INT, 0);
 }
@@ -173,7 +180,7 @@ static bool write_column(mesh_writing *w, int variable, const double *values, si
     return true;
 }
 
-static bool write_corners(mesh_writing *w)
+static bool write_triangles(mesh_writing *w)
 {
     for (size_t from = 0; from < w->file->triangle_count; from += WRITE_BLOCK) {
         size_t left = w->file->triangle_count - from;
@@ -181,6 +188,54 @@ static bool write_corners(mesh_writing *w)
         mw__netcdf_output_numbers(w->output, w->corners, starts, counts,
                                   w->file->triangles + 3 * from);
         if (!write_goes_on(w, 3 * counts[0])) return false;
+    }
+    return true;
+}
+
+static void write_face(const mesh_writing *w, size_t triangle, size_t corners, int64_t *row)
+{
+    for (size_t k = 0; k < w->width; k++)
+        row[k] = k < corners ? (int64_t)mw__face_corner(w->file, triangle, k) : NO_CORNER;
+}
+
+/* Faces, a row each; false also if there is no memory. */
+static bool write_polygons(mesh_writing *w)
+{
+    const size_t rows = w->width < WRITE_BLOCK ? WRITE_BLOCK / w->width : 1;
+    int64_t *block = mw__alloc(rows * w->width, sizeof *block);
+    bool on = block != NULL;
+    for (size_t from = 0, t = 0; from < w->faces && on; from += rows) {
+        const size_t n = w->faces - from < rows ? w->faces - from : rows;
+        for (size_t i = 0; i < n; i++) {
+            const size_t count = mw__face_triangles(w->file, t, SIZE_MAX);
+            write_face(w, t, count + 2, block + i * w->width);
+            t += count;
+        }
+        mw__netcdf_output_integers(w->output, w->corners, (size_t[]){from, 0},
+                                   (size_t[]){n, w->width}, block);
+        on = write_goes_on(w, n * w->width);
+    }
+    free(block);
+    return on;
+}
+
+static bool write_corners(mesh_writing *w)
+{
+    return w->width == 3 ? write_triangles(w) : write_polygons(w);
+}
+
+/* The value of a face is that of its first triangle. */
+static bool write_face_column(mesh_writing *w, int variable, const double *values)
+{
+    double block[WRITE_BLOCK / 64];
+    enum { ROOM = sizeof block / sizeof *block };
+    if (w->width == 3) return write_column(w, variable, values, w->faces, 1);
+    for (size_t from = 0, t = 0; from < w->faces; from += ROOM) {
+        size_t n = w->faces - from < ROOM ? w->faces - from : ROOM;
+        for (size_t i = 0; i < n; i++, t += mw__face_triangles(w->file, t, SIZE_MAX))
+            block[i] = values[t];
+        mw__netcdf_output_doubles(w->output, variable, &from, &n, block);
+        if (!write_goes_on(w, n)) return false;
     }
     return true;
 }
@@ -195,16 +250,29 @@ static bool write_values(mesh_writing *w)
     for (size_t i = 0; i < file->field_count && on; i++)
         on = write_column(w, w->fields[i], file->fields[i], file->point_count, 1);
     for (size_t i = 0; i < file->triangle_field_count && on; i++)
-        on = write_column(w, w->fields[file->field_count + i], file->triangle_fields[i],
-                          file->triangle_count, 1);
+        on = write_face_column(w, w->fields[file->field_count + i], file->triangle_fields[i]);
     return on || mw__netcdf_output_failed(w->output);
+}
+
+static void write_measure(mesh_writing *w)
+{
+    const mw_mesh_file *file = w->file;
+    const uint64_t fields = file->field_count;
+    size_t count;
+    w->width = 3;
+    for (size_t t = 0; t < file->triangle_count; t += count, w->faces++) {
+        count = mw__face_triangles(file, t, SIZE_MAX);
+        if (count + 2 > w->width) w->width = count + 2;
+    }
+    w->total = (3 + fields) * file->point_count +
+               (w->width + (uint64_t)file->triangle_field_count) * w->faces;
 }
 
 mw_status mw__write_netcdf(const char *path, const mw_mesh_file *file, mw_job *job, mw_error *error)
 {
     size_t fields = file->field_count + file->triangle_field_count;
     mesh_writing w = {.file = file, .job = job};
-    w.total = (3 + (uint64_t)fields) * file->point_count + 3 * (uint64_t)file->triangle_count;
+    write_measure(&w);
     w.fields = mw__alloc(fields, sizeof *w.fields);
     if (!w.fields) return mw__fail_memory(error);
     mw_status status = mw__netcdf_output_open(path, &w.output, error);
@@ -216,7 +284,7 @@ mw_status mw__write_netcdf(const char *path, const mw_mesh_file *file, mw_job *j
         mw__netcdf_output_defined(w.output);
         bool on = write_values(&w);
         status = mw__netcdf_output_close(w.output, on, error);
-        if (!status && !on) status = MW_ERROR_MEMORY; /* cancelled */
+        if (!status && !on) status = mw__fail_memory(error); /* or cancelled */
     }
     free(w.fields);
     return status;

@@ -15,11 +15,11 @@
 
 #include "base/base.h"
 
-/* Cut a face of at least three corners; `triangles` receives three vertices for each of
- * count - 2 triangles, which turn as the face does. `points` holds x, y, z of every vertex.
- * Returns false if the face cannot be cut so, as it is not convex. A face without area, or with
- * coordinates that are not finite, is cut as a fan: what is wrong with it is seen in its
- * triangles. */
+/* Cut a face of at least three corners; `triangles` receives three vertices for each of count - 2
+ * triangles, which turn as the face does. `points` holds x, y, z of every vertex. Returns false if
+ * the face is not convex, so that it cannot be cut in this way. A face without area, or with
+ * coordinates that are not finite, is cut as a fan; later checks find the defect in its triangles.
+ */
 bool mw__face_cut(const double *points, const uint32_t *corners, size_t count, uint32_t *triangles);
 
 #endif

@@ -1,10 +1,10 @@
 /* mesh_builder.h - a mesh_file that grows while a reader reads. Private.
  *
- * Nothing is allocated by what a file announces, only by what it holds. A reader adds points,
- * and values of fields for the point added last, and faces corner by corner. Vertex numbers are
- * checked at once where all points are known, else in the end, with the position of the face.
- * Faces with more than three corners are cut into triangles (face_cut.h) as soon as all their
- * corners are known, at the latest in the end. */
+ * Memory is allocated for what a file holds, not for what it announces. A reader adds points,
+ * values of fields for the point added last, and faces, corner by corner. Vertex numbers are
+ * checked at once if all points are known, else at the end, with the position of the face. Faces
+ * with more than three corners are cut into triangles (face_cut.h) as soon as all their corners are
+ * known, at the latest at the end. */
 #ifndef MW_SRC_IO_MESH_MESH_BUILDER_H
 #define MW_SRC_IO_MESH_MESH_BUILDER_H
 
@@ -45,9 +45,9 @@ mw_status mw__build_point_text(mw_mesh_builder *builder, const char *text, mw_er
 mw_status mw__read_xyz(const mw_source *source, const char *text, double xyz[3], mw_error *error);
 void mw__build_value(mw_mesh_builder *builder, size_t field, double value);
 
-/* A face: start, its corners as the file numbers them, end. Fewer than three corners are an
- * error, and so is a face that is not convex. Where a corner is named several times in a row, the
- * face has it once; triangles are taken as they are. */
+/* Add a face: begin it, add its corners as the file numbers them, end it. Fewer than three corners
+ * are an error, and so is a face that is not convex. If a corner is named several times in a row,
+ * the face gets it once, but a face of three corners is taken as it is. */
 void mw__build_face(mw_mesh_builder *builder);
 mw_status mw__build_corner(mw_mesh_builder *builder, int64_t number, mw_error *error);
 mw_status mw__build_face_end(mw_mesh_builder *builder, mw_error *error);

@@ -26,9 +26,9 @@ mw_status mw__write_file(const char *path, const mw_mesh_file *file, mw_write_bo
 void mw__output_points(mw_output *output, const mw_mesh_file *file);
 void mw__output_triangles(mw_output *output, const mw_mesh_file *file);
 
-/* The name of a field as one word that no other field of the file has, nor x, y, z: what is no
- * letter, digit or byte of UTF-8 becomes '_', and the number of the field follows where that
- * gives a word already taken. */
+/* Make the name of a field one word that differs from x, y, z and from the words of all other
+ * fields. A byte that is neither a letter, a digit nor part of a UTF-8 character becomes '_'. If
+ * the word is taken, the number of the field is appended. */
 void mw__output_field_name(mw_output *output, const mw_mesh_file *file, size_t field);
 
 /* About how many bytes a mesh takes as text, for the steps of a job. */

@@ -1,7 +1,7 @@
 /* Triangle's .node and .ele: "count 2 attributes markers", then "number x y attributes marker" a
- * line, and "count 3 attributes", then "number a b c ..." a line. Numbering starts with 0 or 1,
- * as the first vertex says. Markers and attributes of triangles are passed over; of six corners
- * the first three count.
+ * line, and "count 3 attributes", then "number a b c ..." a line. Numbering starts with 0 or 1: the
+ * number of the first vertex decides. Markers and attributes of triangles are skipped; of six
+ * corners the first three are read.
  *
  * The format has no names for attributes and no heights. A comment "# attributes: z, depth" on
  * top, which other programs skip, names them here, and an attribute called z is taken as the

@@ -1,6 +1,7 @@
 #include "io/netcdf/netcdf_file.h"
 
 #include "io/netcdf/netcdf_library.h"
+#include "io/netcdf/rehearsal.h"
 #include "io/text/byte_source.h"
 #include "io/text/system_error.h"
 
@@ -135,56 +136,6 @@ static mw_status netcdf_file_start(const char *name, mw_netcdf **out, mw_error *
     file->name = copy;
     *out = file;
     return MW_OK;
-}
-
-static mw_status netcdf_file_finish(mw_netcdf **out, int code, mw_error *error)
-{
-    mw_netcdf *file = *out;
-    file->open = code == 0;
-    mw_status status =
-        code ? netcdf_file_refuse(file, NULL, code, error) : netcdf_file_inquire(file, error);
-    mw__netcdf_unlock();
-    if (!status) return MW_OK;
-    mw__netcdf_close(file);
-    *out = NULL;
-    return status;
-}
-
-/* libnetcdf takes a name such as http://... for the address of a server. */
-static char *netcdf_file_plain_path(const char *path)
-{
-    size_t length = strlen(path) + 3;
-    char *plain = mw__alloc(length, 1);
-    if (plain) snprintf(plain, length, "%s%s", path[0] == '/' ? "" : "./", path);
-    return plain;
-}
-
-mw_status mw__netcdf_open(const char *path, mw_netcdf **out, mw_error *error)
-{
-    char *plain = netcdf_file_plain_path(path);
-    if (!plain) return mw__fail_memory(error);
-    struct stat info;
-    mw_status status = netcdf_file_start(path, out, error);
-    if (!status) {
-        (*out)->size = stat(path, &info) == 0 ? (uint64_t)info.st_size : 0;
-        mw__netcdf_lock(&(*out)->nc);
-        int code = (*out)->nc.nc_open(plain, NETCDF_READ, &(*out)->id);
-        status = netcdf_file_finish(out, code, error);
-    }
-    free(plain);
-    return status;
-}
-
-mw_status mw__netcdf_open_memory(const char *name, void *bytes, size_t size, mw_netcdf **out,
-                                 mw_error *error)
-{
-    mw_status status = netcdf_file_start(name, out, error);
-    if (status) return status;
-    (*out)->size = size;
-    (*out)->in_memory = true;
-    mw__netcdf_lock(&(*out)->nc);
-    int code = (*out)->nc.nc_open_mem("memory", NETCDF_READ, size, bytes, &(*out)->id);
-    return netcdf_file_finish(out, code, error);
 }
 
 void mw__netcdf_close(mw_netcdf *file)
@@ -370,4 +321,158 @@ mw_status mw__netcdf_characters(const mw_netcdf *file, const mw_netcdf_variable 
     mw_status status = code ? netcdf_file_refuse(file, variable, code, error) : MW_OK;
     mw__netcdf_unlock();
     return status;
+}
+
+/* --- opening ---------------------------------------------------------------------------------- */
+
+/* Where the contents are: a path, or `size` bytes in memory. */
+typedef struct netcdf_opening {
+    mw_netcdf *file;
+    const char *path;
+    void *bytes;
+    size_t size;
+} netcdf_opening;
+
+/* The caller holds the lock. */
+static int netcdf_opening_open(const netcdf_opening *o)
+{
+    mw_netcdf *file = o->file;
+    return o->path ? file->nc.nc_open(o->path, NETCDF_READ, &file->id)
+                   : file->nc.nc_open_mem("memory", NETCDF_READ, o->size, o->bytes, &file->id);
+}
+
+/* Look at all attributes of a variable, or of the file. */
+static void netcdf_rehearse_attributes(const mw_netcdf *file, const mw_netcdf_variable *variable)
+{
+    int count = 0;
+    char name[MW_NETCDF_NAME];
+    const int id = netcdf_file_id(variable);
+    if (variable)
+        file->nc.nc_inq_var(file->id, id, NULL, NULL, NULL, NULL, &count);
+    else
+        file->nc.nc_inq(file->id, NULL, NULL, &count, NULL);
+    for (int k = 0; k < count; k++) {
+        char *text;
+        double number;
+        if (file->nc.nc_inq_attname(file->id, id, k, name)) continue;
+        if (mw__netcdf_text(file, variable, name, &text, NULL) == MW_OK) free(text);
+        mw__netcdf_number(file, variable, name, &number);
+    }
+}
+
+/* Read a variable of few values. */
+static void netcdf_rehearse_values(const mw_netcdf *file, const mw_netcdf_variable *variable)
+{
+    enum { FEW = 1 << 12 };
+    double values[FEW];
+    size_t count = 1, starts[MW_NETCDF_RANK] = {0};
+    if (variable->rank > MW_NETCDF_RANK) return;
+    for (size_t k = 0; k < variable->rank; k++)
+        count = variable->lengths[k] > FEW ? FEW + 1 : count * variable->lengths[k];
+    if (count > 0 && count <= FEW)
+        mw__netcdf_doubles(file, variable, starts, variable->lengths, values, NULL);
+}
+
+/* In a child, which has inherited the lock: do all that is done with a file before its values are
+ * read, and read the short ones. */
+static void netcdf_rehearse(void *work)
+{
+    const netcdf_opening *o = work;
+    mw_netcdf *file = o->file;
+    if (netcdf_opening_open(o) == 0 && netcdf_file_inquire(file, NULL) == MW_OK) {
+        mw__netcdf_unlock();
+        netcdf_rehearse_attributes(file, NULL);
+        for (size_t i = 0; i < file->variable_count; i++) {
+            netcdf_rehearse_attributes(file, &file->variables[i]);
+            netcdf_rehearse_values(file, &file->variables[i]);
+        }
+        mw__netcdf_lock(&file->nc);
+    }
+}
+
+/* HDF5 falls over damaged files, in which it follows addresses and counts. So a child falls over
+ * them first. Where no child can be made, the file is opened all the same. */
+static bool netcdf_opening_is_safe(const netcdf_opening *o)
+{
+    mw_rehearsal rehearsal;
+    mw__netcdf_lock(&o->file->nc); /* no other thread is in HDF5 while a child begins */
+    const bool begun = mw__rehearsal_begin(&rehearsal, netcdf_rehearse, (void *)o);
+    mw__netcdf_unlock();
+    return !begun || mw__rehearsal_end(&rehearsal);
+}
+
+static mw_status netcdf_file_finish(mw_netcdf *file, int code, mw_error *error)
+{
+    file->open = code == 0;
+    return code ? netcdf_file_refuse(file, NULL, code, error) : netcdf_file_inquire(file, error);
+}
+
+/* Open a file that has been started; it is closed if that fails. */
+static mw_status netcdf_opening_run(const netcdf_opening *o, bool hdf5, mw_netcdf **out,
+                                    mw_error *error)
+{
+    mw_status status = MW_OK;
+    if (hdf5 && !netcdf_opening_is_safe(o))
+        status = mw__netcdf_fail(o->file, NULL, error,
+                                 "the file is damaged: HDF5 does not come to an end with it");
+    if (!status) {
+        mw__netcdf_lock(&o->file->nc);
+        status = netcdf_file_finish(o->file, netcdf_opening_open(o), error);
+        mw__netcdf_unlock();
+    }
+    if (!status) return MW_OK;
+    mw__netcdf_close(o->file);
+    *out = NULL;
+    return status;
+}
+
+static bool netcdf_head_is_hdf5(const char *head, size_t size)
+{
+    return mw__netcdf_begins(head, size) && head[0] != 'C';
+}
+
+/* False also if it cannot be read: opening it tells why. */
+static bool netcdf_path_is_hdf5(const char *path)
+{
+    char head[8];
+    FILE *file = fopen(path, "rbe");
+    if (!file) return false;
+    const size_t size = fread(head, 1, sizeof head, file);
+    fclose(file);
+    return netcdf_head_is_hdf5(head, size);
+}
+
+/* libnetcdf takes a name such as http://... for the address of a server. */
+static char *netcdf_file_plain_path(const char *path)
+{
+    size_t length = strlen(path) + 3;
+    char *plain = mw__alloc(length, 1);
+    if (plain) snprintf(plain, length, "%s%s", path[0] == '/' ? "" : "./", path);
+    return plain;
+}
+
+mw_status mw__netcdf_open(const char *path, mw_netcdf **out, mw_error *error)
+{
+    char *plain = netcdf_file_plain_path(path);
+    if (!plain) return mw__fail_memory(error);
+    struct stat info;
+    mw_status status = netcdf_file_start(path, out, error);
+    if (!status) {
+        (*out)->size = stat(path, &info) == 0 ? (uint64_t)info.st_size : 0;
+        status = netcdf_opening_run(&(netcdf_opening){.file = *out, .path = plain},
+                                    netcdf_path_is_hdf5(path), out, error);
+    }
+    free(plain);
+    return status;
+}
+
+mw_status mw__netcdf_open_memory(const char *name, void *bytes, size_t size, mw_netcdf **out,
+                                 mw_error *error)
+{
+    mw_status status = netcdf_file_start(name, out, error);
+    if (status) return status;
+    (*out)->size = size;
+    (*out)->in_memory = true;
+    return netcdf_opening_run(&(netcdf_opening){.file = *out, .bytes = bytes, .size = size},
+                              netcdf_head_is_hdf5(bytes, size), out, error);
 }

@@ -1,8 +1,8 @@
 /* netcdf_file.h - netCDF files: what is in them, values, and files that are written. Private.
  *
- * Classic netCDF and netCDF-4 are read. Everything here may be called by several threads, of
- * which one at a time is served; one file is used by one thread at a time. Errors of reading
- * begin "FILE: " or "FILE: variable NAME: ". */
+ * Classic netCDF and netCDF-4 are read. Several threads may call these functions; one at a time is
+ * served. A file may be used by one thread at a time. Errors of reading begin "FILE: " or "FILE:
+ * variable NAME: ". */
 #ifndef MW_SRC_IO_NETCDF_NETCDF_FILE_H
 #define MW_SRC_IO_NETCDF_NETCDF_FILE_H
 
@@ -82,9 +82,10 @@ mw_status mw__netcdf_text(const mw_netcdf *file, const mw_netcdf_variable *varia
 bool mw__netcdf_number(const mw_netcdf *file, const mw_netcdf_variable *variable,
                        const char *attribute, double *value);
 
-/* Values of the block of `counts` values a dimension that begins at `starts`, the last dimension
- * fastest. As stored: no missing values, no scale. Texts are refused. Numbers beyond 64 bits are
- * refused as integers; fractions are cut off. */
+/* Read the block that begins at `starts` and has `counts` values along each dimension; the last
+ * dimension varies fastest. Values are returned as stored: missing values and scale factors are not
+ * applied. Texts are refused. As integers, numbers beyond 64 bits are refused, and fractions are
+ * cut off. */
 mw_status mw__netcdf_doubles(const mw_netcdf *file, const mw_netcdf_variable *variable,
                              const size_t *starts, const size_t *counts, double *values,
                              mw_error *error);

@@ -6,8 +6,8 @@
  *
  * Neither libnetcdf nor HDF5 may be called by two threads at a time, whatever the files. So every
  * call stands between mw__netcdf_lock and mw__netcdf_unlock, which hold one lock of the process:
- * the only variable that all calls of this library share. Whoever calls libnetcdf beside this
- * library from another thread has to keep apart from it. */
+ * the only variable that all calls of this library share. A program that calls libnetcdf itself
+ * must not do so while another thread is in this library. */
 #ifndef MW_SRC_IO_NETCDF_NETCDF_LIBRARY_H
 #define MW_SRC_IO_NETCDF_NETCDF_LIBRARY_H
 

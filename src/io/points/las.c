@@ -1,10 +1,10 @@
 /* Points from LAS 1.0 to 1.4, point formats 0 to 10, as published by the ASPRS. LAZ, the
  * compressed form, is refused.
  *
- * The number of points that the header gives is where reading stops; where the data end before,
- * that is an error. Of the variable length records before the points, and in 1.4 behind them, those
- * are read that tell the coordinate system; what else stands in the file (other records, waveforms)
- * is passed over. */
+ * Reading stops after the number of points that the header gives; it is an error if the data end
+ * before. The variable length records before the points, and in 1.4 also those after them, are
+ * searched for the coordinate system. Everything else in the file (other records, waveforms) is
+ * skipped. */
 #include "io/points/las.h"
 
 #include "io/points/las_trailer.h"

@@ -10,9 +10,9 @@ typedef struct mw_las_trailer {
     uint32_t count; /* of the records; not trusted */
 } mw_las_trailer;
 
-/* Find the coordinate system among the extended variable length records of a file, which is opened
- * anew, so it may be packed but no pipe. *wkt is released by the caller with free(); NULL: there
- * is none, or the file ends before. */
+/* Find the coordinate system among the extended variable length records of a file. The file is
+ * opened a second time, so it may be compressed, but it cannot be a pipe. The caller releases *wkt
+ * with free(); it is NULL if there is none, or if the file ends before. */
 mw_status mw__las_trailer_wkt(const char *path, mw_las_trailer trailer, char **wkt,
                               mw_error *error);
 

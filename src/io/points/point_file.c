@@ -18,7 +18,7 @@ static mw_status selection_check(const char *columns, mw_error *error)
             return mw__fail(error, MW_ERROR_ARGUMENT, "columns '%.60s': an empty name", columns);
     if (count < 2 || count > MW_COLUMN_LIMIT)
         return mw__fail(error, MW_ERROR_ARGUMENT,
-                        "columns '%.60s': two are needed at least, x and y", columns);
+                        "columns '%.60s': at least two are needed, x and y", columns);
     return MW_OK;
 }
 
@@ -143,7 +143,7 @@ mw_status mw_point_reader_select(mw_point_reader *reader, const size_t *columns,
         return mw__fail(error, MW_ERROR_ARGUMENT, "mw_point_reader_select: %s",
                         !reader->table  ? "the reader does not keep its table"
                         : reader->begun ? "reading has begun"
-                                        : "two columns are needed at least");
+                                        : "at least two columns are needed");
     for (size_t k = 0; k < count; k++) {
         if (columns[k] >= reader->header.count)
             return mw__fail(error, MW_ERROR_ARGUMENT, "mw_point_reader_select: no column %zu",

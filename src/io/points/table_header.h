@@ -15,9 +15,8 @@ typedef struct mw_table_header {
 } mw_table_header;
 
 /* Look at the header, if there is one, and at the first row of data, which stays unread. A header
- * is a row without numbers, or one with names of coordinates.
- * `header` is all zero but for `expected`; a table without rows leaves it so. Release it in any
- * case. */
+ * is a row without numbers, or one with names of coordinates. At first `header` is all zero, except
+ * for `expected`; a table without rows leaves it so. Release it in any case. */
 mw_status mw__table_header_detect(mw_source *source, mw_table_header *header, char *separator,
                                   mw_error *error);
 /* The same for the vertices of Triangle's .node, a table separated by blanks, whose first row
@@ -29,9 +28,9 @@ mw_status mw__table_header_of_node(mw_source *source, mw_table_header *header, m
 mw_status mw__table_header_commas(mw_table_header *header, char separator, mw_error *error);
 void mw__table_header_release(mw_table_header *header);
 
-/* The next row: neither empty nor a comment; NULL at the end. It has several lines where a quoted
- * cell has. The separator may be 0: not known yet. A line that begins with # is a row if it has so
- * many `columns`, and blanks do not separate them; 0: it is a comment. */
+/* The next row: neither empty nor a comment; NULL at the end. A row may have several lines, if a
+ * quoted cell has. Separator 0: not known yet. A line that begins with # is a row only if it has
+ * `columns` cells that are not separated by blanks; with `columns` 0 it is always a comment. */
 mw_status mw__table_row(mw_source *source, char separator, size_t columns, char **row,
                         mw_error *error);
 

@@ -1,9 +1,10 @@
 /* Values over time of ADCIRC as text: fort.63 (water levels), fort.64 (velocities), fort.73 and
- * fort.74 (pressure and wind), and the largest of them, maxele.63 and others. A line of the run; a
- * line with the numbers of times and vertices and of values for each, fourth and fifth; and for
- * each time a line "time step", with two further numbers if only some vertices follow, the others
- * having the last one; then a line "vertex value (value)" for each. -99999 is no value. Fields have
- * the names that ADCIRC gives them in netCDF. */
+ * fort.74 (pressure and wind), and the largest of them, maxele.63 and others. The file begins with
+ * a line that describes the run, and a line of five numbers: the first is the number of times, the
+ * second that of vertices, the fifth that of values at each vertex. For each time there is a line
+ * "time step", then a line "vertex value (value)" for each vertex. If only some vertices follow,
+ * the line of the time has two more numbers: how many follow, and the value of all others. -99999
+ * means that there is no value. Fields have the names that ADCIRC gives them in netCDF. */
 #include "io/series/step_series.h"
 #include "io/text/counted_rows.h"
 
@@ -91,8 +92,9 @@ static mw_status adcirc_start(void *state, mw_source *source, const mw_series_op
     if (!status && ended) status = mw__source_fail(source, error, "the file ends in its header");
     if (!status) status = mw__row_integer(&row, "number of times", &ignored, error);
     if (!status) status = mw__row_integer(&row, "number of vertices", &a->vertices, error);
-    if (!status) status = mw__row_double(&row, "time between two", &step, error);
-    if (!status) status = mw__row_integer(&row, "steps between two", &ignored, error);
+    if (!status) status = mw__row_double(&row, "time between outputs", &step, error);
+    if (!status)
+        status = mw__row_integer(&row, "number of time steps between outputs", &ignored, error);
     if (!status) status = mw__row_integer(&row, "count of values", &a->width, error);
     if (!status && (a->vertices < 1 || a->width < 1 || a->width > 2))
         status = mw__source_fail(source, error, "%" PRId64 " values at %" PRId64 " vertices",
@@ -140,7 +142,7 @@ static mw_status adcirc_step(void *state, double *time, bool *ended, double *val
     if (!status) status = mw__row_integer(&row, "number of the step", &number, error);
     if (!status && !mw__row_ends(&row)) {
         status = mw__row_integer(&row, "count of vertices", &count, error);
-        if (!status) status = mw__row_double(&row, "value of the others", &other, error);
+        if (!status) status = mw__row_double(&row, "value of the other vertices", &other, error);
         if (!status && (count < 0 || count > a->vertices))
             status = mw__source_fail(a->source, error, "%" PRId64 " vertices of %" PRId64, count,
                                      a->vertices);

@@ -183,7 +183,7 @@ static mw_status series_check(const char *path, const mw_point_series_layout *la
     if (!path || !layout || (layout->point_count && !layout->positions) || !layout->times ||
         (layout->field_count && !layout->names))
         return mw__fail(error, MW_ERROR_ARGUMENT,
-                        "a series of points needs a path, positions, times and names");
+                        "the path, the positions, the times or the names are NULL");
     return MW_OK;
 }
 

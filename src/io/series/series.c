@@ -83,9 +83,10 @@ static mw_status series_join_times(mw_series *series, const char *const *paths, 
     for (size_t p = 0; p < series->part_count; p++) {
         const mw_series_part *part = &series->parts[p];
         if (at > 0 && part->step_count > 0 && !(part->times[0] > series->times[at - 1]))
-            return mw__fail(error, MW_ERROR_INPUT,
-                            "%.240s: its first time, %g, is not behind that of the file before, %g",
-                            paths[p], part->times[0], series->times[at - 1]);
+            return mw__fail(
+                error, MW_ERROR_INPUT,
+                "%.240s: its first time, %g, is not later than the last one of the file before, %g",
+                paths[p], part->times[0], series->times[at - 1]);
         for (size_t s = 0; s < part->step_count; s++) series->times[at++] = part->times[s];
     }
     series->info.step_count = count;

@@ -1,7 +1,8 @@
 /* Values over time of SMS beside a 2DM mesh: .dat as text (cards DATASET, BEGSCL or BEGVEC, ND, NC,
  * NAME, RT_JULIAN, TIMEUNITS, and for each time TS, perhaps a line for each element that tells
- * whether it is active, and the values) and as bytes (the same as numbers of cards). One dataset;
- * it is of the faces if the name of the file holds "_els". A vector is two fields. */
+ * whether it is active, and the values) and as bytes (the same as numbers of cards). A file has one
+ * dataset; its values belong to the faces if the name of the file contains "_els". A vector becomes
+ * two fields. */
 #include "io/grid/value_source.h"
 #include "io/series/step_series.h"
 #include "io/text/number_text.h"
@@ -142,7 +143,7 @@ static mw_status sms_read_byte_card(sms_data *d, int *card, mw_error *error)
         return mw__value_double(&d->values, (mw_number_type){MW_NUMBER_FLOAT, 8}, "Julian date",
                                 &d->julian, error);
     if (number < SMS_OBJECT || number > SMS_TIME_UNIT || number % 10)
-        return mw__source_fail(sms_source(d), error, "%" PRId64 " is not the number of a card",
+        return mw__source_fail(sms_source(d), error, "%" PRId64 " is not a known card number",
                                number);
     status = mw__value_integer(&d->values, sms_int, "value of a card", &value, error);
     if (number == SMS_VERTICES) d->vertices = value;
@@ -183,7 +184,8 @@ static mw_status sms_read_header(sms_data *d, mw_error *error)
                                    d->width, sms_count(d), d->on_faces ? "elements" : "vertices");
         if (d->faces < 0 || (d->real_size != 4 && d->real_size != 8) ||
             (d->flag_size != 1 && d->flag_size != 4))
-            return mw__source_fail(sms_source(d), error, "the sizes of numbers are not known");
+            return mw__source_fail(sms_source(d), error,
+                                   "the sizes of numbers are missing or not supported");
         return MW_OK;
     }
 }

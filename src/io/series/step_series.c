@@ -30,7 +30,7 @@ static mw_status step_series_add_time(mw_series_part *part, size_t *room, double
 {
     size_t count = part->step_count;
     if (!isfinite(time) || (count > 0 && !(time > part->times[count - 1])))
-        return mw__source_fail(source, error, "time %g is not behind the one before", time);
+        return mw__source_fail(source, error, "time %g is not later than the one before", time);
     if (count == *room) {
         size_t larger = count < 16 ? 16 : count + count / 2;
         double *times = mw__realloc(part->times, larger, sizeof *times);
@@ -124,7 +124,8 @@ static mw_status step_series_go_to(step_content *c, size_t step, mw_error *error
         bool ended = false, last = c->next == step;
         status = c->format->step(c->state, &time, &ended, last ? c->values : NULL, error);
         if (!status && ended)
-            status = mw__source_fail(&c->source, error, "the file has become shorter");
+            status =
+                mw__source_fail(&c->source, error, "the file is shorter than when it was opened");
         if (!status) c->next++;
         if (!status && last) c->cached = step;
         if (last) break;

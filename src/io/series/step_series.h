@@ -1,9 +1,9 @@
-/* step_series.h - kinds of series whose files can only be read from their beginning on: a header,
- * and steps one behind the other. Private.
+/* step_series.h - kinds of series whose files can only be read from the beginning: a header, then
+ * one step after the other. Private.
  *
- * A file is read once when it is opened, for its times. Later it stays open behind the step that
- * was read last, of which all fields are kept; an earlier step begins it anew. So steps that are
- * read in their order take one more pass, whatever the number of fields. */
+ * A file is read once when it is opened, for its times. Afterwards it stays open after the step
+ * that was read last, and all fields of that step are kept. To read an earlier step, reading begins
+ * anew. So reading all steps in order takes one more pass, whatever the number of fields. */
 #ifndef MW_SRC_IO_SERIES_STEP_SERIES_H
 #define MW_SRC_IO_SERIES_STEP_SERIES_H
 

@@ -1,7 +1,8 @@
 /* descriptor.h - files are opened beyond the standard streams. Private.
  *
- * Where a program was started with a standard stream closed, open() would give its number to the
- * next file: what is meant for the stream would go into that file, or come from it. */
+ * If a program was started with a standard stream closed, open() would give the number of that
+ * stream to the next file. What is meant for the stream would then be written to that file, or be
+ * read from it. */
 #ifndef MW_SRC_IO_TEXT_DESCRIPTOR_H
 #define MW_SRC_IO_TEXT_DESCRIPTOR_H
 

@@ -2,7 +2,7 @@
  *   - by one multiplication or division where w < 2^53 and |e| <= 22, both then being exact
  *     doubles [Clinger 1990],
  *   - by one multiplication or division of integers where w < 2^64 and |e| <= 27,
- *   - by strtod_l in the "C" locale else. */
+ *   - otherwise by strtod_l in the "C" locale. */
 #define _GNU_SOURCE /* strtod_l */
 #include "io/text/number_text.h"
 

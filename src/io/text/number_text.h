@@ -1,7 +1,7 @@
 /* number_text.h - numbers as text, read and written the same whatever the locale says. Private.
  *
- * Both directions are correctly rounded. The usual cases are decided in doubles or in 128-bit
- * integers; the C library is asked for the rest (very long, very large or very small numbers). */
+ * Both directions are correctly rounded. The usual cases are computed in doubles or in 128-bit
+ * integers; the C library computes the rest (very long, very large or very small numbers). */
 #ifndef MW_SRC_IO_TEXT_NUMBER_TEXT_H
 #define MW_SRC_IO_TEXT_NUMBER_TEXT_H
 
@@ -15,8 +15,8 @@
 double mw__decimal(uint64_t digits, int exponent);
 
 /* Read a number at `p`, which a NUL ends: [+-] digits [. digits] [e|E|d|D [+-] digits], "nan",
- * "inf", "infinity" (any case). Returns what follows it, or NULL if there is none; the caller
- * looks whether a separator follows. Numbers beyond the range of doubles become infinite or
+ * "inf", "infinity" (any case). Returns what follows the number, or NULL if there is no number; the
+ * caller checks that a separator follows. Numbers beyond the range of doubles become infinite or
  * zero; numbers of more than 1000 characters are refused. */
 const char *mw__read_double(const char *p, double *value);
 

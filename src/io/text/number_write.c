@@ -51,9 +51,9 @@ static decimal_digits decimal_tidy(uint64_t digits, int exponent, int precision)
     return d;
 }
 
-/* Most numbers in files have at most 15 digits: find them with one multiplication or division
- * and prove them with another. If n < 10^15 and n / 10^k rounds to v, then n is the one 15-digit
- * decimal of v; nothing is lost if n is off. */
+/* Most numbers in files have at most 15 digits: find them with one multiplication or division and
+ * prove them with another. If n < 10^15 and n / 10^k rounds to v, then n has the digits of the one
+ * 15-digit decimal of v. If the guess n is wrong, the proof fails and the slower way is taken. */
 static bool decimal_of_15_digits(double v, int exponent, decimal_digits *d)
 {
     int k = 14 - exponent;

@@ -1,11 +1,11 @@
 /* A file that appears under its name only when it is complete.
  *
- * Where the system can make a file without a name (O_TMPFILE), the data go there, and the file
- * is linked to its name in the end: an interrupted program leaves nothing. Else they go to
- * ".NAME.xxxxxxxx" in the same directory, which is renamed. A file that exists is replaced in
- * one step by rename, and its permissions are kept. Symbolic links are followed, also one to a
- * file that does not exist yet: links stay. What is no regular file (a pipe, a terminal,
- * /dev/null) is written directly. */
+ * If the system can make a file without a name (O_TMPFILE), the data go there, and at the end the
+ * file is linked to its name: an interrupted program leaves nothing behind. Otherwise they go to
+ * ".NAME.xxxxxxxx" in the same directory, which is renamed at the end. A file that exists is
+ * replaced in one step by rename, and its permissions are kept. Symbolic links are followed and
+ * stay, also one to a file that does not exist yet. An output that is not a regular file (a pipe, a
+ * terminal, /dev/null) is written directly. */
 #define _GNU_SOURCE /* O_TMPFILE */
 #include "io/text/output.h"
 #include "base/random.h"

@@ -1,7 +1,9 @@
 /* esmf_read.c - weights in the layout of ESMF's weight files, whoever wrote them. */
-#include "base/job.h"
+#include "io/weights/esmf_read.h"
+
 #include "base/options.h"
-#include "io/netcdf/netcdf_file.h"
+#include "io/netcdf/netcdf_source.h"
+#include "io/netcdf/netcdf_values.h"
 
 #include <meshwalk/weights.h>
 #include <stdlib.h>
@@ -9,7 +11,7 @@
 enum { BLOCK = 1 << 16 }; /* numbers that are read at a time */
 
 typedef struct esmf_reading {
-    mw_netcdf *file;
+    const mw_netcdf *file;
     const mw_netcdf_variable *row, *column, *weight;
     mw_operator_entries entries;
     uint32_t *rows, *columns;
@@ -17,9 +19,11 @@ typedef struct esmf_reading {
     mw_job *job;
 } esmf_reading;
 
-/* The length of a dimension that has to be there. */
+/* The length of a dimension that has to be there. No variable need be of that length: where a file
+ * tells more than it can be about, it is damaged, and memory for so many rows is not asked for. */
 static mw_status esmf_size(const esmf_reading *r, const char *name, uint32_t *size, mw_error *error)
 {
+    const uint64_t most = 1024 * (mw__netcdf_file_size(r->file) + 1024);
     size_t length;
     if (mw__netcdf_dimension_find(r->file, name, &length) < 0)
         return mw__netcdf_fail(r->file, NULL, error,
@@ -31,6 +35,10 @@ static mw_status esmf_size(const esmf_reading *r, const char *name, uint32_t *si
                         "%.240s: dimension %s has %zu members; it may have "
                         "%u",
                         mw__netcdf_name(r->file), name, length, MW_NONE - 1);
+    if (length > most)
+        return mw__netcdf_fail(r->file, NULL, error,
+                               "dimension %s has %zu members, more than a file of this size has",
+                               name, length);
     *size = (uint32_t)length;
     return MW_OK;
 }
@@ -69,6 +77,9 @@ static mw_status esmf_open(esmf_reading *r, mw_error *error)
     if (!status) status = esmf_find(r, "row", &r->row, error);
     if (!status) status = esmf_find(r, "col", &r->column, error);
     if (!status) status = esmf_find(r, "S", &r->weight, error);
+    if (!status) status = mw__netcdf_check_size(r->file, r->row, error);
+    if (!status) status = mw__netcdf_check_size(r->file, r->column, error);
+    if (!status) status = mw__netcdf_check_size(r->file, r->weight, error);
     return status ? status : esmf_find_base(r, error);
 }
 
@@ -129,27 +140,37 @@ static mw_status esmf_make(const esmf_reading *r, mw_operator **out, mw_error *e
     return mw__fail(error, status, "%.200s: %.200s", mw__netcdf_name(r->file), inner.message);
 }
 
+mw_status mw__esmf_read(const mw_netcdf *file, mw_job *job, mw_operator **out, mw_error *error)
+{
+    esmf_reading r = {.file = file, .job = job};
+    *out = NULL;
+    mw_status status = esmf_open(&r, error);
+    if (!status) status = esmf_read_entries(&r, error);
+    if (!status) status = esmf_make(&r, out, error);
+    free(r.rows);
+    free(r.columns);
+    free(r.weights);
+    return status;
+}
+
 mw_status mw_read_weights(const char *path, const mw_file_options *options, mw_operator **out,
                           mw_error *error)
 {
     static const mw_file_options plain;
+    mw_netcdf *file;
+    void *memory;
     if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "the pointer to the new operator is NULL");
     *out = NULL;
     if (!options) options = &plain;
-    if (!path) return mw__fail(error, MW_ERROR_ARGUMENT, "there is no path of a file of weights");
+    if (!path) return mw__fail(error, MW_ERROR_ARGUMENT, "the path of the file of weights is NULL");
     mw_status status = MW_RESERVED_CHECK(mw_file_options, options, error);
     if (status) return status;
     mw_job job = mw__job(1, options->progress);
-    esmf_reading r = {.job = &job};
     mw__job_stage(&job, "reading weights", 1);
-    status = mw__netcdf_open(path, &r.file, error);
-    if (!status) status = esmf_open(&r, error);
-    if (!status) status = esmf_read_entries(&r, error);
-    if (!status) status = esmf_make(&r, out, error);
-    mw__netcdf_close(r.file);
-    free(r.rows);
-    free(r.columns);
-    free(r.weights);
+    status = mw__netcdf_open_path(path, &file, &memory, error);
+    if (!status) status = mw__esmf_read(file, &job, out, error);
+    mw__netcdf_close(file);
+    free(memory);
     status = mw__job_end(&job, status, error);
     if (status) {
         mw_operator_destroy(*out);

@@ -100,9 +100,11 @@ static double esmf_number(const esmf_file *f, esmf_part part, size_t i)
     case PART_X_B: return esmf_place(p->rows, p->row_stride, i, 0);
     case PART_Y_B: return esmf_place(p->rows, p->row_stride, i, 1);
     case PART_MASK_A: return 1;
-    case PART_FRAC_A: return f->used[i];
+    case PART_AREA_A: return p->column_areas ? p->column_areas[i] : 0;
+    case PART_AREA_B: return p->row_areas ? p->row_areas[i] : 0;
+    case PART_FRAC_A: return p->column_fractions ? p->column_fractions[i] : f->used[i];
     case PART_MASK_B: return f->rows->first[i + 1] > f->rows->first[i];
-    case PART_FRAC_B: return esmf_row_sum(f->rows, i);
+    case PART_FRAC_B: return p->row_fractions ? p->row_fractions[i] : esmf_row_sum(f->rows, i);
     case PART_STATUS_B: return p->located[i].where;
     default: return 0;
     }
@@ -161,7 +163,8 @@ static void esmf_define(esmf_file *f)
     mw__netcdf_output_text(f->output, MW_NETCDF_OUTPUT_FILE, "title",
                            f->positions->title ? f->positions->title : "weights, by meshwalk");
     mw__netcdf_output_text(f->output, MW_NETCDF_OUTPUT_FILE, "map_method",
-                           "linear interpolation in triangles");
+                           f->positions->method ? f->positions->method
+                                                : "linear interpolation in triangles");
     mw__netcdf_output_text(f->output, MW_NETCDF_OUTPUT_FILE, "Conventions", "CF-1.8");
     mw__netcdf_output_defined(f->output);
 }

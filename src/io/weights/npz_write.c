@@ -183,8 +183,8 @@ mw_status mw__npz_write(const char *path, const mw_weight_rows *rows, mw_job *jo
     };
     npz_archive z = {.job = job, .total = 12 * (uint64_t)n + 4 * (uint64_t)row_count + 2000};
     if (z.total > UINT32_MAX)
-        return mw__fail(error, MW_ERROR_LIMIT, "%.240s: an .npz may not have 4 GiB; write .nc",
-                        path);
+        return mw__fail(error, MW_ERROR_LIMIT,
+                        "%.240s: an .npz must be smaller than 4 GiB; write .nc", path);
     mw_status status = mw_output_open(path, &z.output, error);
     if (status) return status;
     for (size_t i = 0; i < MEMBERS && !mw__job_stopped(job); i++)

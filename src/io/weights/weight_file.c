@@ -44,7 +44,7 @@ mw_status mw_write_weights(const char *path, const mw_operator *weights,
     if (!options) options = &plain;
     if (!positions) positions = &unknown;
     if (!path || !weights)
-        return mw__fail(error, MW_ERROR_ARGUMENT, "writing weights needs a path and an operator");
+        return mw__fail(error, MW_ERROR_ARGUMENT, "the path or the operator is NULL");
     mw_status status = MW_RESERVED_CHECK(mw_file_options, options, error);
     if (!status) status = rows_check(path, weights, error);
     if (status) return status;

@@ -3,6 +3,9 @@
 #include "base/job.h"
 #include "base/options.h"
 #include "io/netcdf/netcdf_output.h"
+#include "io/netcdf/netcdf_source.h"
+#include "io/netcdf/netcdf_values.h"
+#include "io/weights/esmf_read.h"
 
 #include <math.h>
 #include <meshwalk/weights.h>
@@ -24,6 +27,7 @@ typedef struct applied_file {
     const mw_operator *weights;
     mw_operator_info size;
     mw_netcdf *in;
+    void *in_memory; /* what it was unpacked to; NULL: it is read from its file */
     mw_netcdf_output *out;
     mw_missing_rule rule;
     int source;       /* the dimension that is interpolated away */
@@ -109,7 +113,7 @@ static mw_status applied_check_names(const applied_file *f, const mw_apply_weigh
         if (status) return status;
         if (!variable_is_field(f, v))
             return mw__netcdf_fail(f->in, v, error,
-                                   "has no last dimension of the %u values that the weights want",
+                                   "has no last dimension of the %u values that the weights need",
                                    f->size.columns);
     }
     return MW_OK;
@@ -328,6 +332,17 @@ static mw_status applied_values(applied_file *f, mw_error *error)
     return status;
 }
 
+/* Does the file hold what it announces? Else nothing is written. netCDF-4 need not hold what was
+ * not written. */
+static mw_status applied_check_sizes(const applied_file *f, mw_error *error)
+{
+    mw_status status = MW_OK;
+    for (size_t i = 0; i < f->count && !status; i++)
+        if (!f->variable[i].field || mw__netcdf_is_classic(f->in))
+            status = mw__netcdf_check_size(f->in, f->variable[i].in, error);
+    return status;
+}
+
 static void applied_count(applied_file *f, mw_apply_weights_info *info)
 {
     *info = (mw_apply_weights_info){.points = f->size.rows, .unmapped = f->size.empty_rows};
@@ -344,14 +359,12 @@ static void applied_count(applied_file *f, mw_apply_weights_info *info)
 /* --- positions of the points ------------------------------------------------------------------ */
 
 /* All x, then all y, of the rows of a file of weights; *xy is NULL if it does not tell. */
-static mw_status positions_read(const char *path, uint32_t rows, double **xy, bool *degrees,
+static mw_status positions_read(const mw_netcdf *file, uint32_t rows, double **xy, bool *degrees,
                                 mw_error *error)
 {
-    mw_netcdf *file;
     char *units = NULL;
     const size_t start = 0, count = rows;
-    mw_status status = mw__netcdf_open(path, &file, error);
-    if (status) return status;
+    mw_status status = MW_OK;
     const mw_netcdf_variable *x = mw__netcdf_find(file, "xc_b"), *y = mw__netcdf_find(file, "yc_b");
     const bool there = x && y && x->rank == 1 && y->rank == 1 && x->lengths[0] == rows &&
                        y->lengths[0] == rows && rows > 0;
@@ -361,7 +374,6 @@ static mw_status positions_read(const char *path, uint32_t rows, double **xy, bo
     if (there && !status) status = mw__netcdf_text(file, x, "units", &units, error);
     *degrees = units && strncmp(units, "degree", 6) == 0;
     free(units);
-    mw__netcdf_close(file);
     return status;
 }
 
@@ -371,10 +383,12 @@ static mw_status applied_run(applied_file *f, const char *fields, const char *ou
                              const mw_apply_weights_options *options, mw_apply_weights_info *info,
                              mw_error *error)
 {
-    mw_status status = mw__netcdf_open(fields, &f->in, error);
+    mw_status status = mw__netcdf_open_path(fields, &f->in, &f->in_memory, error);
     if (!status) status = applied_choose(f, options, error);
     if (status) return status;
     applied_choose_axes(f);
+    status = applied_check_sizes(f, error);
+    if (status) return status;
     applied_count(f, info);
     const size_t dimensions = mw__netcdf_dimension_count(f->in);
     f->dimension = mw__alloc(dimensions, sizeof *f->dimension);
@@ -393,10 +407,29 @@ static mw_status applied_begin(const char *weights, const char *fields, const ch
                                const mw_apply_weights_options *options, mw_error *error)
 {
     if (!weights || !fields || !out)
-        return mw__fail(error, MW_ERROR_ARGUMENT, "weights, fields and output need a path");
+        return mw__fail(error, MW_ERROR_ARGUMENT,
+                        "the path of the weights, the fields or the output is NULL");
     if (options->field_count && !options->fields)
         return mw__fail(error, MW_ERROR_ARGUMENT, "the names of the fields are NULL");
     return MW_RESERVED_CHECK(mw_apply_weights_options, options, error);
+}
+
+/* The weights, and where their points are. */
+static mw_status applied_read_weights(applied_file *f, const char *path, mw_operator **kept,
+                                      double **xy, bool *degrees, mw_error *error)
+{
+    mw_netcdf *file;
+    void *memory;
+    mw_job alone = {.threads = 1};
+    mw_status status = mw__netcdf_open_path(path, &file, &memory, error);
+    if (!status) status = mw__esmf_read(file, &alone, kept, error);
+    if (!status) mw_operator_describe(*kept, &f->size);
+    if (!status) status = positions_read(file, f->size.rows, xy, degrees, error);
+    mw__netcdf_close(file);
+    free(memory);
+    f->weights = *kept;
+    f->xy = *xy;
+    return status;
 }
 
 mw_status mw_apply_weights(const char *weights, const char *fields, const char *out,
@@ -415,13 +448,11 @@ mw_status mw_apply_weights(const char *weights, const char *fields, const char *
     if (status) return status;
     mw_job job = mw__job(options->threads, options->progress);
     mw__job_stage(&job, "applying weights", 1);
-    status = mw_read_weights(weights, NULL, &kept, error);
-    applied_file f = {.weights = kept, .rule = options->missing, .job = &job};
-    if (!status) mw_operator_describe(kept, &f.size);
-    if (!status) status = positions_read(weights, f.size.rows, &xy, &degrees, error);
-    f.xy = xy;
+    applied_file f = {.rule = options->missing, .job = &job};
+    status = applied_read_weights(&f, weights, &kept, &xy, &degrees, error);
     if (!status) status = applied_run(&f, fields, out, degrees, options, info, error);
     mw__netcdf_close(f.in);
+    free(f.in_memory);
     free(f.variable);
     free(f.dimension);
     free(xy);

@@ -8,7 +8,8 @@ mw_status mw_star_cursor_init(const mw_star *star, const mw_star_query_options *
                               mw_star_cursor *cursor, mw_error *error)
 {
     static const mw_star_query_options defaults;
-    if (!cursor || !star) return mw__fail(error, MW_ERROR_ARGUMENT, "no cursor, or no star");
+    if (!cursor || !star)
+        return mw__fail(error, MW_ERROR_ARGUMENT, "the cursor or the star is NULL");
     if (!options) options = &defaults;
     mw_star_start_kind start = options->start;
     if ((unsigned)options->walk >= MW_STAR_WALK_COUNT)

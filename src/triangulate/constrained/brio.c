@@ -1,6 +1,6 @@
-/* brio.c - what is forced in one by one, in random rounds: each depends on few that come after it,
- * and the order within a round, which is the caller's, keeps what is near in the plane near in
- * memory. */
+/* brio.c - the random order in which segments are forced in one by one. Random rounds keep the
+ * expected work small; within a round the caller's order stays, which keeps neighbours in the plane
+ * near each other in memory. */
 #include "triangulate/constrained/brio.h"
 
 #include "base/random.h"

@@ -1,16 +1,17 @@
 /* cdt.c - constrained Delaunay triangulation of points, lines and polygons [Lee, Lin 1986; Chew
  * 1989].
  *
- * A Delaunay triangulation of the points, the segments forced in one by one (segment_insertion.c),
- * the triangles that are to be kept (cdt_keep.c) and become a mesh (cdt_output.c). Where segments
- * cross and are to be split, points are put there (cdt_split.c) and all is made anew, until nothing
- * crosses. */
+ * First the Delaunay triangulation of the points is made. Then the segments are forced in one by
+ * one (segment_insertion.c), it is decided which triangles are kept (cdt_keep.c), and these become
+ * a mesh (cdt_output.c). If segments cross and are to be split, points are put where they cross
+ * (cdt_split.c), and everything is made anew, until nothing crosses. */
 #include "triangulate/constrained/cdt.h"
 
 #include "base/hilbert.h"
 #include "base/options.h"
 #include "triangulate/constrained/cdt_keep.h"
 #include "triangulate/constrained/cdt_output.h"
+#include "triangulate/constrained/cdt_spans.h"
 #include "triangulate/constrained/cdt_split.h"
 #include "triangulate/delaunay/delaunay.h"
 #include "triangulate/constrained/brio.h"
@@ -25,7 +26,7 @@ static mw_status cdt_check_segments(const mw_constraints *given, mw_error *error
     for (size_t i = 0; i < 2 * given->segment_count; i++)
         if (given->segments[i] >= given->point_count)
             return mw__fail(error, MW_ERROR_ARGUMENT,
-                            "segment %zu: %" PRIu32 " is no point; there are %zu", i / 2,
+                            "segment %zu: %" PRIu32 " is not a point; there are %zu", i / 2,
                             given->segments[i], given->point_count);
     for (size_t i = 0; i < given->hole_seed_count; i++)
         if (!isfinite(given->hole_seeds[2 * i]) || !isfinite(given->hole_seeds[2 * i + 1]))
@@ -60,29 +61,64 @@ void mw__cdt_release(mw_cdt *m)
     free(m->subsegments.item);
     free(m->crossing.item);
     free(m->owner);
+    mw__subsegment_runs_release(&m->runs);
     free(m->kept);
 }
 
 /* --- forcing the stretches in --- */
 
+/* A part came to a subsegment that is there already: it jumps to where it leaves its run, or to its
+ * own other end. False when out of memory. */
+static bool part_jump(mw_cdt *m, const mw_segment_part *part, uint32_t subsegment, uint32_t at,
+                      uint32_t *leave)
+{
+    const bool forwards = at == part->from;
+    const uint32_t to = forwards ? part->to : part->from;
+    *leave = mw__subsegment_runs_leave(&m->runs, m->point, subsegment, at, to);
+    return mw__subsegment_runs_note(&m->runs,
+                                    &(mw_subsegment_span){subsegment, forwards ? at : *leave,
+                                                          forwards ? *leave : at, part->segment});
+}
+
+/* Note a subsegment of a part, made at one of its ends or there already. False when out of
+ * memory. */
+static bool part_note(mw_cdt *m, const mw_segment_part *before, mw_segment_part *part,
+                      const mw_subsegment *subsegment)
+{
+    if (subsegment->number == m->subsegments.count)
+        return mw__subsegment_note(m, subsegment, part->segment) &&
+               mw__subsegment_runs_add(&m->runs, m->point, subsegment->from, subsegment->to);
+    const bool forwards = part->from != before->from;
+    return part_jump(m, before, subsegment->number, forwards ? before->from : before->to,
+                     forwards ? &part->from : &part->to);
+}
+
 /* Force in a part, or as much of it as lies before what it crosses. Returns false when out of
  * memory. */
 static bool part_force(mw_cdt *m, mw_segment_part s)
 {
+    uint32_t last[2] = {MW_NONE, MW_NONE}; /* subsegments before its beginning and behind its end */
     while (s.from != s.to) {
+        const mw_segment_part before = s;
         mw_subsegment subsegment;
         mw_subsegment_result result = mw__insert_subsegment(&m->net, &s.from, &s.to, &subsegment);
         if (result == MW_SUBSEGMENT_CROSSES) return mw__segment_parts_add(&m->crossing, s);
-        if (result != MW_SUBSEGMENT_DONE || !mw__subsegment_note(m, &subsegment, s.segment))
-            return false;
+        if (result != MW_SUBSEGMENT_DONE) return false;
+        const int end = s.from == before.from;
+        if (!part_note(m, &before, &s, &subsegment)) return false;
+        if (last[end] != MW_NONE)
+            mw__subsegment_runs_join(&m->runs, m->point, last[end], subsegment.number);
+        last[end] = subsegment.number;
     }
+    if (last[0] != MW_NONE && last[1] != MW_NONE)
+        mw__subsegment_runs_join(&m->runs, m->point, last[0], last[1]);
     return true;
 }
 
-/* Parts in a biased randomized order (brio.h), so that long ones are expected to be among the
- * first, and to shield what lies behind them from those that follow; in each round along the
- * Hilbert curve of the triangles, so that what is near is near in memory. NULL when out of
- * memory. */
+/* The parts of segments in a biased randomized order (brio.h): some long ones are expected to come
+ * early, and later parts need not be searched for behind them. In each round the order follows the
+ * Hilbert curve of the triangles, so that neighbours are near each other in memory. NULL when out
+ * of memory. */
 static uint32_t *cdt_order_parts(const mw_cdt *m)
 {
     uint32_t n = (uint32_t)m->parts.count, *order = mw__brio_order(n);
@@ -127,6 +163,7 @@ static mw_status cdt_make(mw_cdt *m, bool all, mw_delaunay_report *report, mw_er
         done = part_force(m, m->parts.item[order[i]]) && mw__job_step(m->job, i, m->parts.count);
     m->crossed += m->net.crossed + m->net.wasted;
     free(order);
+    done = done && mw__cdt_spans_settle(m);
     return done ? MW_OK : mw__fail_memory(error);
 }
 
@@ -139,6 +176,7 @@ static void cdt_unmake(mw_cdt *m)
     m->twin = NULL;
     m->tri = NULL;
     m->subsegments.count = m->crossing.count = m->owner_count = 0;
+    m->runs.count = m->runs.span_count = 0;
 }
 
 /* --- segments that cross --- */
@@ -236,10 +274,10 @@ static bool cdt_take_back(mw_cdt *m, uint32_t *number, uint32_t count, mw_cdt *e
     return true;
 }
 
-/* Whether parts cross has nothing to do with the other points. Where these are many, split the
- * parts without them, until nothing crosses. cdt_make_all, which calls this, does that, and may
- * come here again; but not deep, as each time at most half the points remain. Hardly ever twice:
- * nearly all points are ends then. */
+/* Whether parts cross does not depend on points that are no ends of parts. If there are many such
+ * points, the parts are split without them, until nothing crosses. This calls cdt_make_all, which
+ * called it; the recursion is not deep, as each time at most half the points remain. It hardly ever
+ * happens twice: afterwards nearly all points are ends of parts. */
 static mw_status cdt_split_apart(mw_cdt *m, mw_constrain_report *report, mw_error *error)
 {
     uint32_t *number = mw__alloc(m->point_count, sizeof *number);
@@ -260,9 +298,9 @@ static mw_status cdt_split_apart(mw_cdt *m, mw_constrain_report *report, mw_erro
     return status;
 }
 
-/* Each round puts points where parts cross. Most are then done; but points are rounded, so a part
- * may come to cross another by that, and of many that cross one another each round lets some in,
- * and parts the others. */
+/* Each round puts points where parts cross. Afterwards most parts cross nothing. But points are
+ * rounded, so a part may then cross another one; and of many parts that cross one another, each
+ * round can force in only some, and splits the others. */
 static mw_status cdt_make_all(mw_cdt *m, bool split, mw_delaunay_report *delaunay,
                               mw_constrain_report *report, mw_error *error)
 {
@@ -287,8 +325,8 @@ static mw_status cdt_make_all(mw_cdt *m, bool split, mw_delaunay_report *delauna
     }
     if (status == MW_OK && m->crossing.count)
         status = cdt_fail_crossing(
-            m, split ? ", and so close to others that rounding cannot part them" : "", report,
-            error);
+            m, split ? ", and so close to others that rounded points cannot keep them apart" : "",
+            report, error);
     return status;
 }
 
@@ -334,7 +372,8 @@ mw_status mw__cdt_make_partly(mw_cdt *m, mw_error *error)
 {
     mw_status status = cdt_check_arguments(m->given, MW_KEEP_HULL, error);
     if (status == MW_OK) status = cdt_take(m, error);
-    return status ? status : cdt_make(m, true, NULL, error);
+    if (status == MW_OK) status = cdt_make(m, true, NULL, error);
+    return status || mw__cdt_spans_list(m) ? status : mw__fail_memory(error);
 }
 
 mw_status mw_constrained_delaunay(const mw_constraints *constraints,

@@ -3,6 +3,7 @@
 #include "triangulate/constrained/cdt_keep.h"
 
 #include "base/random.h"
+#include "triangulate/constrained/cdt_spans.h"
 #include "triangulate/constrained/polygon_ranks.h"
 
 #include <stdlib.h>
@@ -224,7 +225,8 @@ mw_status mw__cdt_keep_triangles(mw_cdt *m, mw_keep keep, mw_error *error)
     for (uint32_t t = 0; t < m->tri_count; t++) m->kept[t] = 1;
     if (keep == MW_KEEP_HULL) return MW_OK;
     if (polygons) {
-        mw_status status = parity_keep_polygons(m, error);
+        mw_status status =
+            mw__cdt_spans_list(m) ? parity_keep_polygons(m, error) : mw__fail_memory(error);
         if (status) return status;
     }
     flood f = {.m = m, .stack = mw__alloc(m->tri_count, sizeof *f.stack)};

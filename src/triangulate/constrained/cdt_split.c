@@ -1,18 +1,19 @@
 /* cdt_split.c - points where segments cross.
  *
- * What could not be forced in is followed through the triangulation, where it meets subsegments
- * that it crosses and vertices that lie on it. A subsegment, and each such remainder, is a link
- * that is cut at the points made on it; what remains of all links, once for each segment that owns
+ * A part that could not be forced in is followed through the triangulation, over the subsegments
+ * that it crosses and the vertices that lie on it. Each subsegment, and each such part, is a link,
+ * which is cut at the points made on it. The pieces of all links, once for each segment that owns
  * them, are the parts of the next round. So parts still end at all vertices that lie on them
- * exactly. Points are rounded, but lie in the boxes of both links that cross there: a part's box is
- * smaller than its link's.
+ * exactly. Points are rounded, but lie in the boxes of both links that cross there: so the box of a
+ * part is smaller than that of its link.
  *
- * Rounding moves links a little, past vertices that lie close to them, so they come to cross
- * others. Among long links that are nearly parallel that could go on for very long, one new point
- * beside the other. So after the first round, as in snap rounding [Hobby 1999; Guibas, Marimont
- * 1998], a link that crosses another and passes close by its end is led through that end, and no
- * point is made. Why this ends: see docs/proofs/delaunay.md. */
+ * Rounding moves links a little, and may move them past vertices close by, so that they cross other
+ * links. Among long links that are nearly parallel this could go on for very long, with one new
+ * point beside the other. So after the first round, as in snap rounding [Hobby 1999; Guibas,
+ * Marimont 1998], a link that crosses another and passes close by its end is led through that end,
+ * and no point is made. Why this ends: see docs/proofs/delaunay.md. */
 #include "triangulate/constrained/cdt_split.h"
+#include "triangulate/constrained/cdt_spans.h"
 
 #include <float.h>
 #include <stdlib.h>
@@ -227,9 +228,10 @@ static int cut_compare(const void *left, const void *right)
 
 /* --- the stretches of the next round --- */
 
-/* The parts of a link, cut at `count` points, for one segment. No part leads back in either
- * coordinate: so their boxes are smaller than the link's, even of a link that is only a few doubles
- * long. A point left out is seen to in the next round. */
+/* The parts of a link, cut at `count` points, for one segment. No part runs back in either
+ * coordinate, so their boxes are smaller than the link's, even if the link is only a few doubles
+ * long. Points that would make a part run back are left out; the next round makes them again if
+ * they are still needed. */
 static bool parts_add_cut(splitter *s, const mw_segment_part *link, const cut *cuts, size_t count,
                           uint32_t segment, mw_segment_parts *parts)
 {
@@ -294,7 +296,8 @@ mw_status mw__cdt_split_crossings(mw_cdt *m, int round, mw_error *error)
     splitter s = {.m = m, .tolerance = round_tolerance(round)};
     mw_subsegment_owners owners = {0};
     mw_segment_parts parts = {0};
-    bool done = splitter_find_cuts(&s) && mw__subsegment_owners_create(&owners, m);
+    bool done =
+        splitter_find_cuts(&s) && mw__cdt_spans_list(m) && mw__subsegment_owners_create(&owners, m);
     if (done) {
         qsort(s.cut, s.cut_count, sizeof *s.cut, cut_compare);
         done = splitter_cut_all(&s, &owners, &parts) && splitter_take_points(&s);

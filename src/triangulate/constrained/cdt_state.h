@@ -8,6 +8,7 @@
 
 #include "base/job.h"
 #include "triangulate/constrained/segment_insertion.h"
+#include "triangulate/constrained/subsegment_runs.h"
 
 #include <meshwalk/triangulate.h>
 
@@ -43,8 +44,10 @@ typedef struct mw_cdt {
     mw_segment_parts subsegments;
     /* what could not be inserted of some parts: it crosses subsegments */
     mw_segment_parts crossing;
+    /* without those that jumped along runs: cdt_spans.h */
     mw_subsegment_owner *owner;
     size_t owner_count, owner_capacity;
+    mw_subsegment_runs runs;
     uint64_t crossed; /* triangles: by the parts of all rounds, those that crossed others too */
     uint8_t *kept;    /* per triangle */
 } mw_cdt;

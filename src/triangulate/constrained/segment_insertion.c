@@ -51,9 +51,9 @@ struct mw_channel_step {
     uint32_t ahead, behind;
 };
 
-/* Ears wait in line with others whose bases are of about the same length, and those in the line of
- * the shortest bases are cut first. A line is named by the exponent and the first bit of the
- * fraction of the square of the length. */
+/* Ears wait in queues; those of a queue have bases of about the same length, and the queue with the
+ * shortest bases comes first. The number of a queue is the exponent of the squared length and the
+ * first bit of its fraction. */
 enum { LINES = 64 * 64, LINE_SHIFT = 51 };
 
 struct mw_ears {
@@ -167,9 +167,9 @@ static void segment_rotor_turn(const mw_segment_insertion *c, vertex_rotor *r, u
     r->right = segment_target_side(c, vertex, mw__half_end(c->tri, r->half), target);
 }
 
-/* Does the segment to the target leave through the triangle of the rotor? Then *half is the edge
- * that it runs along, as it leaves the vertex (or as it comes back: the last edge at the hull), or
- * the one across that it crosses. */
+/* Does the segment to the target leave the vertex through the triangle of the rotor? If so, *half
+ * is the edge that it runs along, as the half-edge that leaves the vertex (or, for the last edge at
+ * the hull, the one that comes back), or else the opposite edge, which it crosses. */
 static bool rotor_leaves_here(const vertex_rotor *r, uint32_t *half, bool *along)
 {
     *along = r->right == 0 || r->left == 0;

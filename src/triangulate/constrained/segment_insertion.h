@@ -5,7 +5,7 @@
  * end at the vertices that lie on the segment, so a subsegment has none inside, and two segments on
  * one line share subsegments. Where the triangulation was constrained Delaunay before a subsegment
  * it is so after it: no vertex visible from a triangle lies in its circle. Two segments that cross
- * are reported, the later one is left out from the crossing on. */
+ * are reported, and the later one is forced in only up to the crossing. */
 #ifndef MW_SRC_TRIANGULATE_CONSTRAINED_SEGMENT_INSERTION_H
 #define MW_SRC_TRIANGULATE_CONSTRAINED_SEGMENT_INSERTION_H
 
@@ -58,9 +58,9 @@ typedef struct mw_subsegment {
 } mw_subsegment;
 
 /* Force in one subsegment at either end of the segment, and shorten the segment by it: the segment
- * is in when *from and *to have become equal. Time: about the lower degree of the two ends, plus
- * O(m) for the m edges that the subsegment crosses, plus the flips that restore the Delaunay
- * property, in practice about m. A segment may cross as many edges as there are; but segments that
+ * is in when *from and *to have become equal. Time: in proportion to the lower degree of the two
+ * ends, plus O(m) for the m edges that the subsegment crosses, plus the flips that restore the
+ * Delaunay property, in practice about m. A single segment may cross all edges. But segments that
  * do not cross each other, forced in in random rounds, are expected to cross O(n log n + b log^2 b)
  * edges in all, for n vertices and b segments [Agarwal, Arge, Yi 2005; Shewchuk, Brown 2015]. */
 mw_subsegment_result mw__insert_subsegment(mw_segment_insertion *c, uint32_t *from, uint32_t *to,

@@ -148,9 +148,9 @@ static double points_least(const mw_point *points, uint32_t n)
     return least;
 }
 
-/* Where products of four coordinates would leave the doubles no filter decides. Multiplied by a
- * power of two, so that the largest coordinate is about 1, points have the same triangulation, if
- * none loses a bit. False when out of memory. */
+/* If products of four coordinates would over- or underflow, no filter decides. So the points are
+ * multiplied by a power of two that makes the largest coordinate about 1. They have the same
+ * triangulation, if no coordinate loses a bit. Returns false when out of memory. */
 static bool delaunay_scale(delaunay *d)
 {
     const double *low = d->extent.low, *high = d->extent.high;

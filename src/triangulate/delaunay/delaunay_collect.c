@@ -1,8 +1,8 @@
 /* delaunay_collect.c - triangles are numbered by their lowest slot: along the curve.
  *
- * It is a counting sort. Each patch counts and numbers the facets in its own slice whose lowest
- * slot is its own; the others lie along seams, are few, and are done one after the other: they come
- * last at their slot. Numbers do not depend on the threads. */
+ * It is a counting sort. Each patch counts and numbers those facets in its own slice of facets
+ * whose lowest slot is its own. The other facets lie along seams and are few; they are numbered one
+ * after the other and come last at their slot. Numbers do not depend on the threads. */
 #include "triangulate/delaunay/delaunay_collect.h"
 
 #include <stdlib.h>

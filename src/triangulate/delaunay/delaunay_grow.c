@@ -7,18 +7,18 @@
  *        /.-' '-.\
  *       a---------b
  *
- * The facet that holds q is split in three, all with q as vertex 2. Then the edges across from q
- * are looked at, once round: where the next facet n has q in its circle, the edge ab becomes the
- * edge qd, and the two edges behind it are looked at instead. What remains is the Delaunay
- * triangulation: only facets with q in their circle have gone. A ghost is a facet with the vertex
- * at infinity: its circle is the open half plane beyond its hull edge, and the inside of that edge.
- * A point on an edge or beyond the hull needs no special case: splitting gives flat facets, and
- * their edges are flipped at once, as the inside of a chord lies inside the circle.
+ * The facet that holds q is split in three, all with q as vertex 2. Then the edges opposite to q
+ * are tested, once round: if the facet n beyond edge ab has q in its circle, ab is flipped to the
+ * edge qd, and the two edges behind it are tested instead. The result is the Delaunay
+ * triangulation: only facets with q in their circle have been removed. A ghost is a facet with the
+ * vertex at infinity: its circle is the open half plane beyond its hull edge, and the inside of
+ * that edge. A point on an edge or beyond the hull needs no special case: splitting gives flat
+ * facets, and their edges are flipped at once, as the inside of a chord lies inside the circle.
  *
  * The walk is the remembering walk [thesis, App. A, sec. 2], which ends on every Delaunay
- * triangulation; it begins at the point inserted before. Points on one circle: a point on the
- * circle is not in it, so any order of insertion gives a Delaunay triangulation, not always the
- * same. */
+ * triangulation; it begins at the point inserted before. A point on a circle does not count as in
+ * it, so with several points on one circle each order of insertion gives a Delaunay triangulation,
+ * but not always the same one. */
 #include "triangulate/delaunay/delaunay_grow.h"
 
 #include "mesh/mesh.h"
@@ -71,11 +71,11 @@ static __attribute__((noinline)) bool growth_in_circle_exact(const mw_growth *g,
  * and the rounding of the bound. */
 #define CIRCLE_ERROR (11.0 * 0x1p-53)
 
-/* On a lattice, such as that of integers, many points lie on one circle, and no bound decides. But
- * where all coordinates are multiples of u and the lifts add up to S < 2^26 u^2, a product of lift
- * and minor is a multiple of u^4, and all of them together are at most ab + bc + ca <= S^2 / 3 <
- * 2^52 u^4 for lifts a, b, c: nothing is rounded. The same goes for the two products of the
- * orientation test. The powers of u must not under- or overflow. */
+/* On a lattice, such as that of integers, many points lie on one circle, and no error bound
+ * decides. But let all coordinates be multiples of u, and let the lifts a, b, c add up to S < 2^26
+ * u^2. Then each product of a lift and a minor is a multiple of u^4, and all together are at most
+ * ab + bc + ca <= S^2 / 3 < 2^52 u^4: nothing is rounded. The same holds for the two products of
+ * the orientation test. The powers of u must not under- or overflow. */
 #define LATTICE_LIFTS 0x1p26
 #define LATTICE_LEAST 0x1p-250
 #define LATTICE_MOST 0x1p230

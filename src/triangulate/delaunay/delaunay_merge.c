@@ -9,21 +9,21 @@
  *
  * Left and right lie on either side of a line. From the lower common tangent lr on, the seam is
  * closed upwards: an empty circle through l and r rises until it meets the first vertex, l' or r',
- * which makes a triangle with lr; its upper edge is the next lr. What the seam faces on either side
- * is a row of ghosts, each with its hull edge. A ghost whose edge ll' is met becomes the triangle
- * l', l, r: infinity comes to be r. Where the facet behind ll' has its third vertex in the circle
- * of l, r, l', the edge ll' goes: it is flipped between ghost and facet, which makes two ghosts
- * that show the two edges behind it.
+ * which makes a triangle with lr; its upper edge is the next lr. On either side the seam faces a
+ * row of ghosts, each with its hull edge. If the circle meets l', the ghost at the edge ll' becomes
+ * the triangle l', l, r: its vertex at infinity is replaced by r. If the facet behind ll' has its
+ * third vertex in the circle of l, r, l', the edge ll' is removed: it is flipped between ghost and
+ * facet, which makes two ghosts at the two edges behind it.
  *
- * So facets are neither freed nor made, but for two ghosts: one below the lower tangent, one above
- * the upper. Vertices on one circle: one that is on the circle is not met. All tests are exact. */
+ * So no facets are freed, and only two are made: a ghost below the lower tangent and one above the
+ * upper tangent. A vertex on the circle does not count as met. All tests are exact. */
 #include "triangulate/delaunay/delaunay_merge.h"
 
 #include "mesh/mesh.h"
 
-/* Where the vertex at infinity is in a ghost. The hull edge is the edge after it, from the vertex
- * before it to the one after it in counter-clockwise order of the hull: edge k leads on to the next
- * ghost, the edge before it back. */
+/* Which corner k of a ghost is the vertex at infinity. The hull edge is edge k + 1, opposite to it;
+ * in counter-clockwise order of the hull it runs from vertex k - 1 to vertex k + 1. Edge k leads to
+ * the next ghost in counter-clockwise order of the hull, edge k - 1 to the one before. */
 static MW_INLINE uint32_t ghost_corner(const mw_growth *g, uint32_t ghost)
 {
     const uint32_t *v = g->facet[ghost].v;

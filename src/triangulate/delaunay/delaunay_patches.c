@@ -1,12 +1,12 @@
 /* delaunay_patches.c - divide, grow, merge.
  *
  * A cell of a Hilbert curve is an interval of the curve, and so are its halves and quarters. Two
- * neighbouring intervals are separated by a line parallel to an axis, which the first bit tells in
- * which their keys differ. So the sorted points can be cut into patches without moving them. Each
- * patch grows in a range of facets of its own: all can grow at the same time, and one alone stays
- * in the cache. A merge takes time in proportion to its seam and the two hulls.
+ * neighbouring intervals are separated by a line parallel to an axis; the first bit in which their
+ * keys differ tells which one. So the sorted points can be cut into patches without moving them.
+ * Each patch grows in a range of facets of its own: all can grow at the same time, and one alone
+ * stays in the cache. A merge takes time in proportion to its seam and the two hulls.
  *
- * What is cut where depends on the points alone, and so does the result. */
+ * Where the points are cut depends on the points alone, and so does the result. */
 #include "triangulate/delaunay/delaunay_patches.h"
 
 #include "mesh/mesh.h"

@@ -16,12 +16,12 @@
  * as a polygon is left, whichever were cut before [the latter, "cake cutting"]. So if ears run out,
  * T does not have it.
  *
- * Ears at chain vertices do not depend on s, but for the last of them. So chains grow while the
- * search moves away from q, triangle by triangle and nearest first, as stacks: an ear is cut as
- * soon as it shows, and what is below the top of a stack has been tried. Branches of the search
- * share the lower parts of their stacks, which are never changed. Where a chain turns into its
- * polygon, the ear is empty: each of its vertices sees a point of qs (segment_insertion.c has the
- * argument).
+ * Ears at the vertices of a chain do not depend on s, except for the last of them. So chains grow
+ * while the search moves away from q, triangle by triangle and nearest first, as stacks: an ear is
+ * cut as soon as it shows, and what is below the top of a stack has been tried. Branches of the
+ * search share the lower parts of their stacks, which are never changed. Where a chain turns into
+ * its polygon, the ear is empty: each of its vertices sees a point of qs (segment_insertion.c has
+ * the argument).
  *
  * How far the search goes. Say y is a vertex of a chain, and the angle qys is not smaller than the
  * one at q. Then T does not have qs: of the chain's vertices in the triangle qys let z be the one

@@ -8,11 +8,11 @@
  *          q1 q2
  *
  * It grows in a constrained Delaunay triangulation of the edges taken so far. (The Delaunay
- * triangulation leads to it in linear time [Levcopoulos, Krznaric 1999], less simply.) Say an edge
- * is open if it is not taken, crosses no edge taken, and has no vertex inside. The shortest open
- * edge ab comes next, and it is found where few look: it is an edge of the triangulation, or cuts
- * off a corner z between two taken edges za and zb that follow each other round z, with an angle of
- * 90 degrees or more.
+ * triangulation leads to it in linear time [Levcopoulos, Krznaric 1999], less simply.) Let an edge
+ * be open if it is not taken, crosses no edge taken, and has no vertex inside. The shortest open
+ * edge ab comes next, and few edges have to be considered: either ab is an edge of the
+ * triangulation, or it cuts off a corner z between two taken edges za and zb that follow each other
+ * round z, with an angle of 90 degrees or more.
  *
  * Why: if no vertex on or in the circle with diameter ab is visible from inside ab, then ab is an
  * edge of each constrained Delaunay triangulation. Otherwise let z be such a vertex. A rubber band
@@ -23,9 +23,10 @@
  * so it has no diagonals, and is a triangle: za and zb are taken and nothing is between. (The edges
  * that ab crosses then are a fan at z.)
  *
- * So the heap holds the open edges of the triangulation and what cuts off corners, and what has
- * been either: taking an edge makes four corners at most and changes the triangles that it crosses.
- * What comes out of the heap is taken if it is open. If it is not, it never will be again. */
+ * So the heap holds the open edges of the triangulation, the edges that cut off corners, and edges
+ * that were one of these before. Taking an edge makes at most four new corners and changes the
+ * triangles that it crosses. An edge that comes out of the heap is taken if it is open; if it is
+ * not, it never will be again. */
 #include "triangulate/constrained/segment_insertion.h"
 #include "triangulate/kinds/greedy_heap.h"
 #include "triangulate/kinds/kind_maker.h"
@@ -173,9 +174,9 @@ static bool greedy_add_changes(greedy *g, uint32_t half)
     return true;
 }
 
-/* Take an edge if it is open. One with a vertex inside is not: what is forced in first of it, up to
- * a vertex, is shorter and therefore taken already, or crosses a taken edge. Returns false when out
- * of memory. */
+/* Take an edge if it is open. An edge with a vertex inside is not open: its first part, up to that
+ * vertex, is shorter and therefore taken already, or it crosses a taken edge. Returns false when
+ * out of memory. */
 static bool greedy_take(greedy *g, mw_greedy_edge edge)
 {
     uint32_t from = edge.low, to = edge.high, taken = g->net.subsegment_count;

@@ -6,9 +6,9 @@
 #include "base/job.h"
 #include "mesh/mesh.h"
 
-/* Points with coordinates multiplied by a power of two, the largest near 2^500: squares neither
- * overflow nor, unless they are that of next to nothing, underflow. For lengths and angles only;
- * sides are decided on the given points. */
+/* Points with coordinates multiplied by a power of two, the largest near 2^500: squares do not
+ * overflow, and only those of tiny numbers underflow. They serve for lengths and angles only; sides
+ * of lines are decided with the given points. */
 typedef struct mw_scaled {
     const mw_point *point, *scaled;
     uint32_t count;
@@ -94,9 +94,10 @@ enum { MW_LMT_ALIVE = 1, MW_LMT_KNOWN = 2, MW_LMT_QUEUED = 4 };
 mw_lmt_result mw__lmt_create(mw_lmt *lmt, const mw_scaled *points, const mw_edge_list *list);
 void mw__lmt_release(mw_lmt *lmt);
 
-/* Remove edges, but those that are known, that no pair of empty triangles makes locally minimal,
- * until there are none, the effort is spent, or the job is cancelled. What remains holds every
- * triangulation of least weight that the list held. */
+/* Remove the edges for which no pair of empty triangles is locally minimal, except known ones.
+ * Stops when there are no more, when the effort is spent, or when the job is cancelled. Every
+ * triangulation of least weight whose edges were in the list still has all its edges in the list.
+ */
 void mw__lmt_reduce(mw_lmt *lmt, mw_effort *effort);
 
 /* --- faces --- */
@@ -120,7 +121,7 @@ bool mw__lmt_face_steps(const mw_lmt_face *polygon, uint64_t *steps);
 /* Triangulate with chords of least total length, by dynamic programming [Gilbert 1979; Klincsek
  * 1980]. The chords must hold a triangulation. Writes three corners, counter-clockwise, for each of
  * corner_count - 2 triangles. Steps of the present stage. False when out of memory, or cancelled.
- * */
+ */
 bool mw__lmt_face_fill(const mw_lmt_face *polygon, mw_job *job, uint32_t *corners);
 
 #endif

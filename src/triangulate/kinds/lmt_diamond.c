@@ -13,8 +13,8 @@
  * Snoeyink 2001]. A point r at distance d from p, in direction t, lies in the left triangle of
  * every edge from p that leaves between the directions t - a and t and is longer than 2 d cos a,
  * and likewise in the right triangle of those between t and t + a. So each point makes two arcs of
- * directions dead on one side; what lies in a direction that is dead on both sides, far enough
- * away, is no candidate [Beirouti, Snoeyink 1998; Haas 2018].
+ * directions that are dead on one side. A point that lies far enough away in a direction that is
+ * dead on both sides is not the end of a candidate [Beirouti, Snoeyink 1998; Haas 2018].
  *
  * From each vertex the others are visited by increasing distance, in a tree of boxes; boxes that
  * lie in dead directions are left out whole. What is found so is tested once more against the
@@ -345,9 +345,9 @@ static bool diamond_fails(const seeker *s, uint32_t p, uint32_t q, mw_point u, d
     return left && right;
 }
 
-/* Is u the way from p to q, but for what rounding did to its last bits? Where the coordinates of
- * all points span more than doubles can once they are scaled, it need not be: points that differ
- * may even become equal. */
+/* Does u differ from the vector from p to q only by rounding of its last bits? It need not: if the
+ * coordinates of the points span too large a range, scaling loses bits, and points that differ may
+ * even become equal. */
 static bool diamond_is_sharp(const seeker *s, uint32_t p, uint32_t q, mw_point u)
 {
     mw_point from = s->points->point[p], to = s->points->point[q];

@@ -7,9 +7,9 @@
  * it. The least weight beyond a chord ij is found from those beyond im and mj, least over m. Only
  * given chords count; with all that a polygon can have, the time is cubic.
  *
- * Chords are taken by falling i, then rising j: so im, and mj, come before ij. What is known of the
- * chords from i stands in a row by m; that of the chords to j in a list that grows with falling
- * m. */
+ * Chords are taken by falling i, then rising j, so im and mj come before ij. The results of the
+ * chords from i are in a row, indexed by m; those of the chords to j in a list that grows with
+ * falling m. */
 #include "triangulate/kinds/lmt.h"
 
 #include <math.h>

@@ -13,8 +13,8 @@
  * triangulation of least weight, and is removed; which may leave others without triangles. An edge
  * that no remaining one crosses is in all of them [Dickerson, Keil, Montague 1997].
  *
- * A triangle is taken for empty if none of the candidate edges from one of its corners ends in it;
- * that one inside may be overlooked keeps edges, and removes none. So does every other limit
+ * A triangle is taken for empty if no candidate edge from one of its corners ends in it. This may
+ * overlook a vertex inside, which only keeps edges that could be removed. So does every other limit
  * here. */
 #include "triangulate/kinds/lmt.h"
 

@@ -4,13 +4,14 @@
  * The triangle with the largest angle is replaced by edge insertion (edge_insertion.c) until that
  * fails: then no triangulation has a smaller largest angle. The triangle is now fixed, and the same
  * is done with the others, by falling angles. Each success takes an angle from the list of the
- * triangles' largest angles and adds only smaller ones, so this ends. Whatever triangulation has
- * the fixed angles and then smaller ones has the fixed triangles, if no two angles between points
- * are equal: then the sorted list that results is the least of all, compared as words are.
+ * triangles' largest angles and adds only smaller ones, so this ends. If no two angles between
+ * points are equal, every triangulation with the fixed angles and otherwise smaller ones has the
+ * fixed triangles. Then the sorted list of angles is the least of all triangulations, in
+ * lexicographic order.
  *
- * At the end no triangle is fixed any more, and single edges are exchanged until that makes no
- * largest angle of two triangles smaller: where angles are equal, or the work was limited, that may
- * be a little left to do. */
+ * At the end all triangles are released, and single edges are flipped as long as that lowers the
+ * largest angle of the two triangles. This improves the result only where angles are equal, or
+ * where the work was limited. */
 #include "triangulate/kinds/min_max_angle.h"
 
 #include "triangulate/kinds/edge_insertion.h"
@@ -20,9 +21,9 @@
 /* Work of all insertions, unless a limit is set: about half a minute. */
 #define MOST_WORK UINT64_C(500000000)
 
-/* Visits of one insertion, unless a limit is set: as many for each triangle, and so many more that
- * 700 points never reach it: each triangle is visited at most once in each of the gaps that n
- * vertices leave, which makes 2 n (n + 1). */
+/* The limit of visits in one insertion, unless the user sets one: so many for each triangle, plus a
+ * constant that 700 points never exceed. Each triangle is visited at most once in each of the gaps
+ * between n vertices, which makes 2 n (n + 1) visits. */
 #define VISITS_PER_TRIANGLE 4
 #define MORE_VISITS ((size_t)1 << 20)
 

@@ -5,17 +5,17 @@
  * each edge that is the longer diagonal of a strictly convex quadrilateral is exchanged for the
  * other. The candidates are the edges with the diamond property and those of T. An edge of T is
  * never removed from them: its two triangles in T keep it, and their sides keep each other. So a
- * candidate that no other one crosses is in T, and the skeleton is what is left of T when each
- * candidate that is not in it has walked through T from one end to the other and marked the edges
- * that it crosses.
+ * candidate that no other one crosses is in T. To find the skeleton, each candidate that is not in
+ * T is followed through T from one end to the other, and the edges that it crosses are marked; the
+ * edges of T without a mark are the skeleton.
  *
- * A face is then a set of triangles of T, joined across marked edges. Where these edges join them
- * to a tree, the face is a polygon (its border may touch itself, as where an edge of the skeleton
- * ends inside), all candidates that cross it are known, with the corners where they begin and end,
- * and dynamic programming finds its least weight. Where they make rings, the face holds vertices or
- * parts of the skeleton. It is cut open along as many edges of T as there are rings: the same gives
- * the least weight with these edges, which is a local optimum. Faces that are too large stay as
- * they are in T. */
+ * A face is then a set of triangles of T, joined across marked edges. If these edges join them to a
+ * tree, the face is a polygon (its border may touch itself, as where an edge of the skeleton ends
+ * inside), all candidates that cross it are known, with the corners where they begin and end, and
+ * dynamic programming finds its least weight. If they make rings, there are vertices or parts of
+ * the skeleton inside the face. It is cut open along as many edges of T as there are rings; then
+ * dynamic programming finds the least weight of the triangulations with these edges, which is a
+ * local optimum. Faces that are too large stay as they are in T. */
 #include "mesh/connect.h"
 #include "triangulate/kinds/kind_maker.h"
 #include "triangulate/kinds/lmt.h"

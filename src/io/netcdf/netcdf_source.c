@@ -1,4 +1,5 @@
-#include "io/layouts/netcdf_mesh.h"
+#include "io/netcdf/netcdf_source.h"
+
 #include "io/netcdf/classic_header.h"
 
 #include <stdlib.h>
@@ -61,4 +62,16 @@ mw_status mw__netcdf_open_source(mw_source *source, mw_netcdf **out, void **memo
     }
     *memory = contents;
     return MW_OK;
+}
+
+mw_status mw__netcdf_open_path(const char *path, mw_netcdf **out, void **memory, mw_error *error)
+{
+    mw_source source;
+    *out = NULL;
+    *memory = NULL;
+    mw_status status = mw__source_open(&source, path, error);
+    if (status) return status;
+    status = mw__netcdf_open_source(&source, out, memory, error);
+    mw__source_close(&source);
+    return status;
 }

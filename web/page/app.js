@@ -1,0 +1,232 @@
+// app.js - the page: a mesh, its locators, and the panels about it.
+
+class App {
+  constructor(meshwalk) {
+    this.meshwalk = meshwalk;
+    this.tool = "look";
+    this.hint = "";
+    this.stage = new Stage((context, camera) => drawAll(this, context, camera), {
+      click: (at) => this.click(at),
+      hover: (at) => this.hover(at),
+    });
+    this.here = new HerePanel(this);
+    this.loopPanel = new LoopPanel(this);
+    this.colours = new ColourPanel(this);
+    this.defects = new DefectPanel(this);
+    this.walkPanel = new WalkPanel(this);
+    this.race = new Race(this);
+    this.points = new PointPanel(this);
+    this.profile = new ProfilePanel(this);
+    this.locators = new Map();
+    this.listen();
+    this.walkPanel.offer(meshwalk.walks);
+    byId("version").textContent = `meshwalk ${meshwalk.version}`;
+  }
+
+  // --- the mesh ---
+
+  /** Show a mesh; what was shown before goes. */
+  open(mesh, as = null) {
+    const topology = new Topology(mesh);
+    this.close();
+    this.mesh = mesh;
+    this.topology = topology;
+    byId("file-name").textContent = mesh.name.split("/").pop();
+    document.title = `${mesh.name.split("/").pop()} · meshwalk`;
+    this.makeLocator();
+    this.stage.space = "plane";
+    this.stage.show(mesh, topology);
+    this.colours.show();
+    this.loopPanel.show(this.describe());
+    this.checks = { plane: mesh.check(), space: mesh.hasHeights ? mesh.check(true) : null };
+    this.setSpace(as && as !== "plane" ? "space" : this.likelySpace());
+  }
+
+  close() {
+    for (const locator of this.locators.values()) locator.free();
+    this.locators.clear();
+    this.locator = null;
+    this.race.close();
+    for (const panel of [this.walkPanel, this.points, this.profile, this.here]) panel.clear();
+    if (!this.mesh) return;
+    this.stage.picture.free();
+    this.stage.picture = null;
+    this.mesh.free();
+  }
+
+  /** What folds in the plane but not in space is meant to be a surface. */
+  likelySpace() {
+    const { plane, space } = this.checks;
+    const count = (check) => check.defects.filter(({ kind }) => kind !== "flat").length;
+    return space && !plane.valid && 4 * count(space) < count(plane) ? "space" : "plane";
+  }
+
+  setSpace(space) {
+    byId("space").value = space;
+    byId("tools").hidden = space === "space";
+    if (space === "space") this.setTool("look");
+    this.here.clear();
+    const check = this.checks[space] || this.checks.plane;
+    this.showVerdict(this.defects.show(check, space), check.valid, space);
+    this.stage.setSpace(space);
+  }
+
+  describe() {
+    try {
+      return this.mesh.describe();
+    } catch {
+      return null; // the list of defects says why
+    }
+  }
+
+  showVerdict(defects, valid, space) {
+    const verdict = byId("verdict");
+    const [good, bad] = space === "space" ? ["a sound surface", "as a surface"]
+      : ["an embedding: every promise holds", "in the plane"];
+    verdict.textContent = valid ? `✓ ${good}` : `⚠ ${plural(defects, "defect")} ${bad}`;
+    verdict.className = valid ? "good" : "bad";
+  }
+
+  makeLocator() {
+    try {
+      this.locator = this.locatorFor("auto");
+    } catch {
+      this.locator = null; // arrays that no walk can use: the list of defects says why
+    }
+  }
+
+  /** The border walk wants pockets and holes open, all others filled. */
+  locatorFor(walk) {
+    const fill = walk === "border" ? "open" : "filled";
+    if (!this.locators.has(fill))
+      this.locators.set(fill, this.meshwalk.createLocator(this.mesh, { fill, any: true }));
+    return this.locators.get(fill);
+  }
+
+  /** Where a point lies; null if that has no answer. */
+  locate([x, y]) {
+    return this.locator && this.locator.locateOne(x, y);
+  }
+
+  // --- what people do ---
+
+  listen() {
+    for (const button of document.querySelectorAll("[data-tool]"))
+      button.addEventListener("click", () => this.setTool(button.dataset.tool));
+    byId("theme").addEventListener("click", () => this.setTheme(this.theme() === "dark"
+      ? "light" : "dark"));
+    byId("open-files").addEventListener("change", (event) => this.openFiles(event.target.files));
+    const target = document.body;
+    target.addEventListener("dragover", (event) => {
+      event.preventDefault();
+      byId("drop-hint").hidden = false;
+    });
+    target.addEventListener("dragleave", (event) => {
+      if (!event.relatedTarget) byId("drop-hint").hidden = true;
+    });
+    target.addEventListener("drop", (event) => {
+      event.preventDefault();
+      byId("drop-hint").hidden = true;
+      this.openFiles(event.dataTransfer.files);
+    });
+  }
+
+  theme() {
+    return document.documentElement.dataset.theme;
+  }
+
+  setTheme(theme) {
+    document.documentElement.dataset.theme = theme;
+    if (this.mesh) this.colours.apply();
+  }
+
+  /** What is to be done next, in the corner of the picture. */
+  setHint(text) {
+    this.hint = text;
+    this.stage.drawOverlay();
+  }
+
+  setTool(tool) {
+    this.tool = tool;
+    for (const button of document.querySelectorAll("[data-tool]"))
+      button.setAttribute("aria-checked", button.dataset.tool === tool);
+  }
+
+  click(screen) {
+    if (!this.mesh) return;
+    if (this.tool === "look") {
+      this.here.show(screen, true);
+      return;
+    }
+    const point = this.rounded(this.stage.camera.toMesh(screen));
+    if (this.tool === "walk") this.walkPanel.click(point);
+    else this.profile.click(point);
+  }
+
+  /** As many digits as the screen can tell, so that commands stay short. */
+  rounded(point) {
+    const digits = Math.ceil(Math.log10(this.stage.camera.scale)) + 1;
+    return point.map((value) => (digits >= 0 && digits < 15 ? Number(value.toFixed(digits))
+      : Number(value.toPrecision(15))));
+  }
+
+  hover(screen) {
+    if (!this.mesh) return;
+    if (screen) this.here.show(screen, false);
+    else this.here.leave();
+  }
+
+  async openFiles(files) {
+    this.complain("");
+    try {
+      if (files.length) await openFiles(this, files);
+    } catch (error) {
+      this.fail(error);
+    }
+  }
+
+  // --- what goes wrong ---
+
+  complain(message) {
+    byId("failure").hidden = !message;
+    byId("failure").textContent = message;
+  }
+
+  fail(error) {
+    this.complain(error.message);
+    if (error.name !== "MeshwalkError") console.warn(error);
+  }
+
+  /** Do something that the engine may refuse. */
+  attempt(act) {
+    this.complain("");
+    try {
+      act();
+    } catch (error) {
+      this.fail(error);
+    }
+  }
+}
+
+async function main() {
+  const dark = window.matchMedia("(prefers-color-scheme: dark)").matches;
+  document.documentElement.dataset.theme = dark ? "dark" : "light";
+  await new Promise((resolve) => setTimeout(resolve, 20)); // the page is seen before the work
+  const bytes = Uint8Array.from(atob(byId("engine").textContent), (c) => c.charCodeAt(0));
+  const meshwalk = await loadMeshwalk(bytes);
+  const app = new App(meshwalk);
+  const content = readContent(meshwalk, byId("content").textContent);
+  byId("content").textContent = "";
+  byId("notice").textContent = content ? "" : "Open a file, or drop it here";
+  if (content) {
+    app.open(content.mesh, content.as);
+    if (content.query) app.points.show(content.query.name, content.query.xy);
+  }
+  window.meshwalkPage = app; // for tests, and for the curious
+  document.documentElement.dataset.ready = "true";
+}
+
+main().catch((error) => {
+  byId("failure").hidden = false;
+  byId("failure").textContent = `This browser cannot show the page: ${error.message}`;
+});

@@ -1,0 +1,160 @@
+// page.mjs BROWSER MESHWALK DATA: the page of `meshwalk view` in a headless browser. It loads
+// without a fault, its clicks give the answers of the command line, a damaged file gives the
+// reader's message.
+import assert from "node:assert/strict";
+import { execFileSync, spawnSync } from "node:child_process";
+import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { Browser } from "./browser.mjs";
+
+const [chromium, program, data] = process.argv.slice(2);
+const scratch = mkdtempSync(join(tmpdir(), "meshwalk-page-"));
+const HOW = { encoding: "utf8", cwd: scratch };
+const run = (...words) => execFileSync(program, words, HOW);
+const refuse = (...words) => spawnSync(program, words, HOW);
+const browser = await Browser.start(chromium);
+
+async function openPage(mesh, ...words) {
+  run("view", mesh, "-q", "-o", "page.html", ...words);
+  await browser.open(join(scratch, "page.html"));
+}
+
+/** Where a point of the mesh lies in the window. */
+const screenOf = (point) => browser.value(`(() => {
+  const box = document.getElementById("overlay").getBoundingClientRect();
+  const at = meshwalkPage.stage.camera.toScreen(${JSON.stringify(point)});
+  return [at[0] + box.left, at[1] + box.top];
+})()`);
+
+async function clickAt(point) {
+  await browser.click(...(await screenOf(point)));
+}
+
+// The triangle and the weights under a click are those of `locate`.
+async function compareClicks(mesh, points) {
+  for (const point of points) {
+    await clickAt(point);
+    const { point: at, location } = await browser.value(
+      "({ point: meshwalkPage.here.point, location: meshwalkPage.here.location })");
+    writeFileSync(join(scratch, "one.csv"), `x,y\n${at.join()}\n`);
+    const [, , status, triangle, ...weights] =
+      run("locate", mesh, "one.csv").trimEnd().split("\n")[1].split(",");
+    assert.equal(location.where, status);
+    assert.equal(location.triangle === null ? -1 : location.triangle, Number(triangle));
+    if (location.triangle !== null) assert.deepEqual(location.weights, weights.map(Number));
+    const words = await browser.value("document.getElementById('here').textContent");
+    assert.ok(words.includes(status), `${words} tells ${status}`);
+  }
+}
+
+// Two clicks, and the walk has the triangles that `walk` lists.
+async function compareWalk(mesh, name, from, to) {
+  await browser.press("[data-tool=walk]");
+  await browser.value(`document.getElementById("walk-name").value = "${name}"`);
+  await clickAt(from);
+  await clickAt(to);
+  const walk = await browser.value(`({ from: meshwalkPage.walkPanel.from,
+    to: meshwalkPage.walkPanel.to, triangles: Array.from(meshwalkPage.walkPanel.walk.triangles),
+    ring: meshwalkPage.walkPanel.ring })`);
+  const listed = run("walk", mesh, "--walk", name, "--from", walk.from.join(), "--to",
+    walk.to.join()).trimEnd().split("\n").slice(1).map((line) => Number(line.split(",")[1]));
+  assert.deepEqual(walk.triangles, listed);
+  await browser.press("[data-tool=look]");
+  return walk.ring;
+}
+
+async function compareRace() {
+  await browser.press("#walk-race");
+  const lanes = await browser.value(`meshwalkPage.race.lanes.map((lane) =>
+    [lane.name, Boolean(lane.ring)])`);
+  const rings = lanes.filter(([, ring]) => ring).map(([name]) => name);
+  assert.deepEqual(rings, ["lawson", "remembering", "barycentric", "direct"]);
+  assert.equal(lanes.length, 16);
+  await browser.press("#race-close");
+}
+
+async function testTrap() {
+  const mesh = join(data, "trap.off");
+  await openPage(mesh, "--points", join(data, "trap.csv"));
+  assert.match(await browser.value("document.getElementById('verdict').textContent"),
+    /an embedding/);
+  await compareClicks(mesh, [[0.5, 0.5], [0.2, 0.7], [1.04, 0.5]]);
+  assert.ok(await compareWalk(mesh, "lawson", [0.9, 0.1], [0.5, 0.5]));
+  assert.equal(await compareWalk(mesh, "celestial", [0.9, 0.1], [0.5, 0.5]), null);
+  await compareRace();
+  assert.equal(await browser.value("meshwalkPage.points.statuses.length"), 16);
+}
+
+/** Give the page a file, as if it were dropped. */
+const drop = (name, bytes) => browser.value(`(async () => {
+  const bytes = Uint8Array.from(atob("${Buffer.from(bytes).toString("base64")}"),
+    (c) => c.charCodeAt(0));
+  await openPageFiles([new File([bytes], "${name}")]);
+})()`);
+
+async function testFiles() {
+  await browser.value("window.openPageFiles = (files) => meshwalkPage.openFiles(files)");
+  const damaged = "OFF\n3 1 0\n0 0 0\n1 0 zero\n";
+  writeFileSync(join(scratch, "damaged.off"), damaged);
+  const { stderr } = refuse("info", "damaged.off");
+  await drop("damaged.off", damaged);
+  const message = await browser.value("document.getElementById('failure').textContent");
+  assert.equal(`meshwalk: ${message}`, stderr.trimEnd().split("\n")[0]);
+  assert.equal(await browser.value("document.getElementById('file-name').textContent"), "trap.off");
+}
+
+// A fold is listed, led to, and explained.
+async function testDefects() {
+  const folded = "OFF\n4 3 0\n0 0 0\n1 0 0\n0 1 0\n0.4 0.4 0\n3 0 1 2\n3 0 1 3\n3 1 2 3\n";
+  await drop("folded.off", folded);
+  await browser.until("meshwalkPage.mesh.name === 'folded.off'");
+  assert.equal(await browser.value("document.getElementById('failure').hidden"), true);
+  writeFileSync(join(scratch, "folded.off"), folded);
+  const told = refuse("check", "folded.off").stdout;
+  const listed = await browser.value(
+    "[...document.querySelectorAll('#defects button')].map((button) => button.textContent)");
+  assert.deepEqual(listed, told.trimEnd().split("\n").slice(0, -1));
+  await browser.press("#defects button");
+  const words = await browser.value("document.getElementById('defect-about').textContent");
+  assert.match(words, /fold/i);
+}
+
+async function testTerrain() {
+  run("triangulate", join(data, "jacksboro.csv"), "-q", "-o", "terrain.ply");
+  await openPage("terrain.ply");
+  await compareClicks("terrain.ply", [[15000, 16000], [4000, 9000], [29000, 30000]]);
+  await browser.value("meshwalkPage.profile.click([1000, 1000])");
+  await browser.value("meshwalkPage.profile.click([29000, 31000])");
+  assert.match(await browser.value("document.getElementById('profile-about').textContent"),
+    /^z along [\d.]+ through \d+ triangles/);
+  await browser.value("meshwalkPage.setSpace('space')");
+  await browser.frame();
+  assert.ok(await browser.value("meshwalkPage.stage.picture.visible > 1000"));
+}
+
+/** Something is drawn in the middle of the picture. */
+const drawn = () => browser.value(`(() => {
+  const canvas = document.getElementById("picture");
+  const [x, y] = [canvas.width >> 1, canvas.height >> 1];
+  return canvas.getContext("2d").getImageData(x, y, 1, 1).data[3] === 255;
+})()`);
+
+try {
+  for (const [width, height, mobile] of [[1280, 800, false], [390, 844, true]]) {
+    await browser.size(width, height, mobile);
+    await testTrap();
+    await browser.frame();
+    assert.ok(await drawn());
+    assert.equal(await browser.value("document.documentElement.scrollWidth"), width);
+  }
+  await testFiles();
+  await testDefects();
+  await browser.size(1280, 800);
+  await testTerrain();
+  assert.deepEqual(browser.faults, []);
+  console.log("the page answers as the command line does");
+} finally {
+  await browser.close();
+  rmSync(scratch, { recursive: true });
+}
