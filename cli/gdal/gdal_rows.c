@@ -279,18 +279,20 @@ static int rows_create_layer(gdal_rows *r)
                      : strcmp(driver, "FlatGeobuf") == 0                       ? ordered
                                                                                : NULL;
     r->points_needed = strcmp(driver, "FlatGeobuf") == 0;
+    bool flat = r->form.dimensions == 2;
     gdal->CPLSetConfigOption("OGR_SQLITE_SYNCHRONOUS", "OFF"); /* it has no name yet */
     OGRSpatialReferenceH crs = r->form.crs ? crs_parse(gdal, r->form.crs, true) : NULL;
     gdal->CPLErrorReset();
     r->set = gdal->GDALCreate(gdal->GDALGetDriverByName(driver), r->target.temporary, 0, 0, 0,
                               GDT_Unknown, NULL);
     if (r->set)
-        r->layer = gdal->GDALDatasetCreateLayer(r->set, name, crs,
-                                                r->form.polygons          ? wkbPolygon
-                                                : r->form.lines           ? wkbLineString
-                                                : r->form.dimensions == 3 ? wkbPoint25D
-                                                                          : wkbPoint,
-                                                options);
+        r->layer =
+            gdal->GDALDatasetCreateLayer(r->set, name, crs,
+                                         r->form.polygons ? (flat ? wkbPolygon : wkbPolygon25D)
+                                         : r->form.lines ? (flat ? wkbLineString : wkbLineString25D)
+                                         : r->form.dimensions == 3 ? wkbPoint25D
+                                                                   : wkbPoint,
+                                         options);
     if (crs) gdal->OSRRelease(crs);
     if (!r->layer) return rows_fail(r, "it cannot be written");
     int end = 0;
@@ -374,20 +376,23 @@ static int feature_set_point(gdal_rows *r, OGRFeatureH feature, const double *p)
 }
 
 static OGRGeometryH line_create(const gdal_functions *gdal, OGRwkbGeometryType type,
-                                const double *points, size_t count)
+                                const double *points, size_t count, size_t dimensions)
 {
     OGRGeometryH line = gdal->OGR_G_CreateGeometry(type);
     /* from the end, so that it grows once */
     for (size_t i = count; i-- > 0;)
-        gdal->OGR_G_SetPoint_2D(line, (int)i, points[2 * i], points[2 * i + 1]);
+        if (dimensions == 3)
+            gdal->OGR_G_SetPoint(line, (int)i, points[3 * i], points[3 * i + 1], points[3 * i + 2]);
+        else
+            gdal->OGR_G_SetPoint_2D(line, (int)i, points[2 * i], points[2 * i + 1]);
     return line;
 }
 
 static int feature_set_line(gdal_rows *r, OGRFeatureH feature, const double *points)
 {
     rows_warn_of_lonlat(r, points);
-    r->gdal->OGR_F_SetGeometryDirectly(feature,
-                                       line_create(r->gdal, wkbLineString, points, r->line_count));
+    r->gdal->OGR_F_SetGeometryDirectly(
+        feature, line_create(r->gdal, wkbLineString, points, r->line_count, r->form.dimensions));
     return 0;
 }
 
@@ -398,8 +403,9 @@ static int feature_set_polygon(gdal_rows *r, OGRFeatureH feature, const double *
     rows_warn_of_lonlat(r, points);
     for (size_t k = 0; k < r->ring_count; k++) {
         size_t first = r->ring_first[k], count = r->ring_first[k + 1] - first;
-        gdal->OGR_G_AddGeometryDirectly(
-            polygon, line_create(gdal, wkbLinearRing, points + 2 * first, count));
+        gdal->OGR_G_AddGeometryDirectly(polygon, line_create(gdal, wkbLinearRing,
+                                                             points + r->form.dimensions * first,
+                                                             count, r->form.dimensions));
     }
     gdal->OGR_F_SetGeometryDirectly(feature, polygon);
     return 0;
