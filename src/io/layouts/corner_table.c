@@ -39,7 +39,7 @@ static mw_status corner_refuse(const corner_reading *reading, size_t face, mw_er
 static mw_status corner_add(corner_reading *reading, size_t face, size_t column, double number,
                             mw_error *error)
 {
-    if (number != (double)(int64_t)number || number >= INT32_MAX)
+    if (number >= INT32_MAX || number != (double)(int64_t)number)
         return corner_refuse(reading, face, error, "no number of a vertex is",
                              number < 1e18 ? (int64_t)number : INT64_MAX);
     int64_t corner = (int64_t)number;
