@@ -69,7 +69,7 @@ static void put_vertices(const writing *w, int variable, const double *values)
 static void put_faces(const writing *w, int variable, const int64_t *corners, size_t faces,
                       size_t width, int64_t first, int64_t none, bool turned)
 {
-    int64_t values[12];
+    int64_t values[60];
     for (size_t f = 0; f < faces; f++)
         for (size_t k = 0; k < width; k++) {
             int64_t corner = corners[f * width + k];
@@ -176,6 +176,35 @@ static void test_ugrid(void **state)
 }
 
 /* Packed by gzip, it is read from memory. */
+/* A corner table turned round is recognised by its shape if no attribute names its dimension. */
+static void test_turned_by_shape(void **state)
+{
+    (void)state;
+    enum { FACES = 15 };
+    need_libnetcdf();
+    writing w = begin("shape.nc", "node", "face", FACES, 4);
+    int mesh = define(&w, "mesh", MW_NETCDF_INT, -1, -1);
+    int x = define(&w, "px", MW_NETCDF_DOUBLE, w.node, -1);
+    int y = define(&w, "py", MW_NETCDF_DOUBLE, w.node, -1);
+    int corners = define(&w, "table", MW_NETCDF_INT, w.corner, w.face);
+    mw__netcdf_output_text(w.output, mesh, "cf_role", "mesh_topology");
+    mw__netcdf_output_number(w.output, mesh, "topology_dimension", MW_NETCDF_INT, 2);
+    mw__netcdf_output_text(w.output, mesh, "node_coordinates", "px py");
+    mw__netcdf_output_text(w.output, mesh, "face_node_connectivity", "table");
+    mw__netcdf_output_number(w.output, corners, "_FillValue", MW_NETCDF_INT, -7);
+    mw__netcdf_output_defined(w.output);
+    int64_t faces[FACES][4];
+    for (size_t f = 0; f < FACES; f++) memcpy(faces[f], quads[f % 3], sizeof faces[f]);
+    put_vertices(&w, x, xs);
+    put_vertices(&w, y, ys);
+    put_faces(&w, corners, faces[0], FACES, 4, 0, -7, true);
+    end(&w);
+    mw_mesh_file file = read_layout("shape.nc", NULL);
+    assert_int_equal(file.face_count, FACES);
+    mw_mesh_file_release(&file);
+    files_clear();
+}
+
 static void test_packed(void **state)
 {
     (void)state;
@@ -517,11 +546,12 @@ static void test_models(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_ugrid),   cmocka_unit_test(test_packed),
-        cmocka_unit_test(test_named),   cmocka_unit_test(test_dual),
-        cmocka_unit_test(test_numbers), cmocka_unit_test(test_crs),
-        cmocka_unit_test(test_wrong),   cmocka_unit_test(test_models),
-        cmocka_unit_test(test_writer),  cmocka_unit_test(test_written_faces),
+        cmocka_unit_test(test_ugrid),         cmocka_unit_test(test_turned_by_shape),
+        cmocka_unit_test(test_packed),        cmocka_unit_test(test_named),
+        cmocka_unit_test(test_dual),          cmocka_unit_test(test_numbers),
+        cmocka_unit_test(test_crs),           cmocka_unit_test(test_wrong),
+        cmocka_unit_test(test_models),        cmocka_unit_test(test_writer),
+        cmocka_unit_test(test_written_faces),
     };
     return cmocka_run_group_tests(tests, files_enter, files_leave);
 }

@@ -1,4 +1,4 @@
-// page.mjs BROWSER MESHWALK DATA: the page of `meshwalk view` in a headless browser. It loads
+// page.mjs BROWSER MESHWALK DATA PAGE: the page of `meshwalk view` in a headless browser. It loads
 // without a fault, its clicks give the answers of the command line, a damaged file gives the
 // reader's message.
 import assert from "node:assert/strict";
@@ -8,7 +8,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { Browser } from "./browser.mjs";
 
-const [chromium, program, data] = process.argv.slice(2);
+const [chromium, program, data, emptyPage] = process.argv.slice(2);
 const scratch = mkdtempSync(join(tmpdir(), "meshwalk-page-"));
 const HOW = { encoding: "utf8", cwd: scratch };
 const run = (...words) => execFileSync(program, words, HOW);
@@ -93,7 +93,7 @@ const drop = (name, bytes) => browser.value(`(async () => {
   await openPageFiles([new File([bytes], "${name}")]);
 })()`);
 
-async function testFiles() {
+async function testFiles(shown) {
   await browser.value("window.openPageFiles = (files) => meshwalkPage.openFiles(files)");
   const damaged = "OFF\n3 1 0\n0 0 0\n1 0 zero\n";
   writeFileSync(join(scratch, "damaged.off"), damaged);
@@ -101,7 +101,7 @@ async function testFiles() {
   await drop("damaged.off", damaged);
   const message = await browser.value("document.getElementById('failure').textContent");
   assert.equal(`meshwalk: ${message}`, stderr.trimEnd().split("\n")[0]);
-  assert.equal(await browser.value("document.getElementById('file-name').textContent"), "trap.off");
+  assert.equal(await browser.value("document.getElementById('file-name').textContent"), shown);
 }
 
 // A fold is listed, led to, and explained.
@@ -133,12 +133,39 @@ async function testTerrain() {
   assert.ok(await browser.value("meshwalkPage.stage.picture.visible > 1000"));
 }
 
+// Two rays and a probe: the triangles that `walk` lists in space.
+async function testSpace() {
+  const text = ["OFF", "6 8 0", "1 0 0", "-1 0 0", "0 1 0", "0 -1 0", "0 0 1", "0 0 -1", "3 0 2 4",
+    "3 2 1 4", "3 1 3 4", "3 3 0 4", "3 2 0 5", "3 1 2 5", "3 3 1 5", "3 0 3 5", ""].join("\n");
+  writeFileSync(join(scratch, "octahedron.off"), text);
+  await openPage("octahedron.off", "--as", "star");
+  for (const [tool, clicks] of [["ray", [[0, 0, 1], [0.4, -0.4, 0.2]]], ["probe", [[0, 0, 1]]]]) {
+    await browser.press(`[data-tool=${tool}]`);
+    for (const point of clicks) await clickAt(point);
+    const walk = await browser.value(`({ from: meshwalkPage.walkPanel.from.join(),
+      to: meshwalkPage.walkPanel.to.join(), name: document.getElementById("walk-name").value,
+      triangles: Array.from(meshwalkPage.walkPanel.walk.triangles) })`);
+    const how = tool === "ray" ? ["star", "--walk", walk.name] : ["surface", "--weld"];
+    const listed = run("walk", "octahedron.off", "--as", ...how, "--from", walk.from,
+      "--to", walk.to);
+    assert.deepEqual(walk.triangles,
+      listed.trimEnd().split("\n").slice(1).map((line) => Number(line.split(",")[1])), tool);
+  }
+}
+
 /** Something is drawn in the middle of the picture. */
 const drawn = () => browser.value(`(() => {
   const canvas = document.getElementById("picture");
   const [x, y] = [canvas.width >> 1, canvas.height >> 1];
   return canvas.getContext("2d").getImageData(x, y, 1, 1).data[3] === 255;
 })()`);
+
+// The page as it is installed holds no mesh: it waits for a file.
+async function testEmpty() {
+  await browser.open(emptyPage);
+  assert.match(await browser.value("document.getElementById('notice').textContent"), /drop it/);
+  await testFiles("");
+}
 
 try {
   for (const [width, height, mobile] of [[1280, 800, false], [390, 844, true]]) {
@@ -148,10 +175,12 @@ try {
     assert.ok(await drawn());
     assert.equal(await browser.value("document.documentElement.scrollWidth"), width);
   }
-  await testFiles();
+  await testFiles("trap.off");
   await testDefects();
   await browser.size(1280, 800);
   await testTerrain();
+  await testSpace();
+  await testEmpty();
   assert.deepEqual(browser.faults, []);
   console.log("the page answers as the command line does");
 } finally {
