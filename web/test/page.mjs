@@ -1,4 +1,4 @@
-// page.mjs BROWSER MESHWALK DATA: the page of `meshwalk view` in a headless browser. It loads
+// page.mjs BROWSER MESHWALK DATA PAGE: the page of `meshwalk view` in a headless browser. It loads
 // without a fault, its clicks give the answers of the command line, a damaged file gives the
 // reader's message.
 import assert from "node:assert/strict";
@@ -8,7 +8,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { Browser } from "./browser.mjs";
 
-const [chromium, program, data] = process.argv.slice(2);
+const [chromium, program, data, emptyPage] = process.argv.slice(2);
 const scratch = mkdtempSync(join(tmpdir(), "meshwalk-page-"));
 const HOW = { encoding: "utf8", cwd: scratch };
 const run = (...words) => execFileSync(program, words, HOW);
@@ -93,7 +93,7 @@ const drop = (name, bytes) => browser.value(`(async () => {
   await openPageFiles([new File([bytes], "${name}")]);
 })()`);
 
-async function testFiles() {
+async function testFiles(shown) {
   await browser.value("window.openPageFiles = (files) => meshwalkPage.openFiles(files)");
   const damaged = "OFF\n3 1 0\n0 0 0\n1 0 zero\n";
   writeFileSync(join(scratch, "damaged.off"), damaged);
@@ -101,7 +101,7 @@ async function testFiles() {
   await drop("damaged.off", damaged);
   const message = await browser.value("document.getElementById('failure').textContent");
   assert.equal(`meshwalk: ${message}`, stderr.trimEnd().split("\n")[0]);
-  assert.equal(await browser.value("document.getElementById('file-name').textContent"), "trap.off");
+  assert.equal(await browser.value("document.getElementById('file-name').textContent"), shown);
 }
 
 // A fold is listed, led to, and explained.
@@ -160,6 +160,13 @@ const drawn = () => browser.value(`(() => {
   return canvas.getContext("2d").getImageData(x, y, 1, 1).data[3] === 255;
 })()`);
 
+// The page as it is installed holds no mesh: it waits for a file.
+async function testEmpty() {
+  await browser.open(emptyPage);
+  assert.match(await browser.value("document.getElementById('notice').textContent"), /drop it/);
+  await testFiles("");
+}
+
 try {
   for (const [width, height, mobile] of [[1280, 800, false], [390, 844, true]]) {
     await browser.size(width, height, mobile);
@@ -168,11 +175,12 @@ try {
     assert.ok(await drawn());
     assert.equal(await browser.value("document.documentElement.scrollWidth"), width);
   }
-  await testFiles();
+  await testFiles("trap.off");
   await testDefects();
   await browser.size(1280, 800);
   await testTerrain();
   await testSpace();
+  await testEmpty();
   assert.deepEqual(browser.faults, []);
   console.log("the page answers as the command line does");
 } finally {
