@@ -2,6 +2,7 @@
  * below, and a row here. */
 #include "bench/bench.h"
 #include "bench/edits/bench_edit.h"
+#include "bench/ocean/bench_ocean.h"
 #include "bench/paper/bench_near_vertices.h"
 #include "bench/paper/bench_paper.h"
 #include "bench/peers/bench_peers.h"
@@ -22,7 +23,7 @@ static const struct {
     {"paper", bench_paper, false},      {"near-vertices", bench_near_vertices, false},
     {"peers", bench_peers, true},       {"scale", bench_scale, true},
     {"edit", bench_edit, true},         {"worst", bench_worst, true},
-    {"segments", bench_segments, true},
+    {"segments", bench_segments, true}, {"ocean", bench_ocean, true},
 };
 #define MEASUREMENTS (sizeof measurements / sizeof *measurements)
 

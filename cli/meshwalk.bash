@@ -16,6 +16,7 @@ _meshwalk_options() {
         weights) echo "$query --method --values --norm --strict --stats --json --layer --where $common" ;;
         apply) echo "--field --missing --strict --stats --json $common" ;;
         contours) echo "--interval --levels --base --polygons --field --nodata --crs $common" ;;
+        drape) echo "--field --nodata --outside-z --attribute --layer --columns --crs --lines-crs --strict $common" ;;
         volume) echo "--base --against --field --against-field --nodata --crs --against-crs --json --strict $common" ;;
         profile) echo "--field --nodata --attribute --layer --columns --crs --lines-crs --strict $common" ;;
         raster)
@@ -145,13 +146,13 @@ _meshwalk() {
         before=${COMP_WORDS[COMP_CWORD - 2]}
     fi
     if ((COMP_CWORD == 1)); then
-        names='info check triangulate locate sample weights apply profile contours raster visible volume edit star probe walk convert view bench --help --version'
+        names='info check triangulate locate sample weights apply profile contours raster visible drape volume edit star probe walk convert view bench --help --version'
         mapfile -t COMPREPLY < <(compgen -W "$names" -- "$word")
         return
     fi
     names=$(_meshwalk_names "$command" "$before")
     [[ $command == bench && $COMP_CWORD -eq 2 && $word != -* ]] &&
-        names='paper near-vertices peers scale edit worst segments'
+        names='paper near-vertices peers scale edit worst segments ocean'
     [[ $command == bench && $before == paper ]] && names='A1 A2 B1 B2 C1 C2 D1 E1 E2 F1 F2 G1 G2 G3'
     [[ $command == bench && $before == @(peers|scale) ]] &&
         names='uniform grid gaussian clusters arcs rectangle rings slivers offset cadastre lidar'

@@ -65,7 +65,7 @@ static int volume_check(const volume_settings *s, const char *mesh, volume_meshe
     }
     m->base = s->base ? strtod(s->base, &stop) : 0;
     if (s->base && (*stop || stop == s->base || !isfinite(m->base))) {
-        complain("option '--base' wants a number, not '%.60s'", s->base);
+        complain("option '--base' must be a number, not '%.60s'", s->base);
         return END_USAGE;
     }
     int end = files_check_output(s->common.output, inputs, s->against ? 2 : 1);

@@ -113,6 +113,14 @@ def operator_from_locations(
 _Mesh = TypeVar("_Mesh", bound=Mesh)
 _Locator = TypeVar("_Locator", bound=Locator)
 
+def operator_from_entries(
+    row: Buffer,
+    column: Buffer,
+    weight: Buffer,
+    rows: int,
+    columns: int,
+    /,
+) -> Operator: ...
 def mesh_from_arrays(
     cls: type[_Mesh],
     points: Buffer,
@@ -305,6 +313,17 @@ def check_arrays(
     progress: Progress | None,
     /,
 ) -> tuple[bool, list[tuple[str, str, int, int, int, int, int]]]: ...
+def mend_arrays(
+    points: Buffer,
+    triangles: Buffer,
+    repairs: int,
+    space: bool,
+    tolerance: float,
+    progress: Progress | None,
+    /,
+) -> tuple[
+    memoryview, memoryview, memoryview, memoryview, list[tuple[int, str, int, int, int]]
+]: ...
 def delaunay(
     cls: type[_Mesh],
     points: Buffer,

@@ -29,6 +29,8 @@ for mesh in square ring overlap; do
 done
 cp square.off $'a"\\\xff.off'
 run info --json $'a"\\\xff.off'; exits 0; holds "a wild name makes good JSON" is_json "$logs/out"
+cp square.off 'é-€-𝄞.off'
+run info --json 'é-€-𝄞.off'; exits 0; prints_line '"é-€-𝄞.off"'
 
 run check square.off; exits 0; prints 'square.off: an embedding: every promise holds'; says_nothing
 run check overlap.off; exits 3; says_nothing

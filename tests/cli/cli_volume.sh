@@ -116,8 +116,8 @@ fi
 
 run volume pyramid.off; refused 2 'against what\?'
 run volume pyramid.off --base 0 --against square.off; refused 2 'one of them'
-run volume pyramid.off --base high; refused 2 "'--base' wants a number, not 'high'"
-run volume pyramid.off --base nan; refused 2 "'--base' wants a number"
+run volume pyramid.off --base high; refused 2 "'--base' must be a number, not 'high'"
+run volume pyramid.off --base nan; refused 2 "'--base' must be a number"
 run volume pyramid.off --base 1 --strict; refused 2 "'--strict' is for --against"
 run volume pyramid.off --base 1 --against-crs EPSG:2056; refused 2 "'--against-crs' is for"
 run volume pyramid.off --against absent.off; refused 3 'absent.off'

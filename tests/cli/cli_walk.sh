@@ -187,6 +187,7 @@ while at < len(data):
     if kind == b"IHDR": width, height = struct.unpack(">II", body[:8])
     if kind in (b"fcTL", b"IEND") and frame: assert len(zlib.decompress(frame)) == height * (4 * width + 1); frame = b""
     if kind == b"fcTL": assert struct.unpack(">IIII", body[4:20]) == (width, height, 0, 0)
+    if kind == b"fcTL": print("shown", struct.unpack(">HH", body[20:24])[0])
     if kind == b"fdAT": frame += body[4:]
     at += 12 + size
 EOF
@@ -195,6 +196,8 @@ run walk --from 0.1,0.2 --to 3.9,0.8 --walk remembering row.off --animate row.ap
 prints ''; says_nothing
 holds "the chunks are right" chunks row.apng >row.chunks
 holds "eight frames" test "$(grep -c fcTL row.chunks)" == 8
+holds "the last one stays for two seconds" test "$(grep shown row.chunks | sort | uniq -c | xargs)" == \
+    "1 shown 2000 7 shown 500"
 holds "eight are announced" grep -qx 'acTL 8' row.chunks
 holds "numbers count up" test "$(grep -E '^f' row.chunks | cut -d' ' -f2 | xargs)" == \
     "$(seq 0 $(($(grep -cE '^f' row.chunks) - 1)) | xargs)"

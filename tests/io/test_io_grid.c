@@ -1,5 +1,6 @@
 /* test_io_grid.c - readers of the meshes of simulations: what they take, and that no file that is
  * cut short or altered does harm. */
+#define _GNU_SOURCE /* memmem */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -173,6 +174,16 @@ static void test_msh(void **state)
     mw_mesh_file_release(&file);
 }
 
+/* Bytes that are no mesh, for a reason. */
+static void expect_bad(const grid_bytes *g, const char *says)
+{
+    mw_mesh_file file;
+    mw_error error;
+    files_write("a.slf", (bytes){g->bytes, g->size});
+    assert_int_equal(mw_read_mesh("a.slf", NULL, &file, &error), MW_ERROR_INPUT);
+    if (!strstr(error.message, says)) fail_msg("'%s' does not say '%s'", error.message, says);
+}
+
 static void test_selafin(void **state)
 {
     (void)state;
@@ -186,6 +197,17 @@ static void test_selafin(void **state)
     mw_mesh_file file = mesh_file_read_bytes("a.slf", (bytes){g.bytes, g.size});
     assert_int_equal(file.step_count, 2);
     mw_mesh_file_release(&file);
+    /* layers above one another, and elements of another number of corners, are refused */
+    static const unsigned char layers[] = {100, 0, 0, 0, 200, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0},
+                               sizes[] = {3, 0, 0, 0, 5, 0, 0, 0, 3};
+    unsigned char *layer = memmem(g.bytes, g.size, layers, sizeof layers),
+                  *corner = memmem(g.bytes, g.size, sizes, sizeof sizes);
+    assert_true(layer && corner);
+    layer[16] = 2;
+    expect_bad(&g, "elements of 3 corners in 2 planes");
+    layer[16] = 1;
+    corner[8] = 5;
+    expect_bad(&g, "elements of 5 corners in 1 planes");
     grid_release(&g);
 }
 

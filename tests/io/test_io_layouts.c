@@ -69,7 +69,7 @@ static void put_vertices(const writing *w, int variable, const double *values)
 static void put_faces(const writing *w, int variable, const int64_t *corners, size_t faces,
                       size_t width, int64_t first, int64_t none, bool turned)
 {
-    int64_t values[12];
+    int64_t values[60];
     for (size_t f = 0; f < faces; f++)
         for (size_t k = 0; k < width; k++) {
             int64_t corner = corners[f * width + k];
@@ -176,6 +176,35 @@ static void test_ugrid(void **state)
 }
 
 /* Packed by gzip, it is read from memory. */
+/* A corner table turned round is recognised by its shape if no attribute names its dimension. */
+static void test_turned_by_shape(void **state)
+{
+    (void)state;
+    enum { FACES = 15 };
+    need_libnetcdf();
+    writing w = begin("shape.nc", "node", "face", FACES, 4);
+    int mesh = define(&w, "mesh", MW_NETCDF_INT, -1, -1);
+    int x = define(&w, "px", MW_NETCDF_DOUBLE, w.node, -1);
+    int y = define(&w, "py", MW_NETCDF_DOUBLE, w.node, -1);
+    int corners = define(&w, "table", MW_NETCDF_INT, w.corner, w.face);
+    mw__netcdf_output_text(w.output, mesh, "cf_role", "mesh_topology");
+    mw__netcdf_output_number(w.output, mesh, "topology_dimension", MW_NETCDF_INT, 2);
+    mw__netcdf_output_text(w.output, mesh, "node_coordinates", "px py");
+    mw__netcdf_output_text(w.output, mesh, "face_node_connectivity", "table");
+    mw__netcdf_output_number(w.output, corners, "_FillValue", MW_NETCDF_INT, -7);
+    mw__netcdf_output_defined(w.output);
+    int64_t faces[FACES][4];
+    for (size_t f = 0; f < FACES; f++) memcpy(faces[f], quads[f % 3], sizeof faces[f]);
+    put_vertices(&w, x, xs);
+    put_vertices(&w, y, ys);
+    put_faces(&w, corners, faces[0], FACES, 4, 0, -7, true);
+    end(&w);
+    mw_mesh_file file = read_layout("shape.nc", NULL);
+    assert_int_equal(file.face_count, FACES);
+    mw_mesh_file_release(&file);
+    files_clear();
+}
+
 static void test_packed(void **state)
 {
     (void)state;
@@ -362,7 +391,14 @@ static void test_wrong(void **state)
     /* an attribute with a name of 4 GB: libnetcdf would ask for the memory */
     files_write("a.nc", BYTES("CDF\1\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\14\0\0\0\1\xff\xff\xff\xf0"
                               "aaaaaaaaaaaaaaaaaaaaaaaa"));
-    expect_refused(NULL, MW_ERROR_INPUT, "a.nc: at byte 52: the data end early");
+    expect_refused(NULL, MW_ERROR_INPUT, "damaged: a name of 4294967280 bytes");
+    /* a text of 4 GB; a name longer than netCDF's, which libnetcdf would copy past its end */
+    files_write("a.nc", BYTES("CDF\1\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\14\0\0\0\1\0\0\0\1"
+                              "a\0\0\0\0\0\0\2\xff\xff\xff\xf0"
+                              "aaaaaaaaaaaaaaaa"));
+    expect_refused(NULL, MW_ERROR_INPUT, "the data end early");
+    files_write("a.nc", BYTES("CDF\1\0\0\0\0\0\0\0\12\0\0\0\1\0\0\1\1aaaa"));
+    expect_refused(NULL, MW_ERROR_INPUT, "damaged: a name of 257 bytes");
     for (int wrong = 0; wrong < 5; wrong++) {
         static const char *const says[] = {
             "a.nc: variable element: 3000000000000 values are announced",
@@ -484,6 +520,7 @@ static void test_models(void **state)
         {"ocean/ugrid_eleven_points.nc", 11, 13, "EPSG:4326"},
         {"ocean/ugrid_elevation_nl.nc.gz", 2790, 5248, NULL},
         {"ocean/fesom_mesh_diag.nc.gz", 3140, 5839, "EPSG:4326"},
+        {"ocean/ugrid_overlap_rll10_csne4.nc", 683, 856, "EPSG:4326"},
         {"ocean/fvcom_example.nc", 551, 903, "EPSG:4326"},
         {"ocean/schism_out2d.nc.gz", 823, 791, NULL},
         {"ocean/shinnecock_fort.63.nc", 3070, 5780, "EPSG:4326"},
@@ -509,11 +546,12 @@ static void test_models(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_ugrid),   cmocka_unit_test(test_packed),
-        cmocka_unit_test(test_named),   cmocka_unit_test(test_dual),
-        cmocka_unit_test(test_numbers), cmocka_unit_test(test_crs),
-        cmocka_unit_test(test_wrong),   cmocka_unit_test(test_models),
-        cmocka_unit_test(test_writer),  cmocka_unit_test(test_written_faces),
+        cmocka_unit_test(test_ugrid),         cmocka_unit_test(test_turned_by_shape),
+        cmocka_unit_test(test_packed),        cmocka_unit_test(test_named),
+        cmocka_unit_test(test_dual),          cmocka_unit_test(test_numbers),
+        cmocka_unit_test(test_crs),           cmocka_unit_test(test_wrong),
+        cmocka_unit_test(test_models),        cmocka_unit_test(test_writer),
+        cmocka_unit_test(test_written_faces),
     };
     return cmocka_run_group_tests(tests, files_enter, files_leave);
 }

@@ -398,6 +398,9 @@ static void test_gzip(void **state)
         assert_int_equal(mw_read_mesh("cut.off", NULL, &file, &error), MW_ERROR_INPUT);
         assert_non_null(strstr(error.message, "cut.off:"));
         assert_non_null(strstr(error.message, "gzip data end early"));
+        /* at the line that is missing or cut */
+        assert_true(error.line >= 1 && error.line <= 8);
+        if (cut + 1 == size) assert_int_equal(error.line, 8);
     }
     assert_true(size > 30);
     packed[size - 6] ^= 1; /* the checksum */

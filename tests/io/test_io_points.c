@@ -516,6 +516,14 @@ static void test_texts(void **state)
     mw_point_reader_texts(reader, 5, &line);
     assert_int_equal(line, 4);
     mw_point_reader_close(reader);
+    /* a single one */
+    files_write("p.txt", (bytes){"x,y,z,name\n1,2,3,4\n1,2,3,a\n1,2,3,5\n", 35});
+    assert_int_equal(mw_point_reader_open("p.txt", &options, &reader, &error), MW_OK);
+    assert_int_equal(mw_point_reader_read(reader, values, 8, &count, &error), MW_OK);
+    line = -1;
+    assert_int_equal(mw_point_reader_texts(reader, 3, &line), 1);
+    assert_int_equal(line, 3);
+    mw_point_reader_close(reader);
     /* not in coordinates, and not in columns that the caller has chosen */
     files_write("p.txt", (bytes){"x,y,z\n1,2,3\n1,2,a\n", 18});
     assert_int_equal(mw_point_reader_open("p.txt", &options, &reader, &error), MW_OK);

@@ -220,6 +220,44 @@ static void flat_triangles_own_no_point(void **state)
     }
 }
 
+/* Flat triangles beside one another: the mesh is taken, and answers are right, though it is not
+ * known to be convex. */
+static void flat_neighbours_are_taken(void **state)
+{
+    uint64_t random = environment_print_seed("borrow", 14);
+    (void)state;
+    for (int turned = 0; turned < 2; turned++) {
+        arrays a = arrays_make(6, 6);
+        static const double points[6][2] = {{0, 0}, {3, 0}, {3, 3}, {0, 3}, {1, 1}, {2, 2}};
+        for (int i = 0; i < 6; i++) arrays_point(&a, points[i][turned], points[i][!turned]);
+        arrays_triangle(&a, 0, 2, 3);
+        arrays_triangle(&a, 0, 4, 2);
+        arrays_triangle(&a, 4, 5, 2);
+        arrays_triangle(&a, 0, 1, 4);
+        arrays_triangle(&a, 4, 1, 5);
+        arrays_triangle(&a, 5, 1, 2);
+        size_t n;
+        double *q = arrays_queries(&a, 25, &n, &random);
+        mw_mesh *mesh = arrays_mesh(&a, (mw_mesh_options){0});
+        mw_locator *locator = mesh_locator(mesh, (mw_locator_options){0});
+        mw_location *want = malloc(n * sizeof *want);
+        assert_int_equal(mw_locate_batch(locator, q, n, 0, NULL, want, NULL, NULL), MW_OK);
+        foreign f = foreign_of(&a, MW_UINT32, MW_NEIGHBOUR_ACROSS_EDGE);
+        mw_borrowed *view = borrow(&f, (mw_borrow_options){0});
+        mw_borrowed_info info;
+        mw_borrowed_describe(view, &info);
+        assert_false(info.convex);
+        try_walks(view, want, q, n);
+        mw_borrowed_release(view);
+        foreign_free(&f);
+        free(want);
+        free(q);
+        mw_locator_destroy(locator);
+        mw_mesh_destroy(mesh);
+        arrays_free(&a);
+    }
+}
+
 /* --- wrong arrays ----------------------------------------------------------------------------- */
 
 enum { ANY = -2 };
@@ -443,6 +481,7 @@ int main(void)
         cmocka_unit_test(answers_are_those_of_a_mesh),
         cmocka_unit_test(extreme_coordinates_are_exact),
         cmocka_unit_test(flat_triangles_own_no_point),
+        cmocka_unit_test(flat_neighbours_are_taken),
         cmocka_unit_test(wrong_neighbours_are_refused),
         cmocka_unit_test(folds_are_refused),
         cmocka_unit_test(wrong_calls_are_refused),

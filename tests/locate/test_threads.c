@@ -239,6 +239,7 @@ static void test_batch_threads(void **state)
                 MW_OK);
             assert_memory_equal(location, w->answer, QUERIES * sizeof *location);
             if (threads == 1) one = more;
+            assert_int_equal(more.queries, QUERIES);
             assert_memory_equal(&one, &more, sizeof one);
         }
     }

@@ -156,6 +156,40 @@ static void test_facets_without_area(void **state)
     }
 }
 
+/* Rays through edges and vertices of facets that look small from the centre, where areas are taken
+ * from what is left of the corners once their common part is subtracted. */
+static void test_edges_of_small_facets(void **state)
+{
+    (void)state;
+    star_shape p = star_shape_octahedron(6);
+    star_world w = make_world(&p, (mw_surface_options){0}, (mw_star_options){0});
+    mw_star_cursor cursor = {0};
+    for (uint32_t t = 0, tried = 0; t < p.triangles && tried < 300; t++) {
+        const uint32_t *v = p.corner + 3 * (size_t)t;
+        const double *a = p.point + 3 * (size_t)v[0];
+        if (fabs(a[0]) < 58 && fabs(a[1]) < 58 && fabs(a[2]) < 58) continue;
+        tried++;
+        for (uint32_t k = 0; k < 3; k++) {
+            const double *b = p.point + 3 * (size_t)v[k], *c = p.point + 3 * (size_t)v[(k + 1) % 3];
+            uint32_t found[3];
+            mw_location at = mw_star_locate(w.star, &cursor, b);
+            assert_int_equal(at.where, MW_ON_VERTEX);
+            mw_surface_triangle(w.surface, at.triangle, found);
+            assert_int_equal(found[at.local], v[k]);
+            at =
+                mw_star_locate(w.star, &cursor, (double[3]){b[0] + c[0], b[1] + c[1], b[2] + c[2]});
+            assert_int_equal(at.where, MW_ON_EDGE);
+            mw_surface_triangle(w.surface, at.triangle, found);
+            uint32_t from = found[at.local], to = found[(at.local + 1) % 3];
+            assert_true((from == v[k] && to == v[(k + 1) % 3]) ||
+                        (to == v[k] && from == v[(k + 1) % 3]));
+            assert_true(at.weight[(at.local + 2) % 3] == 0);
+        }
+    }
+    release_world(&w);
+    star_shape_free(&p);
+}
+
 /* Each facet has vertices of its own; and a row of vertices at one place makes facets that vanish.
  */
 static void test_welded(void **state)
@@ -649,6 +683,7 @@ int main(void)
         cmocka_unit_test(test_lattice_stars),
         cmocka_unit_test(test_places_and_sizes),
         cmocka_unit_test(test_facets_without_area),
+        cmocka_unit_test(test_edges_of_small_facets),
         cmocka_unit_test(test_welded),
         cmocka_unit_test(test_indices_and_batches),
         cmocka_unit_test(test_short_walks),

@@ -7,9 +7,11 @@
 
 #include "base/base.h"
 #include "base/hilbert.h"
+#include "base/job.h"
 #include "base/random.h"
 
 #include <math.h>
+#include <meshwalk/locate.h>
 #include <meshwalk/version.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -120,12 +122,64 @@ static void test_errors(void **state)
     assert_string_equal(version, MW_VERSION_STRING);
 }
 
+/* --- ranges and counters ---------------------------------------------------------------------- */
+
+static void ranges_mark(void *work, uint64_t from, uint64_t to)
+{
+    for (uint64_t i = from; i < to; i++) ((uint8_t *)work)[i]++;
+}
+
+/* Ranges cover all items once, however many there are. */
+static void test_ranges(void **state)
+{
+    (void)state;
+    static const uint64_t counts[] = {0, 1, 16383, 16384, 16385, 32768, 32769, 50000};
+    for (size_t i = 0; i < sizeof counts / sizeof *counts; i++) {
+        uint8_t *done = calloc(counts[i] + 1, 1);
+        assert_non_null(done);
+        mw_job job = mw__job(1, NULL);
+        assert_true(mw__job_ranges(&job, counts[i], ranges_mark, done));
+        for (uint64_t k = 0; k < counts[i]; k++) assert_int_equal(done[k], 1);
+        assert_int_equal(done[counts[i]], 0);
+        free(done);
+    }
+}
+
+/* Every counter is added, or the larger one kept. */
+static void test_counters(void **state)
+{
+    (void)state;
+    enum { COUNT = sizeof(mw_counters) / sizeof(uint64_t) };
+    static const size_t most[] = {
+        offsetof(mw_counters, triangles_max), offsetof(mw_counters, triangles_walk_max),
+        offsetof(mw_counters, triangles_final_max), offsetof(mw_counters, triangles_border_max),
+        offsetof(mw_counters, border_edges_max)};
+    uint64_t sum[COUNT], more[COUNT];
+    for (size_t i = 0; i < COUNT; i++) {
+        sum[i] = i % 2 ? 100 + i : 200 + i;
+        more[i] = i % 2 ? 200 : 100;
+    }
+    mw_counters a, b;
+    memcpy(&a, sum, sizeof a);
+    memcpy(&b, more, sizeof b);
+    mw_counters_add(&a, &b);
+    uint64_t got[COUNT];
+    memcpy(got, &a, sizeof got);
+    for (size_t i = 0; i < COUNT; i++) {
+        uint64_t larger = sum[i] > more[i] ? sum[i] : more[i];
+        bool is_most = false;
+        for (size_t k = 0; k < sizeof most / sizeof *most; k++) is_most |= most[k] == 8 * i;
+        assert_int_equal(got[i], is_most ? larger : sum[i] + more[i]);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_curve),      cmocka_unit_test(test_odd_extents),
         cmocka_unit_test(test_sort),       cmocka_unit_test(test_random_below),
         cmocka_unit_test(test_allocation), cmocka_unit_test(test_errors),
+        cmocka_unit_test(test_ranges),     cmocka_unit_test(test_counters),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,14 +1,16 @@
 // app.js - the page: a mesh, its locators, and the panels about it.
 
+const TOOL_SPACES = { walk: "plane", profile: "plane", ray: "space", probe: "space" };
+
 class App {
   constructor(meshwalk) {
     this.meshwalk = meshwalk;
     this.tool = "look";
     this.hint = "";
-    this.stage = new Stage((context, camera) => drawAll(this, context, camera), {
-      click: (at) => this.click(at),
-      hover: (at) => this.hover(at),
-    });
+    this.lineNotes = [];
+    this.stage = new Stage((context, camera) => drawLines(this, context, camera),
+      (context, camera) => drawAll(this, context, camera),
+      { click: (at) => this.click(at), hover: (at) => this.hover(at) });
     this.here = new HerePanel(this);
     this.loopPanel = new LoopPanel(this);
     this.colours = new ColourPanel(this);
@@ -19,14 +21,13 @@ class App {
     this.profile = new ProfilePanel(this);
     this.locators = new Map();
     this.listen();
-    this.walkPanel.offer(meshwalk.walks);
     byId("version").textContent = `meshwalk ${meshwalk.version}`;
   }
 
   // --- the mesh ---
 
   /** Show a mesh; what was shown before goes. */
-  open(mesh, as = null) {
+  open(mesh, as = null, centre = [0, 0, 0]) {
     const topology = new Topology(mesh);
     this.close();
     this.mesh = mesh;
@@ -34,6 +35,7 @@ class App {
     byId("file-name").textContent = mesh.name.split("/").pop();
     document.title = `${mesh.name.split("/").pop()} · meshwalk`;
     this.makeLocator();
+    byId("walk-centre").value = centre.join(", ");
     this.stage.space = "plane";
     this.stage.show(mesh, topology);
     this.colours.show();
@@ -45,6 +47,8 @@ class App {
   close() {
     for (const locator of this.locators.values()) locator.free();
     this.locators.clear();
+    if (this.taken) this.taken.free();
+    this.taken = null;
     this.locator = null;
     this.race.close();
     for (const panel of [this.walkPanel, this.points, this.profile, this.here]) panel.clear();
@@ -54,20 +58,27 @@ class App {
     this.mesh.free();
   }
 
-  /** What folds in the plane but not in space is meant to be a surface. */
+  /** What is closed, or folds all over in the plane but not in space, is meant to be a surface. A
+   * terrain with a few faults stays in the plane, where these show. */
   likelySpace() {
     const { plane, space } = this.checks;
+    if (!space || plane.valid) return "plane";
     const count = (check) => check.defects.filter(({ kind }) => kind !== "flat").length;
-    return space && !plane.valid && 4 * count(space) < count(plane) ? "space" : "plane";
+    const all = count(plane) > 20 && count(plane) > 0.02 * this.mesh.triangleCount;
+    const closed = this.topology.border.length === 0;
+    return closed || (all && 4 * count(space) < count(plane)) ? "space" : "plane";
   }
 
   setSpace(space) {
     byId("space").value = space;
-    byId("tools").hidden = space === "space";
-    if (space === "space") this.setTool("look");
+    for (const [tool, where] of Object.entries(TOOL_SPACES))
+      document.querySelector(`[data-tool=${tool}]`).hidden = where !== space;
+    this.setTool("look");
+    this.walkPanel.offer(space);
     this.here.clear();
     const check = this.checks[space] || this.checks.plane;
-    this.showVerdict(this.defects.show(check, space), check.valid, space);
+    const voided = space === "plane" && this.locator ? this.locator.voidPromise : null;
+    this.showVerdict(this.defects.show(check, space, voided), check, space);
     this.stage.setSpace(space);
   }
 
@@ -79,12 +90,14 @@ class App {
     }
   }
 
-  showVerdict(defects, valid, space) {
+  showVerdict(count, { valid, defects }, space) {
     const verdict = byId("verdict");
     const [good, bad] = space === "space" ? ["a sound surface", "as a surface"]
       : ["an embedding: every promise holds", "in the plane"];
-    verdict.textContent = valid ? `✓ ${good}` : `⚠ ${plural(defects, "defect")} ${bad}`;
-    verdict.className = valid ? "good" : "bad";
+    const flat = valid && defects.length >= this.mesh.triangleCount; // valid ones are flat only
+    verdict.textContent = flat ? "⚠ no triangle with an area: nothing to locate in"
+      : valid ? `✓ ${good}` : `⚠ ${plural(count, "defect")} ${bad}`;
+    verdict.className = valid && !flat ? "good" : "bad";
   }
 
   makeLocator() {
@@ -101,6 +114,12 @@ class App {
     if (!this.locators.has(fill))
       this.locators.set(fill, this.meshwalk.createLocator(this.mesh, { fill, any: true }));
     return this.locators.get(fill);
+  }
+
+  /** The mesh taken as a surface. */
+  surface() {
+    if (!this.taken) this.taken = this.meshwalk.createSurface(this.mesh, { weld: true });
+    return this.taken;
   }
 
   /** Where a point lies; null if that has no answer. */
@@ -158,9 +177,41 @@ class App {
       this.here.show(screen, true);
       return;
     }
+    if (this.stage.space === "space") {
+      this.clickInSpace(screen);
+      return;
+    }
     const point = this.rounded(this.stage.camera.toMesh(screen));
     if (this.tool === "walk") this.walkPanel.click(point);
     else this.profile.click(point);
+  }
+
+  /** A line of sight: the probe moves along it; a ray goes through what is seen there. */
+  clickInSpace(screen) {
+    const { point, away } = this.stage.camera.sight(screen);
+    const { low, high } = this.topology.extent();
+    const reach = Math.hypot(...[0, 1, 2].map((k) => high[k] - low[k])) || 1;
+    const along = (length) => this.rounded(point.map((value, k) => value + length * away[k]));
+    if (this.tool === "probe") {
+      this.walkPanel.probe(along(-reach), along(reach));
+      return;
+    }
+    const seen = this.seenAt(screen, point, away);
+    if (seen) this.walkPanel.click(this.rounded(seen));
+  }
+
+  /** The point of the surface that is seen at a place of the screen; null: none. */
+  seenAt(screen, point, away) {
+    const { picture, ratio } = this.stage;
+    const triangle = picture.triangleAt(...screen.map((value) => Math.floor(value * ratio)));
+    if (triangle === null) return null;
+    const [a, b, c] = this.topology.corners(triangle);
+    const [u, v] = [b, c].map((corner) => corner.map((value, k) => value - a[k]));
+    const normal = [0, 1, 2].map((k) => u[(k + 1) % 3] * v[(k + 2) % 3] -
+      u[(k + 2) % 3] * v[(k + 1) % 3]);
+    const along = (vector) => normal.reduce((sum, part, k) => sum + part * vector[k], 0);
+    const part = along(point.map((value, k) => a[k] - value)) / along(away);
+    return point.map((value, k) => value + part * away[k]);
   }
 
   /** As many digits as the screen can tell, so that commands stay short. */
@@ -219,7 +270,7 @@ async function main() {
   byId("content").textContent = "";
   byId("notice").textContent = content ? "" : "Open a file, or drop it here";
   if (content) {
-    app.open(content.mesh, content.as);
+    app.open(content.mesh, content.as, content.centre);
     if (content.query) app.points.show(content.query.name, content.query.xy);
   }
   window.meshwalkPage = app; // for tests, and for the curious

@@ -39,7 +39,7 @@ static mw_status corner_refuse(const corner_reading *reading, size_t face, mw_er
 static mw_status corner_add(corner_reading *reading, size_t face, size_t column, double number,
                             mw_error *error)
 {
-    if (number != (double)(int64_t)number || number >= INT32_MAX)
+    if (number >= INT32_MAX || number != (double)(int64_t)number)
         return corner_refuse(reading, face, error, "no number of a vertex is",
                              number < 1e18 ? (int64_t)number : INT64_MAX);
     int64_t corner = (int64_t)number;
@@ -143,6 +143,7 @@ static mw_status corner_read_all(corner_reading *reading, mw_job *job, mw_error 
     mw_corner_table *table = reading->table;
     size_t at_once = BLOCK_NUMBERS / table->width;
     if (at_once == 0) at_once = 1;
+    if (at_once > table->face_count) at_once = table->face_count; /* 0: of whatever width */
     reading->block = mw__alloc(at_once * table->width, sizeof *reading->block);
     table->corners = mw__alloc(table->face_count * table->width, sizeof *table->corners);
     if (!reading->block || !table->corners) return mw__fail_memory(error);

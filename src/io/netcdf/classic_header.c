@@ -5,6 +5,7 @@
 #include <inttypes.h>
 #include <string.h>
 
+enum { LONGEST_NAME = 256 };
 enum { TAG_NONE = 0, TAG_DIMENSIONS = 10, TAG_VARIABLES = 11, TAG_ATTRIBUTES = 12 };
 
 typedef struct classic_header {
@@ -39,7 +40,12 @@ static mw_status classic_name(const classic_header *header)
 {
     uint64_t length;
     mw_status status = classic_count(header, &length);
-    return status ? status : classic_skip(header, length);
+    if (status) return status;
+    if (length > LONGEST_NAME) /* libnetcdf would copy it into a buffer for so many */
+        return mw__source_fail(header->source, header->error,
+                               "the header of the file is damaged: a name of %" PRIu64 " bytes",
+                               length);
+    return classic_skip(header, length);
 }
 
 /* The beginning of a list: its count, 0 for a list that is not there. */

@@ -1,0 +1,105 @@
+#include "bench/ocean/ocean_weights.h"
+#include "bench/data/dataset.h"
+#include "cli/frame/message.h"
+#include "cli/frame/monotonic_clock.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Steps that are in memory at a time: far more than caches hold, and less than memory. */
+enum { BLOCK = 24 };
+
+enum { COPY, SIDE_1, SIDE, STEPS_1, STEPS, ORDERED_1, ORDERED, FLOATS };
+
+const char *const ocean_weights_ways[OCEAN_WEIGHTS_WAYS] = {
+    "copy",     "side by side, 1 thr.", "side by side",      "steps, 1 thread",
+    "in steps", "ordered, 1 thread",    "ordered, in steps", "floats, in steps"};
+
+static int weights_of_points(const mw_locator *locator, const mw_mesh *mesh, const double *xy,
+                             size_t n, mw_operator **out)
+{
+    mw_error error;
+    mw_location *at = malloc(n * sizeof *at);
+    if (!at) return fail_memory();
+    mw_status status = mw_locate_batch(locator, xy, n, 2, NULL, at, NULL, &error);
+    if (!status) status = mw_operator_create(mesh, at, n, NULL, out, &error);
+    free(at);
+    return status ? fail_query(&error) : 0;
+}
+
+/* Rows of points, as those of a grid, are in a good order. */
+static void weights_set_points(double *xy, size_t n, bool ordered, uint64_t seed)
+{
+    uint64_t random = seed + 2;
+    size_t width = 1;
+    while (width * width < n) width++;
+    for (size_t i = 0; i < n; i++)
+        for (int k = 0; k < 2; k++)
+            xy[2 * i + (size_t)k] = ordered ? (double)(k ? i / width : i % width) / (double)width
+                                            : dataset_unit(&random);
+}
+
+static int weights_make_operators(ocean_weights *w, const mw_mesh *mesh, uint64_t seed)
+{
+    mw_error error;
+    mw_locator *locator;
+    double *xy = malloc(2 * w->points * sizeof *xy);
+    if (!xy) return fail_memory();
+    if (mw_locator_create(mesh, NULL, &locator, &error) != MW_OK) {
+        free(xy);
+        return fail_query(&error);
+    }
+    weights_set_points(xy, w->points, false, seed);
+    int end = weights_of_points(locator, mesh, xy, w->points, &w->random);
+    weights_set_points(xy, w->points, true, seed);
+    if (end == 0) end = weights_of_points(locator, mesh, xy, w->points, &w->ordered);
+    mw_locator_destroy(locator);
+    free(xy);
+    return end;
+}
+
+int ocean_weights_make(ocean_weights *w, const mw_mesh *mesh, uint64_t seed)
+{
+    *w = (ocean_weights){.points = mw_mesh_vertex_count(mesh)};
+    w->values = malloc(w->points * BLOCK * sizeof *w->values);
+    w->results = malloc(w->points * BLOCK * sizeof *w->results);
+    if (!w->values || !w->results) return fail_memory();
+    for (size_t i = 0; i < w->points * BLOCK; i++) w->values[i] = (double)(i % 1000);
+    return weights_make_operators(w, mesh, seed);
+}
+
+void ocean_weights_release(ocean_weights *w)
+{
+    mw_operator_destroy(w->random);
+    mw_operator_destroy(w->ordered);
+    free(w->values);
+    free(w->results);
+}
+
+static mw_status weights_apply(const ocean_weights *w, size_t way, mw_error *error)
+{
+    const bool side = way == SIDE_1 || way == SIDE, one = way % 2 == 1 && way != FLOATS;
+    const mw_operator *weights = way == ORDERED || way == ORDERED_1 ? w->ordered : w->random;
+    const mw_value_table table = {.values = w->values,
+                                  .type = way == FLOATS ? MW_FLOAT32 : MW_FLOAT64,
+                                  .count = BLOCK,
+                                  .step = side ? 0 : w->points};
+    const mw_operator_apply_options options = {.threads = one};
+    return mw_operator_apply(weights, &table, &options, w->results, error);
+}
+
+int ocean_weights_time(void *self, size_t way, size_t round, double *figures)
+{
+    const ocean_weights *w = self;
+    mw_error error;
+    mw_status status = MW_OK;
+    (void)round;
+    const double begin = monotonic_seconds();
+    for (size_t step = 0; step < OCEAN_STEPS && !status; step += BLOCK)
+        if (way == COPY)
+            memcpy(w->results, w->values, w->points * BLOCK * sizeof *w->values);
+        else
+            status = weights_apply(w, way, &error);
+    figures[0] = monotonic_seconds() - begin;
+    return status ? fail_query(&error) : 0;
+}

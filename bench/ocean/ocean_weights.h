@@ -1,0 +1,25 @@
+/* ocean_weights.h - weights that are applied to the steps of a model, beside copying. */
+#ifndef MW_BENCH_OCEAN_OCEAN_WEIGHTS_H
+#define MW_BENCH_OCEAN_OCEAN_WEIGHTS_H
+
+#include <meshwalk/meshwalk.h>
+
+enum { OCEAN_STEPS = 240, OCEAN_WEIGHTS_WAYS = 8 };
+
+extern const char *const ocean_weights_ways[OCEAN_WEIGHTS_WAYS];
+
+typedef struct ocean_weights {
+    size_t points;
+    mw_operator *random, *ordered; /* of points at random, and of points along a curve */
+    double *values, *results;      /* of a block of steps */
+} ocean_weights;
+
+/* As many points as vertices. Returns 0, or an exit code after a complaint; release in both
+ * cases. */
+int ocean_weights_make(ocean_weights *w, const mw_mesh *mesh, uint64_t seed);
+void ocean_weights_release(ocean_weights *w);
+
+/* Figure 0: seconds of all steps, by the way of that number. `self` is an ocean_weights. */
+int ocean_weights_time(void *self, size_t way, size_t round, double *figures);
+
+#endif
