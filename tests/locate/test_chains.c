@@ -210,8 +210,8 @@ static void test_traps(void **state)
         for (uint32_t n = 4000; n <= 16000; n *= 2) expect_few_steps(traps[i], n, &random);
 }
 
-/* Where no grid serves for a guide, chains do. Large batches are sorted, and walks that get long are
- * ended by chains. */
+/* Where no grid serves for a guide, chains do. Large batches are sorted, and chains end walks that
+ * get long. */
 static void test_without_grid(void **state)
 {
     (void)state;
