@@ -50,7 +50,7 @@ typedef struct mw_volume_info {
  * @param info           receives volumes and areas
  * @param error          NULL, or receives the message of a failure
  * @return MW_OK, also if the two have no area in common; MW_ERROR_ARGUMENT for NULL, a locator
- *         whose pockets and holes are open or whose mesh is no embedding; MW_ERROR_LIMIT for
+ *         whose pockets and holes are open or whose mesh is not an embedding; MW_ERROR_LIMIT for
  *         coordinates of 2^300 and more; MW_ERROR_MEMORY, MW_CANCELLED.
  *
  * Thread-safe. The same bits for any number of threads. Time in proportion to the triangles and
