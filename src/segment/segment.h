@@ -39,8 +39,8 @@ static MW_INLINE uint32_t mw__segment_turn(uint32_t e, bool left)
 
 /* Follow a segment that enters tile after tile over edges, through at most `steps` tiles, and
  * append its pieces, for which there is room. Returns false where rounded areas are not sure, at
- * vertices, and at b: there mw__segment_next_surely goes on. For tilings without cut triangles. `ahead`:
- * ask for the memory of the next step; lanes that take turns do that themselves. */
+ * vertices, and at b: there mw__segment_next_surely goes on. For tilings without cut triangles.
+ * `ahead`: ask for the memory of the next step; lanes that take turns do that themselves. */
 static MW_INLINE bool mw__segment_run(mw_segment *s, size_t steps, bool ahead,
                                       mw_segment_piece *piece, size_t *count)
 {
