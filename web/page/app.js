@@ -73,6 +73,7 @@ class App {
     byId("space").value = space;
     for (const [tool, where] of Object.entries(TOOL_SPACES))
       document.querySelector(`[data-tool=${tool}]`).hidden = where !== space;
+    byId("here-form").hidden = space === "space";
     this.setTool("look");
     this.walkPanel.offer(space);
     this.here.clear();

@@ -59,7 +59,7 @@ class DefectPanel {
   }
 
   explain({ kind, text }) {
-    const { title, text: why, mended } = explainDefect(kind);
+    const { title, text: why, mendable } = explainDefect(kind);
     const box = document.createElement("div");
     box.className = "explained";
     const head = document.createElement("strong");
@@ -67,11 +67,11 @@ class DefectPanel {
     const words = document.createElement("div");
     words.textContent = `${why} Here: ${text}.`;
     box.append(head, words);
-    if (mended) {
+    if (mendable) {
       const hint = document.createElement("code");
       hint.textContent = `meshwalk check --fix all${this.as()} -o mended.ply ` +
         this.app.mesh.name;
-      box.append("It can be mended: ", hint);
+      box.append("Perhaps this mends it: ", hint);
     }
     byId("defect-about").replaceChildren(box);
   }

@@ -24,15 +24,14 @@ const DEFECT_WORDS = {
   "open-edge": ["An open edge", "This edge has one triangle only, so the surface is not closed."],
 };
 
-const MENDED_BY = {
-  "repeated-vertex": "drop", "edge-shared": "drop", "vertex-in-edge": "split", flat: "drop",
-  overlap: "drop", crossing: "weld",
-};
+/** Kinds that `meshwalk check --fix` mends, if not always. */
+const MENDABLE = new Set(["not-finite", "repeated-vertex", "edge-shared", "vertex-in-edge",
+  "overlap", "flat", "clashing"]);
 
 /** What a defect is: { title, text }. */
 function explainDefect(kind) {
   const [title, text] = DEFECT_WORDS[kind] || [kind, ""];
-  return { title, text, mended: Boolean(MENDED_BY[kind]) };
+  return { title, text, mendable: MENDABLE.has(kind) };
 }
 
 function byId(id) {

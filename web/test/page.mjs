@@ -64,6 +64,31 @@ async function compareWalk(mesh, name, from, to) {
   return walk.ring;
 }
 
+// A click near a vertex means the vertex, where its triangles are a tie.
+async function compareTies() {
+  await clickAt([0.562, 0.529]);
+  const { point, location, ties } = await browser.value(`({ point: meshwalkPage.here.point,
+    location: meshwalkPage.here.location, ties: meshwalkPage.here.ties })`);
+  assert.deepEqual(point, [0.562, 0.528]);
+  assert.equal(location.where, "vertex");
+  assert.equal(Math.min(...ties), location.triangle);
+  assert.ok(ties.length > 2);
+}
+
+// data/README.md: in the ring every other triangle has two edges that the point lies beyond, and
+// one of these would lead to it.
+async function compareRing(ring) {
+  assert.equal(ring.length, 10);
+  const seen = [];
+  for (let step = ring.begin; step < ring.begin + ring.length; step++) {
+    await browser.value(`meshwalkPage.walkPanel.player.goTo(${step})`);
+    seen.push((await browser.value("meshwalkPage.walkPanel.step.beyond")).length);
+    assert.match(await browser.value("document.getElementById('walk-why').textContent"),
+      /beyond edges? .* leaves over edge/);
+  }
+  assert.deepEqual(seen.slice().sort(), [1, 1, 1, 1, 1, 2, 2, 2, 2, 2]);
+}
+
 async function compareRace() {
   await browser.press("#walk-race");
   const lanes = await browser.value(`meshwalkPage.race.lanes.map((lane) =>
@@ -80,7 +105,9 @@ async function testTrap() {
   assert.match(await browser.value("document.getElementById('verdict').textContent"),
     /an embedding/);
   await compareClicks(mesh, [[0.5, 0.5], [0.2, 0.7], [1.04, 0.5]]);
-  assert.ok(await compareWalk(mesh, "lawson", [0.9, 0.1], [0.5, 0.5]));
+  await compareTies();
+  const ring = await compareWalk(mesh, "lawson", [0.9, 0.1], [0.5, 0.5]);
+  await compareRing(ring);
   assert.equal(await compareWalk(mesh, "celestial", [0.9, 0.1], [0.5, 0.5]), null);
   await compareRace();
   assert.equal(await browser.value("meshwalkPage.points.statuses.length"), 16);
