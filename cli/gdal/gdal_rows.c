@@ -259,6 +259,15 @@ static int rows_create_field(gdal_rows *r, row_column *column)
     return 0;
 }
 
+/* What each row has, with heights or without. */
+static OGRwkbGeometryType rows_geometry(const gdal_rows *r)
+{
+    bool high = r->form.dimensions == 3;
+    if (r->form.polygons) return high ? wkbPolygon25D : wkbPolygon;
+    if (r->form.lines) return high ? wkbLineString25D : wkbLineString;
+    return high ? wkbPoint25D : wkbPoint;
+}
+
 static OGRLayerH rows_create_set(gdal_rows *r, const char *name, OGRSpatialReferenceH crs)
 {
     const gdal_functions *gdal = r->gdal;
@@ -270,11 +279,7 @@ static OGRLayerH rows_create_set(gdal_rows *r, const char *name, OGRSpatialRefer
     r->set = gdal->GDALCreate(gdal->GDALGetDriverByName(format->driver), r->target.temporary, 0, 0,
                               0, GDT_Unknown, (char **)(uintptr_t)create);
     if (!r->set) return NULL;
-    return gdal->GDALDatasetCreateLayer(r->set, name, crs,
-                                        r->form.polygons          ? wkbPolygon
-                                        : r->form.lines           ? wkbLineString
-                                        : r->form.dimensions == 3 ? wkbPoint25D
-                                                                  : wkbPoint,
+    return gdal->GDALDatasetCreateLayer(r->set, name, crs, rows_geometry(r),
                                         (char **)(uintptr_t)options);
 }
 
@@ -398,20 +403,23 @@ static int feature_set_point(gdal_rows *r, OGRFeatureH feature, const double *p)
 }
 
 static OGRGeometryH line_create(const gdal_functions *gdal, OGRwkbGeometryType type,
-                                const double *points, size_t count)
+                                const double *points, size_t count, size_t dimensions)
 {
     OGRGeometryH line = gdal->OGR_G_CreateGeometry(type);
     /* from the end, so that it grows once */
     for (size_t i = count; i-- > 0;)
-        gdal->OGR_G_SetPoint_2D(line, (int)i, points[2 * i], points[2 * i + 1]);
+        if (dimensions == 3)
+            gdal->OGR_G_SetPoint(line, (int)i, points[3 * i], points[3 * i + 1], points[3 * i + 2]);
+        else
+            gdal->OGR_G_SetPoint_2D(line, (int)i, points[2 * i], points[2 * i + 1]);
     return line;
 }
 
 static int feature_set_line(gdal_rows *r, OGRFeatureH feature, const double *points)
 {
     rows_warn_of_lonlat(r, points);
-    r->gdal->OGR_F_SetGeometryDirectly(feature,
-                                       line_create(r->gdal, wkbLineString, points, r->line_count));
+    r->gdal->OGR_F_SetGeometryDirectly(
+        feature, line_create(r->gdal, wkbLineString, points, r->line_count, r->form.dimensions));
     return 0;
 }
 
@@ -422,8 +430,9 @@ static int feature_set_polygon(gdal_rows *r, OGRFeatureH feature, const double *
     rows_warn_of_lonlat(r, points);
     for (size_t k = 0; k < r->ring_count; k++) {
         size_t first = r->ring_first[k], count = r->ring_first[k + 1] - first;
-        gdal->OGR_G_AddGeometryDirectly(
-            polygon, line_create(gdal, wkbLinearRing, points + 2 * first, count));
+        gdal->OGR_G_AddGeometryDirectly(polygon, line_create(gdal, wkbLinearRing,
+                                                             points + r->form.dimensions * first,
+                                                             count, r->form.dimensions));
     }
     gdal->OGR_F_SetGeometryDirectly(feature, polygon);
     return 0;

@@ -15,9 +15,10 @@ static int core_exec(PyObject *module)
                    location_init(module, state) || locator_init(module, state) ||
                    surface_init(module, state) || star_init(module, state) ||
                    prober_init(module, state) || editor_init(module, state) ||
-                   operator_init(module, state) || check_init(module) || layouts_init(module) ||
-                   triangulation_init(module) || files_init(module) || points_init(module) ||
-                   borrowed_init(module) || segments_init(module) || core_add_numbers(module)
+                   operator_init(module, state) || check_init(module) || mend_init(module) ||
+                   layouts_init(module) || triangulation_init(module) || files_init(module) ||
+                   points_init(module) || borrowed_init(module) || segments_init(module) ||
+                   core_add_numbers(module)
                ? -1
                : 0;
 }

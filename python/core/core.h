@@ -156,6 +156,7 @@ int prober_init(PyObject *module, core_state *state);
 int editor_init(PyObject *module, core_state *state);
 int operator_init(PyObject *module, core_state *state);
 int check_init(PyObject *module);
+int mend_init(PyObject *module);
 int borrowed_init(PyObject *module);
 int layouts_init(PyObject *module);
 int triangulation_init(PyObject *module);

@@ -41,6 +41,7 @@ from meshwalk._files import (
 )
 from meshwalk._locations import Locations
 from meshwalk._locator import Locator, LocatorInfo, NearestBorder
+from meshwalk._mend import MendChange, Mended, mend
 from meshwalk._mesh import Mesh, MeshInfo
 from meshwalk._operator import Operator
 from meshwalk._plot import explain, plot
@@ -78,6 +79,8 @@ __all__ = [
     "Locations",
     "Locator",
     "LocatorInfo",
+    "MendChange",
+    "Mended",
     "Mesh",
     "MeshInfo",
     "NearestBorder",
@@ -103,6 +106,7 @@ __all__ = [
     "direction_to_lonlat",
     "explain",
     "lonlat_to_direction",
+    "mend",
     "mesh_formats",
     "plot",
     "read",

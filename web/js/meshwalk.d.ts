@@ -252,6 +252,8 @@ export class Meshwalk {
   }): Mesh;
   /** The Delaunay triangulation of points x, y. */
   triangulate(points: ArrayLike<number>, name?: string): Mesh;
+  /** The side of the line from a to b that c is on, exactly: 1 left, -1 right, 0 on it. */
+  orient2d(a: ArrayLike<number>, b: ArrayLike<number>, c: ArrayLike<number>): number;
   createSurface(mesh: Mesh, options?: { weld?: boolean }): Surface;
   createLocator(mesh: Mesh, options?: LocatorOptions): Locator;
 }

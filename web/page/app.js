@@ -7,10 +7,10 @@ class App {
     this.meshwalk = meshwalk;
     this.tool = "look";
     this.hint = "";
-    this.stage = new Stage((context, camera) => drawAll(this, context, camera), {
-      click: (at) => this.click(at),
-      hover: (at) => this.hover(at),
-    });
+    this.lineNotes = [];
+    this.stage = new Stage((context, camera) => drawLines(this, context, camera),
+      (context, camera) => drawAll(this, context, camera),
+      { click: (at) => this.click(at), hover: (at) => this.hover(at) });
     this.here = new HerePanel(this);
     this.loopPanel = new LoopPanel(this);
     this.colours = new ColourPanel(this);
@@ -58,11 +58,15 @@ class App {
     this.mesh.free();
   }
 
-  /** What folds in the plane but not in space is meant to be a surface. */
+  /** What is closed, or folds all over in the plane but not in space, is meant to be a surface. A
+   * terrain with a few faults stays in the plane, where these show. */
   likelySpace() {
     const { plane, space } = this.checks;
+    if (!space || plane.valid) return "plane";
     const count = (check) => check.defects.filter(({ kind }) => kind !== "flat").length;
-    return space && !plane.valid && 4 * count(space) < count(plane) ? "space" : "plane";
+    const all = count(plane) > 20 && count(plane) > 0.02 * this.mesh.triangleCount;
+    const closed = this.topology.border.length === 0;
+    return closed || (all && 4 * count(space) < count(plane)) ? "space" : "plane";
   }
 
   setSpace(space) {
@@ -73,7 +77,8 @@ class App {
     this.walkPanel.offer(space);
     this.here.clear();
     const check = this.checks[space] || this.checks.plane;
-    this.showVerdict(this.defects.show(check, space), check.valid, space);
+    const voided = space === "plane" && this.locator ? this.locator.voidPromise : null;
+    this.showVerdict(this.defects.show(check, space, voided), check, space);
     this.stage.setSpace(space);
   }
 
@@ -85,12 +90,14 @@ class App {
     }
   }
 
-  showVerdict(defects, valid, space) {
+  showVerdict(count, { valid, defects }, space) {
     const verdict = byId("verdict");
     const [good, bad] = space === "space" ? ["a sound surface", "as a surface"]
       : ["an embedding: every promise holds", "in the plane"];
-    verdict.textContent = valid ? `✓ ${good}` : `⚠ ${plural(defects, "defect")} ${bad}`;
-    verdict.className = valid ? "good" : "bad";
+    const flat = valid && defects.length >= this.mesh.triangleCount; // valid ones are flat only
+    verdict.textContent = flat ? "⚠ no triangle with an area: nothing to locate in"
+      : valid ? `✓ ${good}` : `⚠ ${plural(count, "defect")} ${bad}`;
+    verdict.className = valid && !flat ? "good" : "bad";
   }
 
   makeLocator() {

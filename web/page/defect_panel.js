@@ -9,7 +9,7 @@ class DefectPanel {
   }
 
   /** Fill the list; returns how many are no mere remarks. */
-  show(check, space) {
+  show(check, space, voided) {
     this.space = space;
     const { defects } = check;
     const real = defects.filter((defect) => defect.kind !== "flat").length;
@@ -21,8 +21,17 @@ class DefectPanel {
     byId("defects").replaceChildren(...defects.slice(0, DEFECTS_SHOWN).map((d) => this.item(d)));
     if (defects.length > DEFECTS_SHOWN) this.tell(`The first ${DEFECTS_SHOWN} of ` +
       `${plural(defects.length, "defect")}; 'meshwalk check${this.as()}' lists all.`);
-    if (!defects.length) this.tell("None: every promise holds.");
+    if (voided) this.tell(`So long as they are there, a promise does not hold: ${voided}.`);
+    if (!defects.length) this.tell(space === "space" ? "None, as a surface." : "None.");
+    if (space === "space") this.tellPlane();
     return real;
+  }
+
+  /** A terrain may be meant after all. */
+  tellPlane() {
+    const { plane } = this.app.checks;
+    if (!plane.valid) this.tell(`In the plane it has ${plural(plane.defects.length, "defect")}: ` +
+      "choose the plane under Colour to see them.");
   }
 
   tell(text) {
