@@ -95,11 +95,12 @@ typedef struct mw_bvh_stack {
     mw_bvh_visit visit[MW_BVH_LEVELS * MW_BVH_FANOUT];
 } mw_bvh_stack;
 
-/* Push one of several siblings. They wait from number `floor` on, the nearest on top. */
+/* Push one of several siblings. They wait from number `floor` on, the nearest on top; of equally
+ * near ones the first, which has the lower triangles where there are many equal ones. */
 static MW_INLINE void mw__bvh_push(mw_bvh_stack *stack, uint32_t floor, mw_bvh_visit visit)
 {
     uint32_t i = stack->count++;
-    for (; i > floor && stack->visit[i - 1].near < visit.near; i--)
+    for (; i > floor && stack->visit[i - 1].near <= visit.near; i--)
         stack->visit[i] = stack->visit[i - 1];
     stack->visit[i] = visit;
 }

@@ -88,10 +88,24 @@ static MW_INLINE bool beam_meets_box(const beam *b, const mw_bvh_box *box, doubl
     return low <= high;
 }
 
+/* Has the best triangle so far the same corners, in the same order, and a lower number? Then t is
+ * touched where it is, and is not better: of many equal triangles only one takes exact tests. */
+static bool certain_is_repeated(const certain_search *s, uint32_t t)
+{
+    if (s->best >= t) return false; /* or there is none */
+    const mw_surface *surface = s->prober->surface;
+    for (uint32_t k = 0; k < 3; k++) {
+        const double *p = mw__surface_corner(surface, t, k),
+                     *best = mw__surface_corner(surface, s->best, k);
+        if (p[0] != best[0] || p[1] != best[1] || p[2] != best[2]) return false;
+    }
+    return true;
+}
+
 static void certain_look_at_triangle(certain_search *s, uint32_t t)
 {
     const mw_surface *surface = s->prober->surface;
-    if (t == s->best || !mw__line_touches(surface, s->line, t)) return;
+    if (t == s->best || certain_is_repeated(s, t) || !mw__line_touches(surface, s->line, t)) return;
     s->hits++;
     bool better = s->best == MW_NONE ? mw__touch_in_reach(surface, s->line, t, s->max_distance)
                                      : mw__touch_is_better(surface, s->line, t, s->best);

@@ -200,6 +200,32 @@ static void check_scaled(const shape *s, double scale, double shift, double m_sc
     free(queries);
 }
 
+/* Of many equal triangles the lowest is the answer, and the others take no exact test. */
+static void test_equal_triangles(void **state)
+{
+    (void)state;
+    enum { N = 3000 };
+    static uint32_t corner[3 * N];
+    static double point[9 * N];
+    static const double one[9] = {0, 0, 1, 4, 0, 2, 0, 4, 3};
+    for (uint32_t i = 0; i < 9 * N; i++) point[i] = one[i % 9] + (i < 9 ? 0.25 : 0);
+    for (uint32_t i = 0; i < 3 * N; i++) corner[i] = i;
+    mw_arrays view = {
+        .points = point, .point_count = 3 * N, .triangles = corner, .triangle_count = N};
+    mw_surface *surface;
+    assert_int_equal(mw_surface_create(&view, NULL, &surface, NULL), MW_OK);
+    mw_prober *prober = prober_with_boxes(surface);
+    const mw_line down = {{1, 1, 0}, {0, 0, -1}}, edge = {{2, 0, 0}, {0, 0, -1}};
+    mw_probe_counters counters = {0};
+    assert_int_equal(mw__probe_certain(prober, &down, 0, MW_NONE, &counters), 1);
+    assert_int_equal(mw__probe_certain(prober, &edge, 0, MW_NONE, &counters), 1);
+    assert_true(counters.box_triangles >= N);
+    assert_true(counters.intersections < 2 * MW_BVH_LEAF);
+    assert_int_equal(mw__probe_certain(prober, &down, 0, N - 1, NULL), 1);
+    mw_prober_destroy(prober);
+    mw_surface_destroy(surface);
+}
+
 static void test_magnitudes(void **state)
 {
     (void)state;
@@ -474,7 +500,7 @@ int main(void)
         cmocka_unit_test(test_strays),     cmocka_unit_test(test_known_motion),
         cmocka_unit_test(test_slack),      cmocka_unit_test(test_unknown_motion),
         cmocka_unit_test(test_not_finite), cmocka_unit_test(test_order),
-        cmocka_unit_test(test_create),
+        cmocka_unit_test(test_create),     cmocka_unit_test(test_equal_triangles),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
