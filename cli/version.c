@@ -1,6 +1,7 @@
 #include "cli/version.h"
 #include "cli/gdal/gdal_library.h"
 #include "cli/gdal/vector_formats.h"
+#include "cli/view/view_page.h"
 
 #include <meshwalk/meshwalk.h>
 #include <string.h>
@@ -77,6 +78,9 @@ void version_write(text *t)
     version_line(t, "zlib", MW_ZLIB_VERSION ", built in: files packed by gzip", NULL);
     version_line(t, "Jansson", jansson, "no constraints from GeoJSON, but by GDAL");
     version_line(t, "Cairo", cairo, "no pictures, no plots");
+    size_t page_size;
+    version_line(t, "view", view_page(&page_size) ? "built in: pages for browsers" : NULL,
+                 "no compiler for WebAssembly, no pages for browsers");
     version_of_gdal(t);
     version_of_netcdf(t);
     version_line(t, "LAZ", NULL, "LAS only; 'pdal translate' unpacks");
