@@ -148,8 +148,13 @@ static int view_run(const void *settings, const char *const *operands)
     int end = view_check(s, operands);
     if (end == 0) end = mesh_space_read(&s->mesh, operands, &file);
     if (end == 0) end = view_points_read(&points, s);
-    view_content content = {operands[0], ways[s->mesh.space], &file,
-                            s->points,   points.xy,           points.count};
+    view_content content = {.path = operands[0],
+                            .as = ways[s->mesh.space],
+                            .centre = s->mesh.centre.at,
+                            .mesh = &file,
+                            .points_path = s->points,
+                            .points = points.xy,
+                            .point_count = points.count};
     if (end == 0) end = view_write_and_tell(s, &content);
     free(points.xy);
     mw_mesh_file_release(&file);

@@ -90,6 +90,12 @@ void view_content_write(text *t, const view_content *c)
     content_quote(t, c->path);
     content_name(t, "as");
     content_quote(t, c->as);
+    content_name(t, "centre");
+    for (int k = 0; k < 3; k++) {
+        text_string(t, k ? ", " : "[");
+        text_double(t, c->centre[k]);
+    }
+    text_string(t, "]");
     content_name(t, "crs");
     content_quote(t, m->crs);
     text_printf(t, ",\n \"heights\": %s", m->has_z ? "true" : "false");

@@ -8,8 +8,9 @@
 #include <meshwalk/meshwalk.h>
 
 typedef struct view_content {
-    const char *path; /* of the mesh */
-    const char *as;   /* how it is taken: "plane", "surface" or "star" */
+    const char *path;     /* of the mesh */
+    const char *as;       /* how it is taken: "plane", "surface" or "star" */
+    const double *centre; /* x, y, z: where rays come from */
     const mw_mesh_file *mesh;
     const char *points_path; /* NULL: no points */
     const double *points;    /* x, y of each */

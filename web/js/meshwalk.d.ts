@@ -174,6 +174,33 @@ export class Locator {
   free(): void;
 }
 
+export type Point = [number, number, number];
+
+/** What a probe or a ray met, and the triangles that its walk visited. */
+export interface Touch {
+  triangles: Uint32Array;
+  /** Of each triangle the number of its walk: a probe may take several. */
+  iterations: Uint32Array;
+  /** "none": for certain; "limit": nothing was found, but there may be something. */
+  state: "hit" | "none" | "limit" | "bad";
+  triangle: number | null;
+  where: Where;
+  local: number | null;
+  weights: number[];
+  /** Of a probe: along its motion. */
+  distance: number;
+}
+
+/** A mesh taken as a surface in space. */
+export class Surface {
+  probe(point: Point, motion: Point, options?: { certain?: boolean; seed?: number }): Touch;
+  /** Rays come from here; throws if the surface is not star-shaped about it. */
+  setCentre(centre: Point): void;
+  /** Walk from the ray through `from` to the ray through `to`. */
+  followRay(from: Point, to: Point, options?: { walk?: string; seed?: number }): Touch;
+  free(): void;
+}
+
 export type Colour = [number, number, number];
 
 /** A picture of a mesh, drawn into pixels. */
@@ -209,6 +236,7 @@ export class Meshwalk {
   readonly version: string;
   readonly walks: { name: string; source: string; help: string }[];
   readonly starts: { name: string; help: string }[];
+  readonly starWalks: { name: string; source: string; help: string }[];
   /** Read a mesh of any format that the library reads without other libraries; also packed by gzip.
    * `beside`: further files by name, such as the .ele of a .node, or a .prj. */
   readMesh(name: string, bytes: Uint8Array, beside?: Record<string, Uint8Array>): Mesh;
@@ -224,6 +252,7 @@ export class Meshwalk {
   }): Mesh;
   /** The Delaunay triangulation of points x, y. */
   triangulate(points: ArrayLike<number>, name?: string): Mesh;
+  createSurface(mesh: Mesh, options?: { weld?: boolean }): Surface;
   createLocator(mesh: Mesh, options?: LocatorOptions): Locator;
 }
 

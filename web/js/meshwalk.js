@@ -3,8 +3,9 @@ import { Engine, MeshwalkError } from "./engine.js";
 import { Mesh, DEFECT_KINDS } from "./mesh.js";
 import { Locator, Locations } from "./locator.js";
 import { Picture } from "./picture.js";
+import { Surface } from "./surface.js";
 
-export { MeshwalkError, Mesh, Locator, Locations, Picture, DEFECT_KINDS };
+export { MeshwalkError, Mesh, Locator, Locations, Surface, Picture, DEFECT_KINDS };
 
 /** The engine, ready: what reads and makes meshes. */
 export class Meshwalk {
@@ -14,6 +15,7 @@ export class Meshwalk {
     this.walks = this.list((i, what) => engine.call.web_walk_text(i, what));
     this.starts = this.list((i, what) =>
       engine.call.web_start_text(i, what === 2 ? 1 : what));
+    this.starWalks = this.list((i, what) => engine.call.web_star_walk_text(i, what));
     this.names = {
       walk: ["auto", ...this.walks.map((walk) => walk.name)],
       start: ["auto", ...this.starts.map((start) => start.name)],
@@ -98,6 +100,12 @@ export class Meshwalk {
     for (let i = 0; i < count; i++) xyz.set([points[2 * i], points[2 * i + 1]], 3 * i);
     return engine.withDoubles(xyz, (address) =>
       new Mesh(engine, engine.need(engine.call.web_mesh_delaunay(address, count)), name));
+  }
+
+  /** Take a mesh as a surface in space; { weld: true } joins vertices with equal coordinates. */
+  createSurface(mesh, options) {
+    const names = ["auto", ...this.starWalks.map((walk) => walk.name)];
+    return new Surface(this.engine, mesh, names, options);
   }
 
   /** Prepare a mesh for queries. */

@@ -1,5 +1,7 @@
 // app.js - the page: a mesh, its locators, and the panels about it.
 
+const TOOL_SPACES = { walk: "plane", profile: "plane", ray: "space", probe: "space" };
+
 class App {
   constructor(meshwalk) {
     this.meshwalk = meshwalk;
@@ -19,14 +21,13 @@ class App {
     this.profile = new ProfilePanel(this);
     this.locators = new Map();
     this.listen();
-    this.walkPanel.offer(meshwalk.walks);
     byId("version").textContent = `meshwalk ${meshwalk.version}`;
   }
 
   // --- the mesh ---
 
   /** Show a mesh; what was shown before goes. */
-  open(mesh, as = null) {
+  open(mesh, as = null, centre = [0, 0, 0]) {
     const topology = new Topology(mesh);
     this.close();
     this.mesh = mesh;
@@ -34,6 +35,7 @@ class App {
     byId("file-name").textContent = mesh.name.split("/").pop();
     document.title = `${mesh.name.split("/").pop()} · meshwalk`;
     this.makeLocator();
+    byId("walk-centre").value = centre.join(", ");
     this.stage.space = "plane";
     this.stage.show(mesh, topology);
     this.colours.show();
@@ -45,6 +47,8 @@ class App {
   close() {
     for (const locator of this.locators.values()) locator.free();
     this.locators.clear();
+    if (this.taken) this.taken.free();
+    this.taken = null;
     this.locator = null;
     this.race.close();
     for (const panel of [this.walkPanel, this.points, this.profile, this.here]) panel.clear();
@@ -63,8 +67,10 @@ class App {
 
   setSpace(space) {
     byId("space").value = space;
-    byId("tools").hidden = space === "space";
-    if (space === "space") this.setTool("look");
+    for (const [tool, where] of Object.entries(TOOL_SPACES))
+      document.querySelector(`[data-tool=${tool}]`).hidden = where !== space;
+    this.setTool("look");
+    this.walkPanel.offer(space);
     this.here.clear();
     const check = this.checks[space] || this.checks.plane;
     this.showVerdict(this.defects.show(check, space), check.valid, space);
@@ -101,6 +107,12 @@ class App {
     if (!this.locators.has(fill))
       this.locators.set(fill, this.meshwalk.createLocator(this.mesh, { fill, any: true }));
     return this.locators.get(fill);
+  }
+
+  /** The mesh taken as a surface. */
+  surface() {
+    if (!this.taken) this.taken = this.meshwalk.createSurface(this.mesh, { weld: true });
+    return this.taken;
   }
 
   /** Where a point lies; null if that has no answer. */
@@ -158,9 +170,41 @@ class App {
       this.here.show(screen, true);
       return;
     }
+    if (this.stage.space === "space") {
+      this.clickInSpace(screen);
+      return;
+    }
     const point = this.rounded(this.stage.camera.toMesh(screen));
     if (this.tool === "walk") this.walkPanel.click(point);
     else this.profile.click(point);
+  }
+
+  /** A line of sight: the probe moves along it; a ray goes through what is seen there. */
+  clickInSpace(screen) {
+    const { point, away } = this.stage.camera.sight(screen);
+    const { low, high } = this.topology.extent();
+    const reach = Math.hypot(...[0, 1, 2].map((k) => high[k] - low[k])) || 1;
+    const along = (length) => this.rounded(point.map((value, k) => value + length * away[k]));
+    if (this.tool === "probe") {
+      this.walkPanel.probe(along(-reach), along(reach));
+      return;
+    }
+    const seen = this.seenAt(screen, point, away);
+    if (seen) this.walkPanel.click(this.rounded(seen));
+  }
+
+  /** The point of the surface that is seen at a place of the screen; null: none. */
+  seenAt(screen, point, away) {
+    const { picture, ratio } = this.stage;
+    const triangle = picture.triangleAt(...screen.map((value) => Math.floor(value * ratio)));
+    if (triangle === null) return null;
+    const [a, b, c] = this.topology.corners(triangle);
+    const [u, v] = [b, c].map((corner) => corner.map((value, k) => value - a[k]));
+    const normal = [0, 1, 2].map((k) => u[(k + 1) % 3] * v[(k + 2) % 3] -
+      u[(k + 2) % 3] * v[(k + 1) % 3]);
+    const along = (vector) => normal.reduce((sum, part, k) => sum + part * vector[k], 0);
+    const part = along(point.map((value, k) => a[k] - value)) / along(away);
+    return point.map((value, k) => value + part * away[k]);
   }
 
   /** As many digits as the screen can tell, so that commands stay short. */
@@ -219,7 +263,7 @@ async function main() {
   byId("content").textContent = "";
   byId("notice").textContent = content ? "" : "Open a file, or drop it here";
   if (content) {
-    app.open(content.mesh, content.as);
+    app.open(content.mesh, content.as, content.centre);
     if (content.query) app.points.show(content.query.name, content.query.xy);
   }
   window.meshwalkPage = app; // for tests, and for the curious

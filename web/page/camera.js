@@ -80,6 +80,15 @@ class SpaceCamera {
       this.size[1] / 2 + this.shift[1] - this.scale * along(up)];
   }
 
+  /** The line of sight through a place of the screen: a point of it, and its direction. */
+  sight([x, y]) {
+    const [right, up, away] = this.axes();
+    const across = (x - this.size[0] / 2 - this.shift[0]) / this.scale;
+    const above = -(y - this.size[1] / 2 - this.shift[1]) / this.scale;
+    const point = [0, 1, 2].map((k) => this.middle[k] + across * right[k] + above * up[k]);
+    return { point, away };
+  }
+
   move(dx, dy) {
     this.yaw -= dx * 0.01;
     this.pitch = Math.max(-1.57, Math.min(1.57, this.pitch + dy * 0.01));

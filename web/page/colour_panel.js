@@ -24,7 +24,8 @@ class ColourPanel {
     for (const name of mesh.fieldNames) options.push([`vertex:${name}`, name]);
     for (const name of mesh.triangleFieldNames) options.push([`triangle:${name}`, name]);
     options.push(["piece", "piece"], ["number", "number of the triangle"]);
-    byId("colour-field").replaceChildren(...options.map(([value, text]) => new Option(text, value)));
+    const choices = options.map(([value, text]) => new Option(text, value));
+    byId("colour-field").replaceChildren(...choices);
     byId("colour-field").value = this.firstChoice(options);
     byId("light").checked = heights;
     this.apply();

@@ -22,7 +22,8 @@ function readContent(meshwalk, text) {
   mesh.hasHeights = content.heights;
   mesh.crs = content.crs || null;
   const { query } = content;
-  return { mesh, as: content.as, query: query && { name: query.name, xy: doubles(query.points) } };
+  return { mesh, as: content.as, centre: content.centre,
+    query: query && { name: query.name, xy: doubles(query.points) } };
 }
 
 async function readBytes(file) {
@@ -45,7 +46,8 @@ async function openFiles(app, files) {
   const bytes = {};
   for (const file of files) bytes[file.name] = await readBytes(file);
   const names = Object.keys(bytes).filter((name) => !SIDE_FILES.test(name));
-  if (!names.length) throw new Error("an .ele or .prj file says nothing without the file beside it");
+  if (!names.length)
+    throw new Error("an .ele or .prj file says nothing without the file beside it");
   for (const name of names) {
     if (POINT_FILES.test(name)) openPoints(app, name, bytes[name]);
     else app.open(app.meshwalk.readMesh(name, bytes[name], bytes));

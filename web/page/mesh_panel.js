@@ -8,7 +8,8 @@ function meshFacts(mesh, info) {
     ["triangles", readable(mesh.triangleCount)]];
   if (mesh.crs) rows.push(["coordinates", mesh.crs.slice(0, 60)]);
   if (!info) return rows;
-  rows.push(["border edges", readable(info.borderEdges)], ["border loops", readable(info.borderLoops)],
+  rows.push(["border edges", readable(info.borderEdges)],
+    ["border loops", readable(info.borderLoops)],
     ["pieces", readable(info.components)],
     ["holes", info.embedding ? readable(info.holes) : "not known: no embedding"],
     ["flat triangles", readable(info.flatTriangles)],

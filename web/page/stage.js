@@ -219,7 +219,9 @@ class Stage {
   }
 
   key(event) {
-    const ways = { ArrowLeft: [40, 0], ArrowRight: [-40, 0], ArrowUp: [0, 40], ArrowDown: [0, -40] };
+    const ways = {
+      ArrowLeft: [40, 0], ArrowRight: [-40, 0], ArrowUp: [0, 40], ArrowDown: [0, -40],
+    };
     const middle = this.camera.size.map((side) => side / 2);
     if (ways[event.key]) this.move(...ways[event.key]);
     else if (event.key === "+" || event.key === "=") this.zoom(1.3);

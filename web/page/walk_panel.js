@@ -1,6 +1,10 @@
 // walk_panel.js - one walk, from click to click, step by step.
 
 const LISTED = 400;
+const PLANE_HINT = "Choose “Walk” on the picture, click where it begins, then where it is " +
+  "to end.";
+const SPACE_HINT = "Choose “Rays” and click two places: a walk goes from one ray out of the " +
+  "centre to the other. Or choose “Probe” and click: a probe moves along your line of sight.";
 
 class WalkPanel {
   constructor(app) {
@@ -27,14 +31,24 @@ class WalkPanel {
       this.player.goTo(Number(byId("walk-step").value)));
   }
 
-  offer(walks) {
-    byId("walk-name").replaceChildren(...walks.map(({ name }) => new Option(name)));
+  /** Offer the walks of the plane, or those from ray to ray in space. */
+  offer(space) {
+    const inSpace = space === "space";
+    this.walks = inSpace ? this.app.meshwalk.starWalks : this.app.meshwalk.walks;
+    this.dimension = inSpace ? 3 : 2;
+    byId("walk-name").replaceChildren(...this.walks.map(({ name }) => new Option(name)));
+    byId("walk-centre-row").hidden = !inSpace;
+    byId("walk-race").hidden = inSpace;
+    for (const id of ["walk-from", "walk-to"])
+      byId(id).placeholder = inSpace ? "x, y, z" : "x, y";
+    byId("walk-hint").textContent = inSpace ? SPACE_HINT : PLANE_HINT;
+    this.clear();
     this.help();
   }
 
   help() {
     const name = byId("walk-name").value;
-    const walk = this.app.meshwalk.walks.find((one) => one.name === name);
+    const walk = this.walks.find((one) => one.name === name);
     byId("walk-help").textContent = `${walk.help} [${walk.source}]`;
   }
 
@@ -64,36 +78,64 @@ class WalkPanel {
 
   /** The ends as the fields say them; false after a complaint. */
   readEnds() {
-    this.from = parsePoint(byId("walk-from").value);
-    this.to = parsePoint(byId("walk-to").value);
+    this.from = parsePoint(byId("walk-from").value, this.dimension);
+    this.to = parsePoint(byId("walk-to").value, this.dimension);
     if (this.from && this.to) return true;
     byId(this.from ? "walk-to" : "walk-from").focus();
-    this.app.complain("A walk needs two points, each as: x, y");
+    this.app.complain(`A walk needs two points, each as: ${byId("walk-to").placeholder}`);
     return false;
-  }
-
-  follow(name) {
-    return this.app.locatorFor(name).follow(this.from, this.to, { walk: name });
   }
 
   go() {
     if (!this.readEnds()) return;
     const name = byId("walk-name").value;
+    this.app.attempt(() => (this.dimension === 3 ? this.goByRays(name) : this.goInPlane(name)));
+  }
+
+  goInPlane(name) {
+    const walk = this.app.locatorFor(name).follow(this.from, this.to, { walk: name });
+    this.show(walk, tellWalk(name, walk), `--walk ${name}`);
+  }
+
+  goByRays(name) {
+    const centre = parsePoint(byId("walk-centre").value, 3) || [0, 0, 0];
+    const surface = this.app.surface();
+    surface.setCentre(centre);
+    const walk = this.asWalk(surface.followRay(this.from, this.to, { walk: name }));
+    this.show(walk, `The ${name} walk comes from ray to ray in ` +
+      `${plural(walk.triangles.length, "facet")}, to facet ${walk.location.triangle}.`,
+    `--as star --centre ${centre.join()} --walk ${name}`);
+  }
+
+  /** A probe at one point that moves towards another. */
+  probe(from, to) {
+    const motion = to.map((value, k) => value - from[k]);
+    this.clear();
+    this.from = from;
+    this.to = to;
     this.app.attempt(() => {
-      this.walk = this.follow(name);
-      this.name = name;
-      this.showWalk();
+      const surface = this.app.surface();
+      const touch = surface.probe(from, motion);
+      const certain = surface.probe(from, motion, { certain: true });
+      this.show(this.asWalk(touch), tellProbe(touch, certain), "--as surface --weld");
     });
   }
 
-  showWalk() {
-    const { walk } = this;
+  /** A trace in space in the form of a walk in the plane. */
+  asWalk({ triangles, triangle }) {
+    return { triangles, stages: Array(triangles.length).fill("walk"), line: [],
+      location: { triangle } };
+  }
+
+  /** Play a walk; `words` tell it, `options` repeat it on the command line. */
+  show(walk, words, options) {
+    this.walk = walk;
     const { triangles } = walk;
     byId("walk-player").hidden = false;
     byId("walk-hint").hidden = true;
     byId("walk-step").max = Math.max(0, triangles.length - 1);
-    byId("walk-result").textContent = tellWalk(this.name, walk);
-    byId("walk-command").textContent = `meshwalk walk ${this.app.mesh.name} --walk ${this.name} ` +
+    byId("walk-result").textContent = words;
+    byId("walk-command").textContent = `meshwalk walk ${this.app.mesh.name} ${options} ` +
       `--from ${this.from.join()} --to ${this.to.join()}`;
     const more = triangles.length - LISTED;
     byId("walk-list").textContent = Array.from(triangles.subarray(0, LISTED)).join(", ") +
@@ -130,6 +172,15 @@ class WalkPanel {
     pen.dot(this.from, colour, 6);
     pen.label(this.from, "from", colour);
   }
+}
+
+/** What a probe touched by its walks, and for certain. */
+function tellProbe(touch, certain) {
+  const walks = touch.triangles.length ? touch.iterations[touch.iterations.length - 1] + 1 : 0;
+  const found = touch.state === "hit" ? `touches triangle ${touch.triangle}` : "touches nothing";
+  const sure = certain.state === "hit" ? `triangle ${certain.triangle}` : "nothing";
+  return `The probe ${found}, after ${plural(touch.triangles.length, "triangle")} in ` +
+    `${plural(walks, "walk")}. For certain, by boxes, the nearest is ${sure}.`;
 }
 
 function stageWords(stage) {

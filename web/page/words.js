@@ -77,8 +77,8 @@ function makeButton(text, act) {
   return button;
 }
 
-/** "x, y" of a field; null if it holds anything else. */
-function parsePoint(text) {
+/** "x, y" of a field, or "x, y, z"; null if it holds anything else. */
+function parsePoint(text, count = 2) {
   const parts = text.trim().split(/[\s,;]+/).map(Number);
-  return parts.length === 2 && parts.every(Number.isFinite) ? parts : null;
+  return parts.length === count && parts.every(Number.isFinite) ? parts : null;
 }

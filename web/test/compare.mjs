@@ -79,6 +79,46 @@ function compareWalks(mesh, path, from, to) {
   }
 }
 
+// Walks of probes and of rays have the triangles that the program lists.
+function compareSpace(path, from, to) {
+  const mesh = meshwalk.readMesh("octahedron.off", readFileSync(path));
+  const surface = meshwalk.createSurface(mesh, { weld: true });
+  const motion = to.map((value, k) => value - from[k]);
+  const listed = (...words) => run("walk", path, "--from", from.join(), "--to", to.join(), ...words)
+    .trimEnd().split("\n").slice(1).map((line) => line.split(",").map(Number));
+  const probe = surface.probe(from, motion);
+  const told = listed("--as", "surface", "--weld");
+  assert.deepEqual(Array.from(probe.triangles), told.map(([, triangle]) => triangle));
+  assert.deepEqual(Array.from(probe.iterations), told.map(([, , iteration]) => iteration));
+  assert.equal(surface.probe(from, motion, { certain: true }).state, "hit");
+  surface.setCentre([0, 0, 0]);
+  for (const { name } of meshwalk.starWalks) {
+    const way = surface.followRay(from, to, { walk: name });
+    assert.deepEqual(Array.from(way.triangles),
+      listed("--as", "star", "--walk", name).map(([, triangle]) => triangle), `star walk ${name}`);
+  }
+  surface.free();
+  mesh.free();
+}
+
+const OCTAHEDRON = `OFF
+6 8 0
+1 0 0
+-1 0 0
+0 1 0
+0 -1 0
+0 0 1
+0 0 -1
+3 0 2 4
+3 2 1 4
+3 1 3 4
+3 3 0 4
+3 2 0 5
+3 1 2 5
+3 3 1 5
+3 0 3 5
+`;
+
 function compareDefects(bytes, name, path) {
   const mesh = meshwalk.readMesh(name, bytes);
   let json = "";
@@ -173,6 +213,8 @@ try {
   assert.ok(compareDefects(Buffer.from(folded), "folded.off", inScratch("folded.off")) > 0);
   compareMessage("damaged.off", "OFF\n3 1 0\n0 0 0\n1 0 zero\n");
   compareMessage("short.ply", "ply\nformat ascii 1.0\nelement vertex 3\n");
+  writeFileSync(inScratch("octahedron.off"), OCTAHEDRON);
+  compareSpace(inScratch("octahedron.off"), [0.3, 0.2, 2], [-0.4, -0.5, -0.6]);
   compareNetcdf();
   comparePacked(readFileSync(trap));
   console.log(`${answers} answers are equal, bit for bit`);

@@ -133,6 +133,26 @@ async function testTerrain() {
   assert.ok(await browser.value("meshwalkPage.stage.picture.visible > 1000"));
 }
 
+// Two rays and a probe: the triangles that `walk` lists in space.
+async function testSpace() {
+  const text = ["OFF", "6 8 0", "1 0 0", "-1 0 0", "0 1 0", "0 -1 0", "0 0 1", "0 0 -1", "3 0 2 4",
+    "3 2 1 4", "3 1 3 4", "3 3 0 4", "3 2 0 5", "3 1 2 5", "3 3 1 5", "3 0 3 5", ""].join("\n");
+  writeFileSync(join(scratch, "octahedron.off"), text);
+  await openPage("octahedron.off", "--as", "star");
+  for (const [tool, clicks] of [["ray", [[0, 0, 1], [0.4, -0.4, 0.2]]], ["probe", [[0, 0, 1]]]]) {
+    await browser.press(`[data-tool=${tool}]`);
+    for (const point of clicks) await clickAt(point);
+    const walk = await browser.value(`({ from: meshwalkPage.walkPanel.from.join(),
+      to: meshwalkPage.walkPanel.to.join(), name: document.getElementById("walk-name").value,
+      triangles: Array.from(meshwalkPage.walkPanel.walk.triangles) })`);
+    const how = tool === "ray" ? ["star", "--walk", walk.name] : ["surface", "--weld"];
+    const listed = run("walk", "octahedron.off", "--as", ...how, "--from", walk.from,
+      "--to", walk.to);
+    assert.deepEqual(walk.triangles,
+      listed.trimEnd().split("\n").slice(1).map((line) => Number(line.split(",")[1])), tool);
+  }
+}
+
 /** Something is drawn in the middle of the picture. */
 const drawn = () => browser.value(`(() => {
   const canvas = document.getElementById("picture");
@@ -152,6 +172,7 @@ try {
   await testDefects();
   await browser.size(1280, 800);
   await testTerrain();
+  await testSpace();
   assert.deepEqual(browser.faults, []);
   console.log("the page answers as the command line does");
 } finally {
