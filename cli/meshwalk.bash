@@ -16,6 +16,7 @@ _meshwalk_options() {
         weights) echo "$query --method --values --norm --strict --stats --json --layer --where $common" ;;
         apply) echo "--field --missing --strict --stats --json $common" ;;
         contours) echo "--interval --levels --base --polygons --field --nodata --crs $common" ;;
+        drape) echo "--field --nodata --outside-z --attribute --layer --columns --crs --lines-crs --strict $common" ;;
         volume) echo "--base --against --field --against-field --nodata --crs --against-crs --json --strict $common" ;;
         profile) echo "--field --nodata --attribute --layer --columns --crs --lines-crs --strict $common" ;;
         raster)
@@ -145,7 +146,7 @@ _meshwalk() {
         before=${COMP_WORDS[COMP_CWORD - 2]}
     fi
     if ((COMP_CWORD == 1)); then
-        names='info check triangulate locate sample weights apply profile contours raster visible volume edit star probe walk convert view bench --help --version'
+        names='info check triangulate locate sample weights apply profile contours raster visible drape volume edit star probe walk convert view bench --help --version'
         mapfile -t COMPREPLY < <(compgen -W "$names" -- "$word")
         return
     fi

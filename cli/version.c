@@ -1,5 +1,7 @@
 #include "cli/version.h"
 #include "cli/gdal/gdal_library.h"
+#include "cli/gdal/vector_formats.h"
+#include "cli/view/view_page.h"
 
 #include <meshwalk/meshwalk.h>
 #include <string.h>
@@ -17,9 +19,8 @@ static void version_line(text *t, const char *name, const char *version, const c
 /* GDAL and PROJ are looked for where the program runs. */
 static void version_of_gdal(text *t)
 {
-    static const char *const drivers[] = {"GPKG",    "ESRI Shapefile", "FlatGeobuf",
-                                          "GeoJSON", "GeoJSONSeq",     "GML",
-                                          "SQLite",  "Parquet"};
+    const vector_format *formats;
+    size_t count = vector_formats_list(&formats);
     const gdal_functions *gdal = gdal_library_load();
     int major = 0, minor = 0, patch = 0;
     if (!gdal) {
@@ -30,17 +31,13 @@ static void version_of_gdal(text *t)
     }
     gdal->OSRGetPROJVersion(&major, &minor, &patch);
     text_printf(t, "  GDAL     %s, found: vector files;", gdal->GDALVersionInfo("RELEASE_NAME"));
-    const char *join = " writes ";
-    for (size_t i = 0; i < sizeof drivers / sizeof *drivers; i++) {
-        if (!gdal->GDALGetDriverByName(drivers[i])) continue;
-        text_printf(t, "%s%s", join, drivers[i]);
-        join = ", ";
-    }
-    join = ", not ";
-    for (size_t i = 0; i < sizeof drivers / sizeof *drivers; i++) {
-        if (gdal->GDALGetDriverByName(drivers[i])) continue;
-        text_printf(t, "%s%s", join, drivers[i]);
-        join = ", ";
+    for (int there = 1; there >= 0; there--) {
+        const char *join = there ? " writes " : ", not ";
+        for (size_t i = 0; i < count; i++) {
+            if ((gdal->GDALGetDriverByName(formats[i].driver) != NULL) != there) continue;
+            text_printf(t, "%s%s", join, formats[i].ending);
+            join = ", ";
+        }
     }
     text_printf(t, "\n  PROJ     %d.%d.%d, found: coordinate systems\n", major, minor, patch);
 }
@@ -81,6 +78,9 @@ void version_write(text *t)
     version_line(t, "zlib", MW_ZLIB_VERSION ", built in: files packed by gzip", NULL);
     version_line(t, "Jansson", jansson, "no constraints from GeoJSON, but by GDAL");
     version_line(t, "Cairo", cairo, "no pictures, no plots");
+    size_t page_size;
+    version_line(t, "view", view_page(&page_size) ? "built in: pages for browsers" : NULL,
+                 "no compiler for WebAssembly, no pages for browsers");
     version_of_gdal(t);
     version_of_netcdf(t);
     version_line(t, "LAZ", NULL, "LAS only; 'pdal translate' unpacks");

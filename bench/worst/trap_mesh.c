@@ -182,7 +182,7 @@ bool trap_clusters(trap_mesh *m, size_t n, uint64_t seed)
     return trap_points(m, DATASET_CLUSTERS, n, seed, 1);
 }
 
-/* On a circle, but for rounding. */
+/* On a circle, except for rounding. */
 bool trap_circle(trap_mesh *m, size_t n, uint64_t seed)
 {
     if (!trap_mesh_alloc(m, n, 0)) return false;

@@ -306,7 +306,8 @@ const command check_command = {
                    "polyhedron in the same way. With "
                    "--fix, a mended mesh is written and told about; then the exit code is 0 if "
                    "that is an embedding, and 1 if "
-                   "defects remain. '-' is standard input.",
+                   "defects remain. 'meshwalk view MESH' shows the defects in a browser. '-' is "
+                   "standard input.",
     .options = tables,
     .essential = "fix tolerance numbers as output",
     .settings_size = sizeof(check_settings),

@@ -1,5 +1,5 @@
 /* scene.c - the page is cut to the walk and the ends of its line. Of a large mesh only what lies
- * near the walk is painted. In space triangles that turn their back are left out, but for those of
+ * near the walk is painted. In space, triangles that face away are left out, except for those of
  * the walk. */
 #include "cli/draw/scene.h"
 

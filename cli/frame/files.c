@@ -76,21 +76,39 @@ int files_check_output(const char *output, const char *const *inputs, int count)
     return END_USAGE;
 }
 
+/* Why answers are not written under an ending; endings are followed by a space. */
+static const struct {
+    const char *endings, *reason;
+} refused_endings[] = {
+    {".xlsx .xlsm .ods ", "a spreadsheet would be made in memory; each of them opens CSV"},
+    {".tab .mif ", "MapInfo knows no missing numbers: a missing height would become 0"},
+    {".gmt ", "this format loses quotes in texts"},
+    {".gdb ", "this format rounds positions"},
+    {".dxf .dgn .mvt .pbf .mbtiles .mapml ", "this format has no room for the columns"},
+    {".kmz .zip .shz .gz ", "this format is packed; pack the file when it is complete"},
+    {".dbf .xml .000 .x10 .gxt .itf .xtf .pix .fits .map .feather .arrow .pdf .png .jpg .svg .las "
+     ".laz .nc .tif .h5 .mat .npy .npz .ply .off .obj .stl .vtk .vtu .msh .2dm .gr3 .slf ",
+     "this format is for something else, or not known"},
+};
+
+/* Is the ending one of the list? */
+static bool ending_is_listed(const char *ending, const char *list)
+{
+    size_t length = strlen(ending);
+    for (const char *p = list; *p; p = strchr(p, ' ') + 1)
+        if (strncasecmp(p, ending, length) == 0 && p[length] == ' ') return true;
+    return false;
+}
+
 int files_check_text_output(const char *output)
 {
-    static const char *const endings[] = {
-        ".gpx",  ".kml", ".kmz", ".gml", ".tab", ".mif", ".dxf", ".dbf", ".sqlite",  ".gdb",
-        ".xlsx", ".ods", ".pdf", ".png", ".jpg", ".svg", ".gz",  ".zip", ".feather", ".arrow",
-        ".las",  ".laz", ".nc",  ".tif", ".h5",  ".mat", ".npy", ".npz", ".ply",     ".off",
-        ".obj",  ".stl", ".vtk", ".vtu", ".msh", ".2dm", ".gr3", ".slf"};
-    if (files_is_standard(output)) return 0;
-    size_t length = strlen(output);
-    for (size_t i = 0; i < sizeof endings / sizeof *endings; i++) {
-        size_t end = strlen(endings[i]);
-        if (length <= end || strcasecmp(output + length - end, endings[i]) != 0) continue;
-        complain("%s: answers are written as text (CSV), or as .gpkg, .shp, .fgb or .geojson by "
-                 "GDAL, but not as %s",
-                 output, endings[i]);
+    const char *ending = files_is_standard(output) ? NULL : strrchr(output, '.');
+    if (!ending || ending == output || strchr(ending, '/')) return 0;
+    for (size_t i = 0; i < sizeof refused_endings / sizeof *refused_endings; i++) {
+        if (!ending_is_listed(ending, refused_endings[i].endings)) continue;
+        complain("%s: answers are written as text (CSV), or by GDAL as .gpkg, .shp, .fgb, "
+                 ".geojson, .kml or .gpx, but not as %s: %s",
+                 output, ending, refused_endings[i].reason);
         return END_USAGE;
     }
     return 0;

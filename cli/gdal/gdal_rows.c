@@ -3,6 +3,7 @@
 #include "cli/frame/message.h"
 #include "cli/gdal/gdal_crs.h"
 #include "cli/gdal/gdal_directory.h"
+#include "cli/gdal/vector_formats.h"
 
 #include <inttypes.h>
 #include <limits.h>
@@ -14,30 +15,9 @@
 #include <strings.h>
 #include <unistd.h>
 
-typedef struct vector_format {
-    const char *ending, *driver;
-} vector_format;
-
-static const vector_format formats[] = {
-    {".gpkg", "GPKG"},       {".shp", "ESRI Shapefile"}, {".fgb", "FlatGeobuf"},
-    {".geojson", "GeoJSON"}, {".json", "GeoJSON"},       {".geojsonl", "GeoJSONSeq"},
-    {".gml", "GML"},         {".sqlite", "SQLite"},      {".parquet", "Parquet"},
-};
-
-static const vector_format *format_by_path(const char *path)
-{
-    size_t length = path ? strlen(path) : 0;
-    for (size_t i = 0; i < sizeof formats / sizeof *formats; i++) {
-        size_t end = strlen(formats[i].ending);
-        if (length > end && strcasecmp(path + length - end, formats[i].ending) == 0)
-            return &formats[i];
-    }
-    return NULL;
-}
-
 bool gdal_rows_known(const char *path)
 {
-    return format_by_path(path) != NULL;
+    return vector_format_of(path) != NULL;
 }
 
 #ifdef MW_GDAL
@@ -73,7 +53,7 @@ struct gdal_rows {
     OGRLayerH layer;
     uint64_t written, committed;
     bool warned;
-    bool points_needed;       /* the format holds no rows without one */
+    const vector_format *format;
     size_t line_count;        /* points of the line of the row that is written */
     const size_t *ring_first; /* of the polygon of the row that is written: its rings */
     size_t ring_count;
@@ -190,7 +170,7 @@ static int rows_fail(const gdal_rows *r, const char *what)
 
 int gdal_rows_check(const char *path)
 {
-    const vector_format *format = format_by_path(path);
+    const vector_format *format = vector_format_of(path);
     const gdal_functions *gdal = gdal_library_load();
     if (!gdal) {
         complain("%s: GDAL, which would write it, cannot be loaded (" MW_GDAL ")", path);
@@ -224,13 +204,28 @@ static int rows_read_header(gdal_rows *r)
     return 0;
 }
 
+static int rows_check_lonlat(const gdal_rows *r)
+{
+    char name[CRS_NAME];
+    if (r->form.polygons) {
+        complain("%s: %s holds no polygons; .gpkg does", r->target.path, r->format->driver);
+        return END_USAGE;
+    }
+    if (!r->form.crs || crs_is_lonlat(r->form.crs)) return 0;
+    complain("%s: %s holds longitudes and latitudes, and the points are in %s; .gpkg holds both",
+             r->target.path, r->format->driver, crs_name(r->form.crs, name));
+    return END_USAGE;
+}
+
 int gdal_rows_open(gdal_rows **rows, const char *path, const gdal_rows_form *form)
 {
     gdal_rows *r = *rows = calloc(1, sizeof *r);
     if (!r) return fail_memory();
     r->gdal = gdal_library_load();
     r->form = *form;
+    r->format = vector_format_of(path);
     int end = gdal_directory_open(&r->target, path);
+    if (end == 0 && r->format->lonlat_only) end = rows_check_lonlat(r);
     return end ? end : rows_read_header(r);
 }
 
@@ -249,8 +244,7 @@ static int rows_create_field(gdal_rows *r, row_column *column)
                                          [KIND_TEXT] = OFTString};
     const gdal_functions *gdal = r->gdal;
     OGRFieldDefnH definition = gdal->OGR_Fld_Create(column->name, types[column->kind]);
-    if (strcmp(format_by_path(r->target.path)->driver, "ESRI Shapefile") == 0 &&
-        types[column->kind] == OFTString)
+    if (r->format->shapefile && types[column->kind] == OFTString)
         gdal->OGR_Fld_SetWidth(definition, 254);
     gdal->CPLErrorReset();
     OGRErr failure = gdal->OGR_L_CreateField(r->layer, definition, TRUE);
@@ -265,32 +259,41 @@ static int rows_create_field(gdal_rows *r, row_column *column)
     return 0;
 }
 
+/* What each row has, with heights or without. */
+static OGRwkbGeometryType rows_geometry(const gdal_rows *r)
+{
+    bool high = r->form.dimensions == 3;
+    if (r->form.polygons) return high ? wkbPolygon25D : wkbPolygon;
+    if (r->form.lines) return high ? wkbLineString25D : wkbLineString;
+    return high ? wkbPoint25D : wkbPoint;
+}
+
+static OGRLayerH rows_create_set(gdal_rows *r, const char *name, OGRSpatialReferenceH crs)
+{
+    const gdal_functions *gdal = r->gdal;
+    const vector_format *format = r->format;
+    bool fid = strcmp(format->driver, "GPKG") == 0 && rows_have_column(r, "fid");
+    const char *create[] = {format->create, NULL};
+    const char *const with_fid[] = {"FID=mw_fid", NULL};
+    const char *const *options = fid ? with_fid : format->options;
+    r->set = gdal->GDALCreate(gdal->GDALGetDriverByName(format->driver), r->target.temporary, 0, 0,
+                              0, GDT_Unknown, (char **)(uintptr_t)create);
+    if (!r->set) return NULL;
+    return gdal->GDALDatasetCreateLayer(r->set, name, crs, rows_geometry(r),
+                                        (char **)(uintptr_t)options);
+}
+
 static int rows_create_layer(gdal_rows *r)
 {
     const gdal_functions *gdal = r->gdal;
-    const char *driver = format_by_path(r->target.path)->driver;
+    const char *given = r->form.lines ? r->format->lines : r->format->points;
     char name[256];
     const char *base = strrchr(r->target.temporary, '/') + 1;
     snprintf(name, sizeof name, "%.*s", (int)(strrchr(base, '.') - base), base);
-    char *fid[] = {"FID=mw_fid", NULL}, *digits[] = {"SIGNIFICANT_FIGURES=17", NULL};
-    char *ordered[] = {"SPATIAL_INDEX=NO", NULL}; /* an index sorts the rows */
-    char **options = strcmp(driver, "GPKG") == 0 && rows_have_column(r, "fid") ? fid
-                     : strncmp(driver, "GeoJSON", 7) == 0                      ? digits
-                     : strcmp(driver, "FlatGeobuf") == 0                       ? ordered
-                                                                               : NULL;
-    r->points_needed = strcmp(driver, "FlatGeobuf") == 0;
     gdal->CPLSetConfigOption("OGR_SQLITE_SYNCHRONOUS", "OFF"); /* it has no name yet */
     OGRSpatialReferenceH crs = r->form.crs ? crs_parse(gdal, r->form.crs, true) : NULL;
     gdal->CPLErrorReset();
-    r->set = gdal->GDALCreate(gdal->GDALGetDriverByName(driver), r->target.temporary, 0, 0, 0,
-                              GDT_Unknown, NULL);
-    if (r->set)
-        r->layer = gdal->GDALDatasetCreateLayer(r->set, name, crs,
-                                                r->form.polygons          ? wkbPolygon
-                                                : r->form.lines           ? wkbLineString
-                                                : r->form.dimensions == 3 ? wkbPoint25D
-                                                                          : wkbPoint,
-                                                options);
+    r->layer = rows_create_set(r, given ? given : name, crs);
     if (crs) gdal->OSRRelease(crs);
     if (!r->layer) return rows_fail(r, "it cannot be written");
     int end = 0;
@@ -314,6 +317,32 @@ static int rows_fail_cell(gdal_rows *r, const row_column *column, const row_cell
     return END_INPUT;
 }
 
+/* Shapefiles write numbers in 24 columns, with at most 15 decimals. */
+static int feature_check_shapefile(gdal_rows *r, const row_column *column, double value)
+{
+    if (fabs(value) >= 1e23) {
+        complain("%s: row %" PRIu64 ": the column '%.60s' has %g, which is too large for a "
+                 "Shapefile; .gpkg can hold it",
+                 r->target.path, r->written + 1, column->name, value);
+        return END_INPUT;
+    }
+    if (value == 0 || fabs(value) >= 1e-9 || r->warned || r->form.quiet) return 0;
+    complain("%s: warning: row %" PRIu64 ": the column '%.60s' has %g, which a Shapefile rounds "
+             "to 15 decimals; .gpkg can hold it",
+             r->target.path, r->written + 1, column->name, value);
+    r->warned = true;
+    return 0;
+}
+
+static int feature_set_real(gdal_rows *r, OGRFeatureH feature, const row_column *column,
+                            const char *digits)
+{
+    double value = strtod(digits, NULL);
+    int end = r->format->shapefile ? feature_check_shapefile(r, column, value) : 0;
+    if (end == 0) r->gdal->OGR_F_SetFieldDouble(feature, column->field, value);
+    return end;
+}
+
 static int feature_set_field(gdal_rows *r, OGRFeatureH feature, const row_column *column,
                              const row_cell *cell)
 {
@@ -333,20 +362,20 @@ static int feature_set_field(gdal_rows *r, OGRFeatureH feature, const row_column
     if (column->kind == KIND_INTEGER)
         gdal->OGR_F_SetFieldInteger64(feature, column->field, strtoll(value, NULL, 10));
     else if (column->kind == KIND_REAL)
-        gdal->OGR_F_SetFieldDouble(feature, column->field, strtod(value, NULL));
+        return feature_set_real(r, feature, column, value);
     else
         gdal->OGR_F_SetFieldString(feature, column->field, value);
     return 0;
 }
 
-/* GeoJSON means longitudes and latitudes, unless it names another system. */
+/* Some formats mean longitudes and latitudes, unless the file names another system. */
 static void rows_warn_of_lonlat(gdal_rows *r, const double *p)
 {
     if (r->form.crs || r->warned || r->form.quiet || (fabs(p[0]) <= 360 && fabs(p[1]) <= 90))
         return;
-    if (strncmp(format_by_path(r->target.path)->driver, "GeoJSON", 7) != 0) return;
-    complain("%s: warning: GeoJSON means longitudes and latitudes, and row %" PRIu64 " has others",
-             r->target.path, r->written + 1);
+    if (!r->format->lonlat_meant) return;
+    complain("%s: warning: %s means longitudes and latitudes, and row %" PRIu64 " has others",
+             r->target.path, r->format->driver, r->written + 1);
     r->warned = true;
 }
 
@@ -356,9 +385,9 @@ static int feature_set_point(gdal_rows *r, OGRFeatureH feature, const double *p)
     const gdal_functions *gdal = r->gdal;
     bool finite = true;
     for (size_t k = 0; k < r->form.dimensions; k++) finite = finite && isfinite(p[k]);
-    if (!finite && r->points_needed) {
-        complain("%s: row %" PRIu64 " has no point, which FlatGeobuf cannot hold; .gpkg can",
-                 r->target.path, r->written + 1);
+    if (!finite && r->format->geometry_needed) {
+        complain("%s: row %" PRIu64 " has no point, which %s cannot hold; .gpkg can",
+                 r->target.path, r->written + 1, r->format->driver);
         return END_INPUT;
     }
     if (!finite) return 0;
@@ -374,20 +403,23 @@ static int feature_set_point(gdal_rows *r, OGRFeatureH feature, const double *p)
 }
 
 static OGRGeometryH line_create(const gdal_functions *gdal, OGRwkbGeometryType type,
-                                const double *points, size_t count)
+                                const double *points, size_t count, size_t dimensions)
 {
     OGRGeometryH line = gdal->OGR_G_CreateGeometry(type);
     /* from the end, so that it grows once */
     for (size_t i = count; i-- > 0;)
-        gdal->OGR_G_SetPoint_2D(line, (int)i, points[2 * i], points[2 * i + 1]);
+        if (dimensions == 3)
+            gdal->OGR_G_SetPoint(line, (int)i, points[3 * i], points[3 * i + 1], points[3 * i + 2]);
+        else
+            gdal->OGR_G_SetPoint_2D(line, (int)i, points[2 * i], points[2 * i + 1]);
     return line;
 }
 
 static int feature_set_line(gdal_rows *r, OGRFeatureH feature, const double *points)
 {
     rows_warn_of_lonlat(r, points);
-    r->gdal->OGR_F_SetGeometryDirectly(feature,
-                                       line_create(r->gdal, wkbLineString, points, r->line_count));
+    r->gdal->OGR_F_SetGeometryDirectly(
+        feature, line_create(r->gdal, wkbLineString, points, r->line_count, r->form.dimensions));
     return 0;
 }
 
@@ -398,11 +430,20 @@ static int feature_set_polygon(gdal_rows *r, OGRFeatureH feature, const double *
     rows_warn_of_lonlat(r, points);
     for (size_t k = 0; k < r->ring_count; k++) {
         size_t first = r->ring_first[k], count = r->ring_first[k + 1] - first;
-        gdal->OGR_G_AddGeometryDirectly(
-            polygon, line_create(gdal, wkbLinearRing, points + 2 * first, count));
+        gdal->OGR_G_AddGeometryDirectly(polygon, line_create(gdal, wkbLinearRing,
+                                                             points + r->form.dimensions * first,
+                                                             count, r->form.dimensions));
     }
     gdal->OGR_F_SetGeometryDirectly(feature, polygon);
     return 0;
+}
+
+/* A Shapefile's warning that a number may not fit comes for each with many digits; those that do
+ * not fit have been refused. */
+static bool rows_warned_by_gdal(const gdal_rows *r)
+{
+    return !r->warned && !r->form.quiet && r->gdal->CPLGetLastErrorType() >= CE_Warning &&
+           !strstr(r->gdal->CPLGetLastErrorMsg(), "not successfully written");
 }
 
 static int rows_write_feature(gdal_rows *r, const double *point)
@@ -421,7 +462,7 @@ static int rows_write_feature(gdal_rows *r, const double *point)
         if (gdal->OGR_L_CreateFeature(r->layer, feature) != OGRERR_NONE)
             end = rows_fail(r, "a row cannot be written");
     }
-    if (end == 0 && !r->warned && !r->form.quiet && gdal->CPLGetLastErrorType() >= CE_Warning) {
+    if (end == 0 && rows_warned_by_gdal(r)) {
         complain("%s: warning: row %" PRIu64 ": GDAL says: %.1000s", r->target.path, r->written + 1,
                  gdal->CPLGetLastErrorMsg());
         r->warned = true;
@@ -481,7 +522,7 @@ int gdal_rows_write_polygon(gdal_rows *r, const char *bytes, size_t size, const 
 static void rows_remove_sidecars(const gdal_rows *r)
 {
     static const char *const endings[] = {"prj", "cpg", "qix", "sbn", "sbx"};
-    if (strcmp(format_by_path(r->target.path)->driver, "ESRI Shapefile") != 0) return;
+    if (!r->format->shapefile) return;
     for (size_t i = 0; i < sizeof endings / sizeof *endings; i++) {
         char name[4096];
         int stem = (int)strlen(r->target.path) - 3;

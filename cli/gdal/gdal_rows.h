@@ -40,8 +40,8 @@ int gdal_rows_learn(gdal_rows *rows, const char *bytes, size_t size);
 int gdal_rows_write(gdal_rows *rows, const char *bytes, size_t size, const double *points,
                     size_t stride);
 
-/* Write one row, with a line of `count` points, x and y each. Returns 0, or an exit code after a
- * complaint. */
+/* Write one row, with a line of `count` points, of form.dimensions numbers each. Returns 0, or an
+ * exit code after a complaint. */
 int gdal_rows_write_line(gdal_rows *rows, const char *bytes, size_t size, const double *points,
                          size_t count);
 

@@ -158,7 +158,8 @@ static bool lines_make_room(line_file *l, size_t points, size_t lines)
     l->first = malloc((lines + 1) * sizeof *l->first);
     l->feature = malloc((lines + 1) * sizeof *l->feature);
     l->part = malloc((lines + 1) * sizeof *l->part);
-    return l->points && l->first && l->feature && l->part;
+    l->polygon = malloc((lines + 1) * sizeof *l->polygon);
+    return l->points && l->first && l->feature && l->part && l->polygon;
 }
 
 /* Add a point; not twice in a row. */
@@ -170,11 +171,12 @@ static size_t lines_add_point(line_file *l, size_t count, bool begins, const dou
     return count + 1;
 }
 
-static void lines_begin(line_file *l, size_t point, uint32_t feature)
+static void lines_begin(line_file *l, size_t point, uint32_t feature, uint32_t polygon)
 {
     bool same = l->count > 0 && l->feature[l->count - 1] == feature;
     l->part[l->count] = same ? l->part[l->count - 1] + 1 : 0;
     l->feature[l->count] = feature;
+    l->polygon[l->count] = polygon;
     l->first[l->count++] = point;
 }
 
@@ -192,7 +194,7 @@ static int lines_take(line_file *l, const char *path, const mw_constraint_file *
             return END_INPUT;
         }
         bool begins = segment_begins_line(c, i);
-        if (begins) lines_begin(l, points, c->record[i]);
+        if (begins) lines_begin(l, points, c->record[i], c->polygon[i]);
         if (begins) points = lines_add_point(l, points, true, a);
         points = lines_add_point(l, points, false, b);
     }
@@ -244,6 +246,7 @@ void line_file_release(line_file *l)
     free(l->first);
     free(l->feature);
     free(l->part);
+    free(l->polygon);
     feature_values_release(&l->values);
     *l = (line_file){0};
 }

@@ -16,6 +16,7 @@ typedef struct line_file {
     double *points; /* x, y; no two points of a line that follow each other are equal */
     size_t *first;  /* line i has the points first[i] up to first[i + 1] - 1, at least one */
     uint32_t *feature, *part; /* of each line: its feature of the file, and which of its lines */
+    uint32_t *polygon;        /* of each line: the polygon that it is a ring of; MW_NONE: none */
     size_t count;
     feature_values values;   /* of the features; none of a table */
     const char *record_name; /* what `feature` counts: "feature", from 0, or "line", from 1 */

@@ -121,7 +121,7 @@ static int spoke_compare(const void *a, const void *b)
     return (s->end > t->end) - (s->end < t->end);
 }
 
-/* Of spokes with equal tips, as many go out as come in, but for the rest that is kept. */
+/* Of spokes with equal tips, as many go out as come in, except for the rest that is kept. */
 static size_t spokes_cancel(link_work *w, ring_spoke *spokes, size_t count)
 {
     size_t kept = 0;

@@ -17,14 +17,15 @@ int row_output_check(const char *path)
 /* What each row has. */
 enum { ROW_POINT = 0, ROW_LINE, ROW_POLYGON };
 
-static int row_output_begin(row_output *o, const text *header, const char *kinds, int geometry)
+static int row_output_begin(row_output *o, const text *header, const char *kinds, int geometry,
+                            size_t dimensions)
 {
     mw_error error;
     gdal_rows_form form = {.header = header->bytes,
                            .header_size = header->size,
                            .separator = ',',
                            .decimal = '.',
-                           .dimensions = 2,
+                           .dimensions = dimensions,
                            .answers = kinds,
                            .crs = o->crs,
                            .quiet = o->quiet,
@@ -46,21 +47,30 @@ int row_output_open(row_output *o, const char *path, const text *header, const c
     o->room = ROWS_AT_A_TIME;
     o->points = malloc(2 * o->room * sizeof *o->points);
     if (!o->points || header->failed) return fail_memory();
-    return row_output_begin(o, header, kinds, ROW_POINT);
+    return row_output_begin(o, header, kinds, ROW_POINT, 2);
 }
 
 int row_output_open_lines(row_output *o, const char *path, const text *header, const char *kinds,
                           const char *crs, bool quiet)
 {
     *o = (row_output){.path = path, .crs = crs, .quiet = quiet};
-    return header->failed ? fail_memory() : row_output_begin(o, header, kinds, ROW_LINE);
+    return header->failed ? fail_memory() : row_output_begin(o, header, kinds, ROW_LINE, 2);
 }
 
 int row_output_open_polygons(row_output *o, const char *path, const text *header, const char *kinds,
                              const char *crs, bool quiet)
 {
     *o = (row_output){.path = path, .crs = crs, .quiet = quiet};
-    return header->failed ? fail_memory() : row_output_begin(o, header, kinds, ROW_POLYGON);
+    return header->failed ? fail_memory() : row_output_begin(o, header, kinds, ROW_POLYGON, 2);
+}
+
+int row_output_open_draped(row_output *o, const char *path, const text *header, const char *kinds,
+                           const char *crs, bool quiet, bool polygons)
+{
+    *o = (row_output){.path = path, .crs = crs, .quiet = quiet};
+    return header->failed
+               ? fail_memory()
+               : row_output_begin(o, header, kinds, polygons ? ROW_POLYGON : ROW_LINE, 3);
 }
 
 static int row_output_flush(row_output *o)

@@ -37,10 +37,15 @@ int row_output_open_lines(row_output *o, const char *path, const text *header, c
 int row_output_open_polygons(row_output *o, const char *path, const text *header, const char *kinds,
                              const char *crs, bool quiet);
 
+/* The same for rows with a line each, or a polygon, whose points have x, y and z. */
+int row_output_open_draped(row_output *o, const char *path, const text *header, const char *kinds,
+                           const char *crs, bool quiet, bool polygons);
+
 /* Append a row, which the caller has written to o->text with its end. */
 int row_output_row(row_output *o, const double point[2]);
 
-/* Write the row that stands in o->text, with a line of `count` points, x and y each. */
+/* Write the row that stands in o->text, with a line of `count` points, x and y each, or x, y
+ * and z. */
 int row_output_line(row_output *o, const double *points, size_t count);
 
 /* The same with a polygon, as gdal_rows_write_polygon takes it. */

@@ -71,7 +71,7 @@ int raster_grid_make(raster_grid *g, const raster_grid_wish *wish, const double 
     } else {
         for (int k = 0; k < 2; k++) box[k] = floor(mesh[k] / size) * size;
         for (int k = 2; k < 4; k++) box[k] = ceil(mesh[k] / size) * size;
-        /* A mesh whose side is a line has no pixel, but for this. */
+        /* A mesh whose side is a line has no pixel, except for this. */
         for (int k = 0; k < 2; k++)
             if (box[k] == box[k + 2]) box[k + 2] += size;
     }

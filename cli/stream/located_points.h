@@ -22,7 +22,7 @@ typedef struct located_points {
 } located_points;
 
 /* Read the points and locate them in the mesh of the query. `extra` is the name of one more column
- * that is read, or NULL. `p` is all zero, but for `answers`. Returns 0, or an exit code after a
+ * that is read, or NULL. `p` is all zero, except for `answers`. Returns 0, or an exit code after a
  * complaint. Release them in both cases. */
 int located_points_read(located_points *p, const point_query *q, const char *path,
                         const char *extra);

@@ -70,7 +70,7 @@ typedef struct mw_borrow_options {
  * embedding. In other meshes it does not look for borders that cross (mw_check_arrays does): where
  * triangles overlap, any of those that contain a point may be reported.
  *
- * @param arrays   the caller's; they must outlive *out, but for the structure itself
+ * @param arrays   the caller's; they must outlive *out, except for the structure itself
  * @param options  NULL = all zero: checked
  * @param out      the view, owned by the caller (mw_borrowed_release); NULL on failure
  * @return MW_OK; MW_ERROR_ARGUMENT; MW_ERROR_INPUT, of which the error names the triangle;

@@ -59,9 +59,9 @@ typedef struct mw_editor_options {
  * @param options  NULL selects the defaults
  * @param out      receives the editor, owned by the caller; NULL on failure
  * @param error    NULL, or receives the message of a failure
- * @return MW_OK; MW_ERROR_INPUT if the mesh is no embedding, has triangles without area, has two
- *         used vertices with equal coordinates, or if a constrained edge is not an edge of the mesh
- *         (the error names the first); MW_ERROR_ARGUMENT, MW_ERROR_LIMIT, MW_ERROR_MEMORY,
+ * @return MW_OK; MW_ERROR_INPUT if the mesh is not an embedding, has triangles without area, or has
+ *         two used vertices with equal coordinates; or if a constrained edge is not an edge of the
+ *         mesh (the error names the first); MW_ERROR_ARGUMENT, MW_ERROR_LIMIT, MW_ERROR_MEMORY,
  *         MW_CANCELLED.
  *
  * Thread-safe for a const mesh. Time and memory: about linear in the triangles.

@@ -486,7 +486,7 @@ MW_API const char *mw_edit_name(mw_edit_kind kind);
  * @param line     receives the request; MW_EDIT_LINE_NONE on failure
  * @param error    NULL, or receives the message of a failure
  * @return MW_OK; MW_ERROR_INPUT for an unknown word or field, too few or too many words, or a word
- *         that is no number; MW_ERROR_ARGUMENT for NULL.
+ *         that is not a number; MW_ERROR_ARGUMENT for NULL.
  *
  * Thread-safe.
  */

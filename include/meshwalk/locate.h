@@ -103,7 +103,7 @@ typedef enum mw_fill_mode {
 
 /** Options of a locator. Zero-initialised options select the defaults. */
 typedef struct mw_locator_options {
-    int any;    /**< 1: accept a mesh that is no embedding; see mw_locator_void_promise() */
+    int any;    /**< 1: accept a mesh that is not an embedding; see mw_locator_void_promise() */
     int border; /**< 1: build the index that mw_nearest_border() and tolerances need */
     /** 1: store twice the area of each triangle, 8 bytes; MW_WALK_DIRECT then saves a test per
      * triangle. */
@@ -125,8 +125,8 @@ typedef struct mw_locator_options {
  * @param options  NULL selects the defaults
  * @param out      receives the locator, owned by the caller (mw_locator_destroy()); NULL on failure
  * @param error    NULL, or receives the message of a failure
- * @return MW_OK; MW_ERROR_INPUT if the mesh has no triangle with an area or is no embedding (the
- *         error names the first defect); MW_ERROR_ARGUMENT for NULL or an option out of range;
+ * @return MW_OK; MW_ERROR_INPUT if the mesh has no triangle with an area, or is not an embedding
+ *         (the error names the first defect); MW_ERROR_ARGUMENT for NULL or an option out of range;
  *         MW_ERROR_LIMIT for more than MW_MAX_TRIANGLES triangles, ghosts included;
  *         MW_ERROR_MEMORY, MW_CANCELLED.
  *
@@ -148,7 +148,7 @@ typedef struct mw_locator_info {
     uint32_t holes;
     /** 1: walks run on a copy of the mesh, with ghosts or without flat triangles. */
     int copied;
-    int embedding;       /**< 0: the mesh is no embedding (mw_locator_options.any) */
+    int embedding;       /**< 0: the mesh is not an embedding (mw_locator_options.any) */
     int unfilled;        /**< 1: the mesh is not convex, and pockets and holes are open */
     uint32_t components; /**< if unfilled: connected components, equal coordinates joined; else 1 */
     /** Of the bytes, for ghosts and their copy of the mesh; 0 without ghosts. */
@@ -163,7 +163,7 @@ typedef struct mw_locator_info {
 /** Fill `info` with the sizes of a locator. O(1). */
 MW_API void mw_locator_describe(const mw_locator *locator, mw_locator_info *info);
 
-/** Which promise does not hold because the mesh is no embedding (mw_locator_options.any), as a
+/** Which promise does not hold because the mesh is not an embedding (mw_locator_options.any), as a
  * text owned by the library; NULL for an embedding. O(1). */
 MW_API const char *mw_locator_void_promise(const mw_locator *locator);
 

@@ -69,9 +69,9 @@ typedef struct mw_mended {
  *
  * No vertex moves and none is added. Vertices that are welded to others go, and the remaining
  * vertices and triangles keep their order; the parts of a split triangle follow each other in its
- * place. With the tolerance 0 every repair is exact: but for welded vertices of different height,
- * the mesh covers the same part of the plane as before. With a tolerance, vertices in order of
- * their number are kept unless a kept one lies within the tolerance; then they are welded to the
+ * place. With the tolerance 0 every repair is exact: except for welded vertices of different
+ * height, the mesh covers the same part of the plane as before. With a tolerance, vertices in order
+ * of their number are kept unless a kept one lies within the tolerance; then they are welded to the
  * lowest of these. What a repair cannot mend (overlaps, crossing edges, edges of three triangles)
  * stays: mw_check_arrays names it. Mending what was mended changes nothing, with the tolerance 0.
  *

@@ -38,10 +38,10 @@ typedef struct mw_arrays {
 /**
  * The kinds of defects of a mesh.
  *
- * Kinds up to MW_DEFECT_NON_MANIFOLD_EDGE make arrays unusable: mw_mesh_create() refuses them.
- * Kinds up to MW_DEFECT_OVERLAP leave a mesh that is no embedding; the promises of point location
- * hold for embeddings only. MW_DEFECT_FLAT is a remark: triangles without area are accepted and
- * contain no point.
+ * Kinds up to MW_DEFECT_NON_MANIFOLD_EDGE make arrays unusable: mw_mesh_create() refuses them. A
+ * mesh with defects of the kinds up to MW_DEFECT_OVERLAP is not an embedding; the promises of point
+ * location hold for embeddings only. MW_DEFECT_FLAT is a remark: triangles without area are
+ * accepted and contain no point.
  */
 typedef enum mw_defect_kind {
     MW_DEFECT_MISSING_VERTEX = 0, /**< `triangle` names a vertex that does not exist */
@@ -132,7 +132,7 @@ MW_API void mw_check_release(mw_check *check);
 /**
  * How a mesh is laid out in memory.
  *
- * Numbers do not depend on it. For a mesh that is no embedding other defects may be named, and
+ * Numbers do not depend on it. For a mesh that is not an embedding other defects may be named, and
  * sums of areas may differ in their last bits. Tolerant meshes are laid out as given.
  */
 typedef enum mw_mesh_layout {
@@ -253,7 +253,7 @@ typedef struct mw_mesh_info {
  * @param options  threads and progress; NULL selects the defaults
  * @param info     receives the description; unspecified on failure
  * @param error    NULL, or receives the message of a failure
- * @return MW_OK, also for a mesh that is no embedding; MW_ERROR_ARGUMENT, MW_ERROR_LIMIT,
+ * @return MW_OK, also for a mesh that is not an embedding; MW_ERROR_ARGUMENT, MW_ERROR_LIMIT,
  *         MW_ERROR_MEMORY, MW_CANCELLED.
  *
  * Thread-safe. Cost as mw_check_arrays().

@@ -78,9 +78,9 @@ typedef struct mw_remap {
  * @param remap    receives weights and areas; empty on failure
  * @param error    NULL, or receives the message of a failure
  * @return MW_OK, also if nothing overlaps; MW_ERROR_ARGUMENT for NULL, a locator whose pockets and
- *         holes are open or whose mesh is no embedding, or a face that is none; MW_ERROR_INPUT for
- *         latitudes beyond 90 degrees; MW_ERROR_LIMIT for coordinates of 2^300 and more;
- *         MW_ERROR_MEMORY, MW_CANCELLED.
+ *         holes are open or whose mesh is not an embedding, or a cell number out of range;
+ *         MW_ERROR_INPUT for latitudes beyond 90 degrees; MW_ERROR_LIMIT for coordinates of 2^300
+ *         and more; MW_ERROR_MEMORY, MW_CANCELLED.
  *
  * Thread-safe. The same bits for any number of threads. Time in proportion to the triangles and
  * their common parts; 16 bytes a common part, twice while the operator is made.

@@ -76,7 +76,7 @@ typedef struct mw_segment {
  * @param segment  receives the walk
  * @param error    NULL, or receives the message of a failure
  * @return MW_OK; MW_ERROR_ARGUMENT for NULL, a locator whose pockets and holes are open or whose
- *         mesh is no embedding; MW_ERROR_INPUT if a coordinate is not finite.
+ *         mesh is not an embedding; MW_ERROR_INPUT if a coordinate is not finite.
  *
  * Thread-safe with one cursor per thread. No allocation. Time: that of a query; if a is outside the
  * convex hull, also in proportion to the edges of the hull that are passed along it.

@@ -50,7 +50,7 @@ typedef struct mw_volume_info {
  * @param info           receives volumes and areas
  * @param error          NULL, or receives the message of a failure
  * @return MW_OK, also if the two have no area in common; MW_ERROR_ARGUMENT for NULL, a locator
- *         whose pockets and holes are open or whose mesh is no embedding; MW_ERROR_LIMIT for
+ *         whose pockets and holes are open or whose mesh is not an embedding; MW_ERROR_LIMIT for
  *         coordinates of 2^300 and more; MW_ERROR_MEMORY, MW_CANCELLED.
  *
  * Thread-safe. The same bits for any number of threads. Time in proportion to the triangles and
@@ -80,6 +80,34 @@ MW_API mw_status mw_volume_between(const mw_locator *surface, const double *heig
 MW_API mw_status mw_volume_above(const mw_locator *surface, const double *heights, double base,
                                  const mw_volume_options *options, mw_volume_info *info,
                                  mw_error *error);
+
+/** Areas of a part of a surface, in units of the coordinates and heights. */
+typedef struct mw_surface_area_info {
+    double area;         /**< area of the plane that region and surface have in common */
+    double surface_area; /**< area of the surface over it, slopes included */
+    double region_area;  /**< area of the region */
+    uint64_t parts;      /**< common parts of triangles that were added */
+} mw_surface_area_info;
+
+/**
+ * The area of a surface over a region of the plane, as that of a parcel on a slope.
+ *
+ * @param surface  a locator of an embedding, as for mw_volume_between()
+ * @param heights  the height of each vertex of its mesh; a triangle with one that is not finite is
+ *                 not there
+ * @param region   a locator of a mesh that covers the region, such as a polygon triangulated by
+ *                 mw_constrained_delaunay() with MW_KEEP_INSIDE
+ * @param options  NULL selects the defaults
+ * @param info     receives areas
+ * @param error    NULL, or receives the message of a failure
+ * @return as mw_volume_between().
+ *
+ * Thread-safe. The same bits for any number of threads. Time in proportion to the triangles of the
+ * region and those of the surface over it.
+ */
+MW_API mw_status mw_surface_area(const mw_locator *surface, const double *heights,
+                                 const mw_locator *region, const mw_volume_options *options,
+                                 mw_surface_area_info *info, mw_error *error);
 
 #ifdef __cplusplus
 }

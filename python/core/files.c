@@ -44,23 +44,27 @@ static PyObject *file_get_crs(const char *crs)
     return PyUnicode_DecodeUTF8(crs, (Py_ssize_t)strlen(crs), "replace");
 }
 
-/* (points, triangles, has_z, fields, welded, crs) */
+/* (points, triangles, has_z, fields, triangle fields, crs) */
 static PyObject *file_take_all(core_state *state, mw_mesh_file *file)
 {
     PyObject *fields =
         file_take_columns(state, (file_columns){file->field_names, file->fields, file->field_count,
                                                 file->point_count});
+    PyObject *of_triangles =
+        file_take_columns(state, (file_columns){file->triangle_field_names, file->triangle_fields,
+                                                file->triangle_field_count, file->triangle_count});
     PyObject *points =
         file_take(state, (void **)&file->points, 3 * file->point_count * sizeof(double));
     PyObject *triangles =
         file_take(state, (void **)&file->triangles, 3 * file->triangle_count * sizeof(uint32_t));
     PyObject *crs = file_get_crs(file->crs);
-    PyObject *result = fields && points && triangles && crs
-                           ? Py_BuildValue("OOiOnO", points, triangles, file->has_z, fields,
-                                           (Py_ssize_t)file->welded, crs)
-                           : NULL;
+    PyObject *result =
+        fields && of_triangles && points && triangles && crs
+            ? Py_BuildValue("OOiOOO", points, triangles, file->has_z, fields, of_triangles, crs)
+            : NULL;
     Py_XDECREF(crs);
     Py_XDECREF(fields);
+    Py_XDECREF(of_triangles);
     Py_XDECREF(points);
     Py_XDECREF(triangles);
     return result;
@@ -151,7 +155,7 @@ static void file_release_fields(file_fields *fields)
 }
 
 /* Names and buffers of a list of (bytes, array). The names are the list's. */
-static int file_get_fields(PyObject *list, size_t point_count, file_fields *fields)
+static int file_get_fields(PyObject *list, size_t value_count, file_fields *fields)
 {
     const size_t count = (size_t)PyList_Size(list);
     fields->views = calloc(count + 1, sizeof *fields->views);
@@ -165,7 +169,7 @@ static int file_get_fields(PyObject *list, size_t point_count, file_fields *fiel
         PyObject *values;
         if (!PyArg_ParseTuple(PyList_GetItem(list, (Py_ssize_t)i), "yO", &fields->names[i],
                               &values) ||
-            buffer_get_packed(values, sizeof(double), point_count, &fields->views[i]))
+            buffer_get_packed(values, sizeof(double), value_count, &fields->views[i]))
             return -1;
         fields->values[i] = fields->views[i].buf;
         fields->count++;
@@ -173,8 +177,13 @@ static int file_get_fields(PyObject *list, size_t point_count, file_fields *fiel
     return 0;
 }
 
+/* Values at vertices, and of triangles. */
+typedef struct file_values {
+    file_fields vertex, triangle;
+} file_values;
+
 static mw_status file_write(const char *path, const buffer_mesh *mesh, int has_z, const char *crs,
-                            const file_fields *fields, const char *format,
+                            const file_values *values, const char *format,
                             const mw_progress *progress, mw_error *error)
 {
     const mw_file_options options = {.progress = progress};
@@ -184,32 +193,36 @@ static mw_status file_write(const char *path, const buffer_mesh *mesh, int has_z
         .point_count = mesh->points.count,
         .triangle_count = mesh->arrays.triangle_count,
         .has_z = has_z,
-        .field_names = fields->names,
-        .fields = fields->values,
-        .field_count = fields->count,
+        .field_names = values->vertex.names,
+        .fields = values->vertex.values,
+        .field_count = values->vertex.count,
+        .triangle_field_names = values->triangle.names,
+        .triangle_fields = values->triangle.values,
+        .triangle_field_count = values->triangle.count,
         .crs = (char *)(uintptr_t)crs,
     };
     return mw_write_mesh(path, &file, format, &options, error);
 }
 
-/* write_mesh(path, format or None, points, has_z, triangles, [(name, values)], crs or None,
- * progress): three doubles a vertex, without gaps */
+/* write_mesh(path, format or None, points, has_z, triangles, [(name, values)] at vertices and of
+ * triangles, crs or None, progress): three doubles a vertex, without gaps */
 static PyObject *file_write_mesh(PyObject *module, PyObject *args)
 {
     const char *path, *format, *crs;
     int has_z;
-    PyObject *points, *triangles, *list, *function;
+    PyObject *points, *triangles, *list, *other, *function;
     mw_progress progress;
     buffer_mesh mesh;
-    file_fields fields = {0};
+    file_values values = {0};
     mw_error error;
     mw_status status = MW_OK;
     int failed;
-    if (!PyArg_ParseTuple(args, "yzOpOO!zO", &path, &format, &points, &has_z, &triangles,
-                          &PyList_Type, &list, &crs, &function) ||
+    if (!PyArg_ParseTuple(args, "yzOpOO!O!zO", &path, &format, &points, &has_z, &triangles,
+                          &PyList_Type, &list, &PyList_Type, &other, &crs, &function) ||
         buffer_get_mesh(points, triangles, 3, &mesh))
         return NULL;
-    failed = file_get_fields(list, mesh.points.count, &fields);
+    failed = file_get_fields(list, mesh.points.count, &values.vertex) ||
+             file_get_fields(other, mesh.arrays.triangle_count, &values.triangle);
     if (!failed && (mesh.points.stride != 3 || mesh.arrays.integer_type == MW_INT64)) {
         PyErr_SetString(PyExc_ValueError, "expected points without gaps and triangles of 32 bits");
         failed = -1;
@@ -218,10 +231,11 @@ static PyObject *file_write_mesh(PyObject *module, PyObject *args)
         const mw_progress *watching =
             progress_begin(PyModule_GetState(module), function, &progress);
         Py_BEGIN_ALLOW_THREADS
-        status = file_write(path, &mesh, has_z, crs, &fields, format, watching, &error);
+        status = file_write(path, &mesh, has_z, crs, &values, format, watching, &error);
         Py_END_ALLOW_THREADS
     }
-    file_release_fields(&fields);
+    file_release_fields(&values.triangle);
+    file_release_fields(&values.vertex);
     buffer_release_mesh(&mesh);
     if (failed) return NULL;
     if (status) return errors_raise(PyModule_GetState(module), &error);

@@ -150,6 +150,30 @@ static PyObject *mesh_copy_field(PyObject *self, PyObject *args)
     Py_RETURN_NONE;
 }
 
+/* recover(values, out): doubles of the triangles, and at the vertices */
+static PyObject *mesh_recover(PyObject *self, PyObject *args)
+{
+    mesh_object *object = (mesh_object *)self;
+    PyObject *values, *out;
+    Py_buffer given, view;
+    mw_error error;
+    mw_status status;
+    if (!PyArg_ParseTuple(args, "OO", &values, &out) ||
+        buffer_get_packed(values, sizeof(double), mw_mesh_triangle_count(object->mesh), &given))
+        return NULL;
+    if (buffer_get_writable(out, sizeof(double), mw_mesh_vertex_count(object->mesh), &view)) {
+        PyBuffer_Release(&given);
+        return NULL;
+    }
+    Py_BEGIN_ALLOW_THREADS
+    status = mw_recover_vertex_values(object->mesh, given.buf, NULL, view.buf, &error);
+    Py_END_ALLOW_THREADS
+    PyBuffer_Release(&view);
+    PyBuffer_Release(&given);
+    if (status) return errors_raise(object->state, &error);
+    Py_RETURN_NONE;
+}
+
 static PyObject *mesh_info_dict(const mw_mesh_info *info)
 {
     return Py_BuildValue(
@@ -201,6 +225,7 @@ static PyMethodDef mesh_methods[] = {
     {"_copy_neighbours", mesh_copy_neighbours, METH_O, NULL},
     {"_interpolate_table", mesh_interpolate_table, METH_VARARGS, NULL},
     {"_copy_field", mesh_copy_field, METH_VARARGS, NULL},
+    {"_recover", mesh_recover, METH_VARARGS, NULL},
     {"_describe", mesh_describe, METH_NOARGS, NULL},
     {NULL, NULL, 0, NULL},
 };

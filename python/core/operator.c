@@ -50,6 +50,37 @@ static PyObject *operator_from_locations(PyObject *module, PyObject *args)
     return status ? errors_raise(state, &error) : operator_new(state, weights);
 }
 
+/* operator_from_entries(row, column, weight, rows, columns): of uint32 from 0, and doubles */
+static PyObject *operator_from_entries(PyObject *module, PyObject *args)
+{
+    core_state *state = PyModule_GetState(module);
+    PyObject *given[3];
+    Py_buffer views[3];
+    mw_operator_entries entries = {0};
+    mw_operator *weights = NULL;
+    mw_error error;
+    mw_status status = MW_OK;
+    int got = 0;
+    if (!PyArg_ParseTuple(args, "OOOO&O&", &given[0], &given[1], &given[2], option_uint32,
+                          &entries.rows, option_uint32, &entries.columns))
+        return NULL;
+    if (!buffer_get_all(given[0], sizeof(uint32_t), &views[got], &entries.count)) got++;
+    if (got == 1 && !buffer_get_packed(given[1], sizeof(uint32_t), entries.count, &views[got]))
+        got++;
+    if (got == 2 && !buffer_get_packed(given[2], sizeof(double), entries.count, &views[got])) got++;
+    if (got == 3) {
+        entries.row = views[0].buf;
+        entries.column = views[1].buf;
+        entries.weight = views[2].buf;
+        Py_BEGIN_ALLOW_THREADS
+        status = mw_operator_create_from_entries(&entries, NULL, &weights, &error);
+        Py_END_ALLOW_THREADS
+    }
+    for (int i = 0; i < got; i++) PyBuffer_Release(&views[i]);
+    if (got < 3) return NULL;
+    return status ? errors_raise(state, &error) : operator_new(state, weights);
+}
+
 /* transpose(threads, progress) */
 static PyObject *operator_transpose(PyObject *self, PyObject *args)
 {
@@ -164,6 +195,7 @@ static PyType_Spec operator_spec = {
 };
 
 static PyMethodDef operator_functions[] = {
+    {"operator_from_entries", operator_from_entries, METH_VARARGS, NULL},
     {"operator_from_locations", operator_from_locations, METH_VARARGS, NULL},
     {NULL, NULL, 0, NULL},
 };

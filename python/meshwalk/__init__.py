@@ -41,9 +41,11 @@ from meshwalk._files import (
 )
 from meshwalk._locations import Locations
 from meshwalk._locator import Locator, LocatorInfo, NearestBorder
+from meshwalk._mend import MendChange, Mended, mend
 from meshwalk._mesh import Mesh, MeshInfo
 from meshwalk._operator import Operator
 from meshwalk._plot import explain, plot
+from meshwalk._polygons import PolygonHits, Polygons
 from meshwalk._prober import NearestPoints, Prober, Touches, TouchState
 from meshwalk._segments import Segments
 from meshwalk._star import Star, StarInfo, direction_to_lonlat, lonlat_to_direction
@@ -78,12 +80,16 @@ __all__ = [
     "Locations",
     "Locator",
     "LocatorInfo",
+    "MendChange",
+    "Mended",
     "Mesh",
     "MeshInfo",
     "NearestBorder",
     "NearestPoints",
     "Operator",
     "OptimumWarning",
+    "PolygonHits",
+    "Polygons",
     "Prober",
     "Segments",
     "SkippedRingWarning",
@@ -103,6 +109,7 @@ __all__ = [
     "direction_to_lonlat",
     "explain",
     "lonlat_to_direction",
+    "mend",
     "mesh_formats",
     "plot",
     "read",

@@ -273,11 +273,23 @@ def field(given: ArrayLike, name: str, count: int) -> NDArray[np.float64]:
     return own
 
 
-def fields(given: Mapping[str, ArrayLike] | None, count: int) -> dict[str, NDArray[np.float64]]:
+def fields(
+    given: Mapping[str, ArrayLike] | None, count: int, what: str = "fields"
+) -> dict[str, NDArray[np.float64]]:
     """Fields of a mesh by name, each a copy that cannot be written."""
     return {
-        name: field(values, f"fields[{name!r}]", count) for name, values in (given or {}).items()
+        name: field(values, f"{what}[{name!r}]", count) for name, values in (given or {}).items()
     }
+
+
+def named(
+    fields: Mapping[str, NDArray[np.float64]], name: str, what: str = ""
+) -> NDArray[np.float64]:
+    """The field of a mesh with the name; `what` says of what its values are."""
+    if name in fields:
+        return fields[name]
+    there = f"it has {', '.join(fields)}" if fields else "it has none"
+    raise KeyError(f"the mesh has no {what + ' ' if what else ''}field {name!r}; {there}")
 
 
 def record_type(layout: dict[str, int], members: dict[str, Any]) -> np.dtype[Any]:

@@ -38,6 +38,7 @@ class Mesh:
         /,
     ) -> None: ...
     def _copy_field(self, name: bytes, out: Buffer, /) -> None: ...
+    def _recover(self, values: Buffer, out: Buffer, /) -> None: ...
     def _describe(self) -> dict[str, Any]: ...
 
 @final
@@ -113,6 +114,29 @@ def operator_from_locations(
 _Mesh = TypeVar("_Mesh", bound=Mesh)
 _Locator = TypeVar("_Locator", bound=Locator)
 
+class Polygons:
+    def at(
+        self, points: Buffer, threads: int, progress: Progress | None, /
+    ) -> tuple[memoryview, memoryview]: ...
+    def crossing(self) -> memoryview: ...
+    def describe(self) -> tuple[int, int, int]: ...
+
+def polygons_from_rings(
+    points: Buffer,
+    segments: Buffer,
+    polygon: Buffer,
+    threads: int,
+    progress: Progress | None,
+    /,
+) -> Polygons: ...
+def operator_from_entries(
+    row: Buffer,
+    column: Buffer,
+    weight: Buffer,
+    rows: int,
+    columns: int,
+    /,
+) -> Operator: ...
 def mesh_from_arrays(
     cls: type[_Mesh],
     points: Buffer,
@@ -305,6 +329,17 @@ def check_arrays(
     progress: Progress | None,
     /,
 ) -> tuple[bool, list[tuple[str, str, int, int, int, int, int]]]: ...
+def mend_arrays(
+    points: Buffer,
+    triangles: Buffer,
+    repairs: int,
+    space: bool,
+    tolerance: float,
+    progress: Progress | None,
+    /,
+) -> tuple[
+    memoryview, memoryview, memoryview, memoryview, list[tuple[int, str, int, int, int]]
+]: ...
 def delaunay(
     cls: type[_Mesh],
     points: Buffer,
@@ -339,7 +374,9 @@ def constrained_delaunay(
 ) -> tuple[_Mesh, int, memoryview, memoryview]: ...
 def read_mesh(
     path: bytes, layout: str | None, progress: Progress | None, /
-) -> tuple[memoryview, memoryview, int, dict[str, memoryview], int, str | None]: ...
+) -> tuple[
+    memoryview, memoryview, int, dict[str, memoryview], dict[str, memoryview], str | None
+]: ...
 def read_constraints(
     path: bytes, progress: Progress | None, /
 ) -> tuple[
@@ -363,6 +400,7 @@ def write_mesh(
     has_z: bool,
     triangles: Buffer,
     fields: list[tuple[bytes, Buffer]],
+    triangle_fields: list[tuple[bytes, Buffer]],
     crs: str | None,
     progress: Progress | None,
     /,

@@ -42,9 +42,10 @@ def read(
     Returns
     -------
     Mesh
-        With the file's numbering. z, and further values at the vertices, are its fields. Faces of
-        more than three corners are cut into triangles. `Mesh.crs` is the coordinate system that
-        the file tells, or a ``.prj`` file beside it.
+        With the file's numbering. z, and further values at the vertices, are its fields, values of
+        faces (cell data of VTK, physical groups of Gmsh, variables of netCDF) its
+        `Mesh.triangle_fields`. Faces of more than three corners are cut into triangles. `Mesh.crs`
+        is the coordinate system that the file tells, or a ``.prj`` file beside it.
 
     Raises
     ------
@@ -65,8 +66,9 @@ def read(
     >>> meshwalk.read(name).fields["z"]
     array([7., 8., 9.])
     """
-    xyz, triangles, has_z, fields, crs = _read_all(path, layout, progress)
-    return Mesh(xyz if has_z else xyz[:, :2], triangles, fields, crs=crs)
+    xyz, triangles, has_z, fields, of_triangles, crs = _read_all(path, layout, progress)
+    points = xyz if has_z else xyz[:, :2]
+    return Mesh(points, triangles, fields, triangle_fields=of_triangles, crs=crs)
 
 
 def read_arrays(
@@ -79,12 +81,19 @@ def read_arrays(
 def _read_all(
     path: str | os.PathLike[str], layout: str | None, progress: Progress | None
 ) -> tuple[
-    NDArray[np.float64], NDArray[np.uint32], bool, dict[str, NDArray[np.float64]], str | None
+    NDArray[np.float64],
+    NDArray[np.uint32],
+    bool,
+    dict[str, NDArray[np.float64]],
+    dict[str, NDArray[np.float64]],
+    str | None,
 ]:
-    """As `read_arrays`, and the coordinate system."""
+    """As `read_arrays`; values of the triangles; the coordinate system."""
     name = _arrays.path(path)
     try:
-        points, triangles, has_z, fields, _, crs = _core.read_mesh(name, layout, progress)
+        points, triangles, has_z, fields, of_triangles, crs = _core.read_mesh(
+            name, layout, progress
+        )
     except OSError as error:
         raise _found(error, name) from None
     return (
@@ -92,6 +101,7 @@ def _read_all(
         np.frombuffer(triangles, np.uint32).reshape(-1, 3),
         bool(has_z),
         _columns(fields),
+        _columns(of_triangles),
         crs,
     )
 
@@ -300,7 +310,8 @@ def write(
         The file.
     mesh : Mesh
         The mesh; its field ``"z"`` is the third coordinate, others are written where the format has
-        values at the vertices (PLY, ``.node``, netCDF, VTK, CSV). PLY and netCDF keep its
+        values at the vertices (PLY, ``.node``, netCDF, VTK, CSV), and its `triangle_fields` where
+        it has values of faces (netCDF, VTU; ``"physical"`` in ``.msh``). PLY and netCDF keep its
         coordinate system; beside files of other formats it goes to a ``.prj`` file.
     format : str, optional
         One of `mesh_formats`; by default the ending of the path says it.
@@ -337,11 +348,13 @@ def write(
     if heights is not None:
         points[:, 2] = heights
     named = [(_arrays.field_name(name), values) for name, values in fields.items()]
+    of_triangles = mesh.triangle_fields.items()
+    others = [(_arrays.field_name(name), values) for name, values in of_triangles]
     triangles = mesh.triangles.astype(np.uint32, copy=False)
     name, has_z = _arrays.path(path), heights is not None
     crs = None if mesh.crs is None else mesh.crs.encode()
     prj = None if _keeps_crs(name, format) else _prj_to_write(name, crs)
-    _core.write_mesh(name, format, points, has_z, triangles, named, mesh.crs, progress)
+    _core.write_mesh(name, format, points, has_z, triangles, named, others, mesh.crs, progress)
     if prj is not None and crs is not None:
         _write_prj(prj, crs)
 

@@ -150,10 +150,56 @@ class Locations:
                [0., 1.]])
         """
         if isinstance(values, str):
-            array: NDArray[Any] = self._field(values)
+            array: NDArray[Any] = _arrays.named(self.mesh.fields, values)
         else:
             array = _arrays.values(values, "values", self.mesh.vertex_count)
         return self._interpolate_array(array, threads, progress)
+
+    def of_triangles(self, values: ArrayLike | str, missing: Any = np.nan) -> NDArray[Any]:
+        """Take the values of the triangles that contain the points, without interpolation.
+
+        Parameters
+        ----------
+        values : array_like, shape (n_triangles, ...), or str
+            Values of the triangles, of any type, or the name of one of the mesh's
+            `Mesh.triangle_fields`. Masked values count as `missing`.
+        missing : scalar, optional
+            The value where there is no triangle. Integers stay integers if it is one, too.
+
+        Returns
+        -------
+        ndarray, shape ``hit.shape + values.shape[1:]``
+
+        See Also
+        --------
+        Mesh.to_vertices : makes such values continuous, for `interpolate`.
+
+        Examples
+        --------
+        >>> import meshwalk
+        >>> mesh = meshwalk.Mesh([[0, 0], [4, 0], [4, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
+        >>> hit = meshwalk.Locator(mesh).locate([[3, 1], [1, 3], [5, 5]])
+        >>> hit.of_triangles([0.5, 0.25])
+        array([0.5 , 0.25,  nan])
+        >>> hit.of_triangles([7, 8], missing=-1)
+        array([ 7,  8, -1])
+        """
+        if isinstance(values, str):
+            values = _arrays.named(getattr(self.mesh, "triangle_fields", {}), values, "triangle")
+        array = np.asanyarray(values)
+        count = self.mesh.triangle_count
+        if array.ndim == 0 or array.shape[0] != count:
+            raise ValueError(
+                f"values must have a row for each of the {count} triangles; its shape is"
+                f" {array.shape}"
+            )
+        nothing: Any = np.asarray(missing)
+        kind = np.result_type(array.dtype, missing if array.dtype.kind in "iufc" else nothing)
+        there = self.triangle >= 0
+        out = np.full(self.shape + array.shape[1:], nothing, kind)
+        taken = array[self.triangle[there]]
+        out[there] = np.ma.filled(taken.astype(kind), nothing)
+        return out
 
     def operator(self) -> csr_array:
         """The interpolation as a sparse matrix: values at the points are ``operator @ values``.
@@ -248,13 +294,6 @@ class Locations:
         if points.shape[1] == 2:
             sides += [(name, "f8", "n_a", points[:, k]) for k, name in enumerate(("xc_a", "yc_a"))]
         return sides
-
-    def _field(self, name: str) -> NDArray[np.float64]:
-        fields = self.mesh.fields
-        if name not in fields:
-            there = f"it has {', '.join(fields)}" if fields else "it has none"
-            raise KeyError(f"the mesh has no field {name!r}; {there}")
-        return fields[name]
 
     def _interpolate_array(
         self, values: NDArray[Any], threads: int, progress: Progress | None

@@ -84,6 +84,8 @@ class Mesh(_core.Mesh):
         triangles. The triangles concerned are kept, but own no point.
     layout : {"auto", "hilbert", "as-given"}, optional
         How the mesh lies in memory. No number shows it.
+    triangle_fields : mapping of str to array_like, shape (m,), optional
+        Values of the triangles, such as materials, by name.
     crs : str, optional
         The coordinate system of the points: WKT, or a code such as ``"EPSG:2056"``.
     threads : int, optional
@@ -125,11 +127,12 @@ class Mesh(_core.Mesh):
            [0, 2, 3]], dtype=int32)
     """
 
-    __slots__ = ("__weakref__", "_constraints", "_crs", "_fields", "_options")
+    __slots__ = ("__weakref__", "_constraints", "_crs", "_fields", "_options", "_triangle_fields")
     _constraints: tuple[NDArray[np.uint32], NDArray[np.uint32]]
     _crs: str | None
     _fields: dict[str, NDArray[np.float64]]
     _options: tuple[bool, Literal["auto", "hilbert", "as-given"]]
+    _triangle_fields: dict[str, NDArray[np.float64]]
 
     def __new__(
         cls,
@@ -139,6 +142,7 @@ class Mesh(_core.Mesh):
         *,
         tolerant: bool = False,
         layout: Literal["auto", "hilbert", "as-given"] = "auto",
+        triangle_fields: Mapping[str, ArrayLike] | None = None,
         crs: str | None = None,
         threads: int = 0,
         progress: Progress | None = None,
@@ -155,6 +159,9 @@ class Mesh(_core.Mesh):
             error.defect = next(iter(check(rows, numbers).defects), None)
             raise
         mesh._set_fields(rows[:, 2] if width == 3 else None, fields)
+        mesh._triangle_fields = _arrays.fields(
+            triangle_fields, mesh.triangle_count, "triangle_fields"
+        )
         mesh._options = (tolerant, layout)
         mesh.crs = crs
         return mesh
@@ -164,6 +171,7 @@ class Mesh(_core.Mesh):
     ) -> None:
         self._options = (False, "auto")
         self._crs = None
+        self._triangle_fields = {}
         self._constraints = (np.empty((0, 2), np.uint32), np.empty(0, np.uint32))
         given = dict(fields or {})
         if heights is not None:
@@ -206,6 +214,39 @@ class Mesh(_core.Mesh):
     def fields(self) -> Mapping[str, NDArray[np.float64]]:
         """Values at the vertices by name, which cannot be written."""
         return MappingProxyType(self._fields)
+
+    @property
+    def triangle_fields(self) -> Mapping[str, NDArray[np.float64]]:
+        """Values of the triangles by name, which cannot be written."""
+        return MappingProxyType(self._triangle_fields)
+
+    def to_vertices(self, values: ArrayLike | str) -> NDArray[np.float64]:
+        """Make values of triangles continuous: the mean round each vertex, weighted by area.
+
+        Parameters
+        ----------
+        values : array_like, shape (m,), or str
+            Values of the triangles, or the name of one of the `triangle_fields`. NaN and masked
+            values do not count.
+
+        Returns
+        -------
+        ndarray, shape (n,)
+            Values at the vertices, for `Locations.interpolate`; NaN where no triangle has one.
+
+        Examples
+        --------
+        >>> import meshwalk
+        >>> mesh = meshwalk.Mesh([[0, 0], [4, 0], [4, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
+        >>> mesh.to_vertices([10, 20])
+        array([15., 10., 15., 20.])
+        """
+        if isinstance(values, str):
+            values = _arrays.named(self._triangle_fields, values, "triangle")
+        given = _arrays.field(values, "values", self.triangle_count)
+        out = np.empty(self.vertex_count)
+        self._recover(given, out)
+        return out
 
     @property
     def crs(self) -> str | None:
@@ -284,11 +325,13 @@ class Mesh(_core.Mesh):
 
     def __repr__(self) -> str:
         fields = f", fields: {', '.join(self._fields)}" if self._fields else ""
+        if self._triangle_fields:
+            fields += f", of triangles: {', '.join(self._triangle_fields)}"
         return f"<Mesh: {self.vertex_count} vertices, {self.triangle_count} triangles{fields}>"
 
     def __reduce__(self) -> tuple[Any, ...]:
         arrays = (self.points, self.triangles, self._fields, *self._constraints)
-        return _restore, (type(self), *arrays, *self._options, self._crs)
+        return _restore, (type(self), *arrays, *self._options, self._crs, self._triangle_fields)
 
 
 def _restore(
@@ -301,7 +344,16 @@ def _restore(
     tolerant: bool,
     layout: Literal["auto", "hilbert", "as-given"],
     crs: str | None = None,
+    triangle_fields: Mapping[str, NDArray[np.float64]] | None = None,
 ) -> Mesh:
-    mesh = cls(points, triangles, fields, tolerant=tolerant, layout=layout, crs=crs)
+    mesh = cls(
+        points,
+        triangles,
+        fields,
+        tolerant=tolerant,
+        layout=layout,
+        triangle_fields=triangle_fields,
+        crs=crs,
+    )
     mesh._set_constraints(edges, edge_segments)
     return mesh

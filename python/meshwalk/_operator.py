@@ -134,16 +134,44 @@ class Operator:
         """Copy the weights as a matrix of SciPy, whose product is 0 where there is no triangle."""
         from scipy.sparse import csr_array
 
+        first, column, weight = self._entries()
+        arrays = weight, column.astype(np.int32), first.astype(np.int64)
+        return csr_array(arrays, shape=self.shape)
+
+    def _entries(self) -> tuple[NDArray[np.uint64], NDArray[np.uint32], NDArray[np.float64]]:
+        """Compressed sparse rows."""
         rows, _, entries, *_ = self._weights.describe()
         first = np.empty(rows + 1, np.uint64)
         column = np.empty(entries, np.uint32)
         weight = np.empty(entries)
         self._weights.copy(first, column, weight)
-        arrays = weight, column.astype(np.int32), first.astype(np.int64)
-        return csr_array(arrays, shape=self.shape)
+        return first, column, weight
 
     def __repr__(self) -> str:
         rows, columns, entries, *_ = self._weights.describe()
         points, vertices = (columns, rows) if self._transposed else (rows, columns)
         turned = ", transposed" if self._transposed else ""
         return f"<Operator: {points} points, {vertices} vertices, {entries} weights{turned}>"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        first, column, weight = self._entries()
+        kept = self._points, self._values, self._transposed
+        return _restore, (type(self), self.shape, first, column, weight, *kept)
+
+
+def _restore(
+    cls: type[Operator],
+    shape: tuple[int, int],
+    first: NDArray[np.uint64],
+    column: NDArray[np.uint32],
+    weight: NDArray[np.float64],
+    points: tuple[int, ...],
+    values: tuple[int, ...],
+    transposed: bool,
+) -> Operator:
+    counts = (first[1:] - first[:-1]).astype(np.int64)
+    row = np.repeat(np.arange(shape[0], dtype=np.uint32), counts)
+    weights = object.__new__(cls)
+    weights._weights = _core.operator_from_entries(row, column, weight, *shape)
+    weights._points, weights._values, weights._transposed = points, values, transposed
+    return weights

@@ -32,7 +32,7 @@ static uint32_t lowest_at_boundary(const mw_tiling *tiling, const mw_triangle *t
         }
     if (zeros == 2)
         return mw__lowest_at_vertex(tiling, (uint32_t)(tile - tiling->tri), tile->v[at]);
-    if (zeros == 3) return MW_NONE; /* a flat triangle of a mesh that is no embedding */
+    if (zeros == 3) return MW_NONE; /* a flat triangle of a mesh that is not an embedding */
     uint32_t best = tile->user & MW_GHOST ? MW_NONE : tile->user & MW_USER_MASK;
     if (tile->link[on] == MW_NONE) return best;
     const mw_triangle *across = &tiling->tri[mw__link_triangle(tile->link[on])];
@@ -139,7 +139,7 @@ static mw_location query_answer(const mw_locator *locator, uint32_t t, mw_point 
 {
     const mw_triangle *tile = &locator->tiling.tri[t];
     query_areas of = query_areas_in(&locator->tiling, tile, q);
-    /* Only where the mesh is no embedding: the walk came over a fold, to the far side of the edge
+    /* Only if the mesh is not an embedding: the walk came over a fold, to the far side of the edge
      * it did not test. */
     if (!(of.area[0] >= 0 && of.area[1] >= 0 && of.area[2] >= 0))
         return query_outside(locator, 0, q, tolerance);
@@ -226,11 +226,15 @@ static mw_verdict walk_hand_over(const mw_tiling *tiling, mw_walk *walk, mw_verd
     return verdict;
 }
 
-/* The chains that are the locator's guide, if the start was left to choose; else NULL. */
+/* The chains that are the locator's guide, if the start was left to choose (a batch may then have
+ * chosen to go from query to query); else NULL. */
 static const mw_index *query_chains(const mw_locator *locator, const mw_cursor *cursor)
 {
     const mw_index *guide = &locator->guide;
-    bool chosen = cursor->index ? cursor->index == guide : cursor->start == MW_START_AUTO;
+    bool chained = cursor->start == MW_START_SORTED || cursor->start == MW_START_LAST;
+    bool chosen = cursor->index
+                      ? cursor->index == guide
+                      : cursor->start == MW_START_AUTO || (chained && guide->sort_batches);
     return chosen && guide->start == MW_START_CHAINS ? guide : NULL;
 }
 
@@ -582,6 +586,6 @@ mw_status mw_nearest_border(const mw_locator *locator, double x, double y,
         return mw__fail(error, MW_ERROR_ARGUMENT, "the locator was made without options.border");
     if (mw__border_tree_nearest(&locator->border_tree, locator->mesh, (mw_point){x, y}, hit))
         return MW_OK;
-    /* only a mesh that is no embedding */
+    /* only a mesh that is not an embedding */
     return mw__fail(error, MW_ERROR_INPUT, "the mesh has no border");
 }

@@ -119,9 +119,9 @@ static bool coverage_force_edge(mw_coverage *c, uint32_t edge, mw_defects *defec
  * numbered from one side to the other. In random order alone, each access would be a cache miss.
  *
  * An edge that crosses another one makes no subsegment, so it does not shorten the search of later
- * edges. Once such edges have searched all cells many times, the mesh is no embedding anyway. From
- * then on an edge only searches near its ends. An edge that this does not find is left out and not
- * reported. */
+ * edges. Once such edges have searched all cells many times, the mesh is not an embedding anyway.
+ * From then on an edge only searches near its ends. An edge that this does not find is left out and
+ * not reported. */
 static bool coverage_force_edges(mw_coverage *c, mw_job *job, mw_defects *defects)
 {
     mw__job_stage(job, "forcing the border", 0.5);

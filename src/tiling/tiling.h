@@ -36,7 +36,7 @@ typedef struct mw_tiling {
     /* False (only with option any): the tiles are the mesh's triangles, borrowed; links are MW_NONE
      * on any border; nothing above is promised. */
     bool embedding;
-    mw_defect defect;              /* the first one, if the mesh is no embedding */
+    mw_defect defect;              /* the first one, if the mesh is not an embedding */
     mw_border_loops *border_loops; /* of a finished tiling without ghosts; else NULL */
     mw_loop_edge *loop_edges;      /* of a tiling without ghosts, until it is finished */
     uint32_t loop_edge_count;

@@ -9,9 +9,9 @@ export ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0"
 printf '%s\n' "$square" >square.off # on the plane z = x + y
 
 # Outputs whose names say that they are no text are refused before anything is read.
-for name in out.kml out.pdf out.GPX out.csv.gz out.xlsx ./a.b/out.tif; do
+for name in out.tab out.pdf out.DXF out.csv.gz out.xlsx ./a.b/out.tif; do
     run sample absent.off absent.csv -o $name
-    refused 2 "${name//./\\.}: answers are written as text \(CSV\), or as \.gpkg"
+    refused 2 "${name//./\\.}: answers are written as text \(CSV\), or by GDAL as \.gpkg.*: [a-zA-Z]"
     run star absent.off absent.csv -o $name; refused 2 'as text'
     run probe absent.off absent.csv -o $name; refused 2 'as text'
 done
@@ -108,11 +108,14 @@ B12,007,1.50,3,"dry, ""windy""",0.75,0.25,1
 B13,012,NA,,,NA,NA,2
 B14,100,-2e3,12,-,0.5,0.5,3
 END
-for ending in gpkg geojson geojsonl shp gml sqlite fgb; do
+for ending in gpkg geojson geojsonl geojsons shp gml kml jml sqlite db fgb; do
     if [[ $ending == fgb ]]; then
         run sample square.off wells.csv -o out.fgb
         refused 3 'out\.fgb: row 2 has no point, which FlatGeobuf cannot hold'
         absent out.fgb
+        run sample square.off wells.csv -o out.gpx
+        refused 3 'out\.gpx: row 2 has no point, which GPX cannot hold'
+        absent out.gpx
         sed -i /B13/d wells.csv
     fi
     run sample --status square.off wells.csv -o out.$ending; exits 0; says_nothing; prints ''
@@ -143,6 +146,24 @@ run star --lonlat tetra.off none.csv -o none.gpkg; exits 0
 run star tetra.off heights.geojson -o rays.gpkg; exits 0
 run star tetra.off rays.gpkg; exits 0; prints_line '^x,y,z,k,status,triangle,w0,w1,w2,status_mw,'
 prints_line '^0,0,2,1,edge,'
+# A GPS takes waypoints, in degrees; databases take tables that they do not have yet.
+run sample square.off wells.csv -o out.gpx; exits 0
+run sample -q --layer waypoints square.off out.gpx; prints_line '^0.75,0.25,.*,B12,.*,1,1$'
+run sample -q --points-crs EPSG:2056 square.off wells.csv -o lv95.gpx
+refused 2 'lv95\.gpx: GPX holds longitudes and latitudes, and the points are in EPSG:2056 '
+run sample -q --points-crs EPSG:2056 square.off wells.csv -o lv95.kml; exits 0
+run sample -q square.off lv95.kml; prints_line '^-19\.9179[0-9]*,32\.1244[0-9]*,'
+run sample square.off wells.csv -o out.sql; exits 0
+holds "PostgreSQL: the rows" grep -q "INSERT INTO.*'B12', '007', 1.5, 3," out.sql
+holds "PostgreSQL: no table is dropped" test "$(grep -ci drop out.sql)" == 0
+# All digits, and numbers that Shapefiles have no room for.
+run_on $'x,y\n0.12345678901234568,0.25\n' sample square.off - -o digits.geojsonl; exits 0
+run sample -q square.off digits.geojsonl; prints_line '^0.12345678901234568,0.25,'
+run_on $'x,y,v\n0.5,0.25,1e-20\n' sample square.off - -o small.shp; exits 0
+says "row 1: the column 'v' has 1e-20, which a Shapefile rounds to 15 decimals"
+run_on $'x,y,v\n0.5,0.25,1e30\n' sample square.off - -o large.shp; exits 3
+says "row 1: the column 'v' has 1e\+30, which is too large for a Shapefile"; absent large.shp
+run_on $'x,y,v\n0.5,0.25,1234567890.12\n' sample square.off - -o plain.shp; exits 0; says_nothing
 # The coordinate system goes along.
 run sample -q square.off tracks.gpx --layer waypoints -o crs.gpkg; exits 0
 holds "the coordinate system is kept" grep -q 'WGS 84' crs.gpkg
@@ -162,7 +183,7 @@ holds "no temporary directory is left" test -z "$(find . -name '.meshwalk*')"
 
 # Formats that this GDAL may lack: tried if it has them, refused by name if not.
 run --version
-if grep -q 'GDAL.*not .*Parquet' "$logs/out"; then
+if grep -q 'GDAL.*not .*\.parquet' "$logs/out"; then
     run sample absent.off absent.csv -o out.parquet
     refused 2 'out\.parquet: this GDAL does not write Parquet'
     printf 'PAR1 and nothing more' >in.parquet

@@ -391,7 +391,14 @@ static void test_wrong(void **state)
     /* an attribute with a name of 4 GB: libnetcdf would ask for the memory */
     files_write("a.nc", BYTES("CDF\1\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\14\0\0\0\1\xff\xff\xff\xf0"
                               "aaaaaaaaaaaaaaaaaaaaaaaa"));
-    expect_refused(NULL, MW_ERROR_INPUT, "a.nc: at byte 52: the data end early");
+    expect_refused(NULL, MW_ERROR_INPUT, "damaged: a name of 4294967280 bytes");
+    /* a text of 4 GB; a name longer than netCDF's, which libnetcdf would copy past its end */
+    files_write("a.nc", BYTES("CDF\1\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\14\0\0\0\1\0\0\0\1"
+                              "a\0\0\0\0\0\0\2\xff\xff\xff\xf0"
+                              "aaaaaaaaaaaaaaaa"));
+    expect_refused(NULL, MW_ERROR_INPUT, "the data end early");
+    files_write("a.nc", BYTES("CDF\1\0\0\0\0\0\0\0\12\0\0\0\1\0\0\1\1aaaa"));
+    expect_refused(NULL, MW_ERROR_INPUT, "damaged: a name of 257 bytes");
     for (int wrong = 0; wrong < 5; wrong++) {
         static const char *const says[] = {
             "a.nc: variable element: 3000000000000 values are announced",
@@ -513,6 +520,7 @@ static void test_models(void **state)
         {"ocean/ugrid_eleven_points.nc", 11, 13, "EPSG:4326"},
         {"ocean/ugrid_elevation_nl.nc.gz", 2790, 5248, NULL},
         {"ocean/fesom_mesh_diag.nc.gz", 3140, 5839, "EPSG:4326"},
+        {"ocean/ugrid_overlap_rll10_csne4.nc", 683, 856, "EPSG:4326"},
         {"ocean/fvcom_example.nc", 551, 903, "EPSG:4326"},
         {"ocean/schism_out2d.nc.gz", 823, 791, NULL},
         {"ocean/shinnecock_fort.63.nc", 3070, 5780, "EPSG:4326"},

@@ -164,7 +164,7 @@ static void check_delaunay(const twin *t, const twin_side *sides, size_t count)
     }
 }
 
-/* What a rebuild from nothing makes of the same points has the same edges, but for such as have
+/* What a rebuild from nothing makes of the same points has the same edges, except for such as have
  * four points on their circle. */
 static void check_rebuilt(const twin *t, const twin_side *sides, size_t count)
 {

@@ -40,7 +40,7 @@ void twin_set_fields(mw_mesh *mesh)
     }
 }
 
-/* The constraints of the options, but for those along a border that is fixed anyway. */
+/* The constraints of the options, except for those along a border that is fixed anyway. */
 static void fix_first(twin *t, const mw_editor_options *options)
 {
     size_t count;

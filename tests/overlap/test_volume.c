@@ -221,6 +221,46 @@ static void test_itself(void **state)
     ground_release(&a);
 }
 
+/* How much larger a triangle is than its image in the plane. */
+static double slope_of(const double p[6], const double z[3])
+{
+    double ax = p[2] - p[0], ay = p[3] - p[1], az = z[1] - z[0], bx = p[4] - p[0], by = p[5] - p[1],
+           bz = z[2] - z[0];
+    double x = ay * bz - az * by, y = az * bx - ax * bz, w = ax * by - ay * bx;
+    return sqrt(x * x + y * y + w * w) / w;
+}
+
+/* Areas of a surface over another mesh, which is a region. */
+static void test_surface_area(void **state)
+{
+    (void)state;
+    uint64_t random = environment_print_seed("test_volume area", 9);
+    for (int round = 0; round < 12; round++) {
+        arrays m = random_arrays(&random, round);
+        arrays_transform(&m, 0.5, round % 2, 0.25);
+        ground a = ground_make(random_arrays(&random, round + 1), 1, &random),
+               b = ground_make(m, 1, &random);
+        if (round % 4 == 3) a.heights[0] = NAN;
+        double area = 0, surface = 0, p[6], q[6], f[3], g[3];
+        for (uint32_t s = 0; s < a.of.triangle_count; s++)
+            for (uint32_t t = 0; t < b.of.triangle_count; t++) {
+                if (!triangle_of(&a, s, p, f) || !triangle_of(&b, t, q, g)) continue;
+                double one = clip_oracle_sums(p, NULL, q, 3, NULL).area;
+                area += one;
+                surface += one * slope_of(p, f);
+            }
+        mw_surface_area_info is;
+        mw_error error;
+        expect_ok(mw_surface_area(a.locator, a.heights, b.locator, NULL, &is, &error), "an area",
+                  &error);
+        expect_near(is.area, area, area_of(&b));
+        expect_near(is.surface_area, surface, 2 * area_of(&b));
+        expect_near(is.region_area, area_of(&b), area_of(&b));
+        ground_release(&b);
+        ground_release(&a);
+    }
+}
+
 /* A plane is a surface of two large triangles. */
 static void test_above(void **state)
 {
@@ -320,6 +360,9 @@ static void test_refusals(void **state)
     assert_int_equal(mw_volume_between(a.locator, z, a.locator, NULL, NULL, &info, &error),
                      MW_ERROR_ARGUMENT);
     assert_int_equal(mw_volume_above(a.locator, z, NAN, NULL, &info, &error), MW_ERROR_ARGUMENT);
+    mw_surface_area_info sizes;
+    assert_int_equal(mw_surface_area(open, z, a.locator, NULL, &sizes, &error), MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_surface_area(a.locator, z, NULL, NULL, &sizes, &error), MW_ERROR_ARGUMENT);
     assert_int_equal(mw_volume_above(a.locator, NULL, 0, NULL, &info, &error), MW_ERROR_ARGUMENT);
     arrays far = arrays_grid(2, 0, &random);
     arrays_transform(&far, 0x1p310, 0, 0);
@@ -333,10 +376,11 @@ static void test_refusals(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_pairs),  cmocka_unit_test(test_far),
-        cmocka_unit_test(test_walls),  cmocka_unit_test(test_itself),
-        cmocka_unit_test(test_above),  cmocka_unit_test(test_editor),
-        cmocka_unit_test(test_memory), cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_pairs),        cmocka_unit_test(test_far),
+        cmocka_unit_test(test_walls),        cmocka_unit_test(test_itself),
+        cmocka_unit_test(test_above),        cmocka_unit_test(test_editor),
+        cmocka_unit_test(test_surface_area), cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_refusals),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -37,6 +37,23 @@ def test_fields_and_formats(tmp_path: Path) -> None:
         mesh.write(tmp_path / "mesh.xyz")
 
 
+@pytest.mark.parametrize("ending", ["vtu", "nc"])
+def test_values_of_triangles(tmp_path: Path, ending: str) -> None:
+    depth = np.arange(8) / 3
+    mesh = meshwalk.Mesh(*ring_arrays(), triangle_fields={"depth": depth})
+    path = tmp_path / f"mesh.{ending}"
+    try:
+        mesh.write(path)
+    except OSError as error:
+        if "libnetcdf" not in str(error):
+            raise
+        pytest.skip("libnetcdf is not found")
+    again = meshwalk.read(path)
+    assert list(again.triangle_fields) == ["depth"]
+    np.testing.assert_array_equal(again.triangle_fields["depth"], depth)
+    assert repr(again).endswith("of triangles: depth>")
+
+
 def test_without_heights_and_gzipped(tmp_path: Path) -> None:
     path = tmp_path / "mesh.off"
     meshwalk.Mesh(*ring_arrays()).write(path)

@@ -176,3 +176,34 @@ def test_duplicates_are_warned_about() -> None:
 def test_points_without_a_triangulation(points: list[list[float]]) -> None:
     with pytest.raises(meshwalk.InputError):
         meshwalk.delaunay(np.reshape(points, (-1, 2)))
+
+
+def test_values_of_triangles() -> None:
+    points = [[0, 0], [4, 0], [4, 4], [0, 4]]
+    mesh = meshwalk.Mesh(points, [[0, 1, 2], [0, 2, 3]], triangle_fields={"soil": [1, 2]})
+    back = pickle.loads(pickle.dumps(mesh))
+    assert back.triangle_fields["soil"].tolist() == [1, 2]
+    assert not back.triangle_fields["soil"].flags.writeable
+    hit = meshwalk.Locator(mesh).locate([[[3, 1], [1, 3]], [[9, 9], [2, 2]]])
+    np.testing.assert_array_equal(hit.of_triangles("soil"), [[1, 2], [np.nan, 1]])
+    assert hit.of_triangles(np.array([1, 2], np.float32)).dtype == np.float32
+    whole = hit.of_triangles(np.array([5, 6], np.int8), missing=-1)
+    assert whole.dtype == np.int8
+    assert whole.tolist() == [[5, 6], [-1, 5]]
+    assert hit.of_triangles(np.array(["clay", "silt"]), missing="").tolist() == [
+        ["clay", "silt"],
+        ["", "clay"],
+    ]
+    assert hit.of_triangles(np.zeros((2, 3))).shape == (2, 2, 3)
+    masked = np.ma.array([1.0, 2.0], mask=[False, True])
+    np.testing.assert_array_equal(hit.of_triangles(masked), [[1, np.nan], [np.nan, 1]])
+    np.testing.assert_array_equal(mesh.to_vertices(masked), [1, 1, 1, np.nan])
+    np.testing.assert_array_equal(mesh.to_vertices("soil"), [1.5, 1, 1.5, 2])
+    with pytest.raises(KeyError, match="no triangle field 'rock'; it has soil"):
+        hit.of_triangles("rock")
+    with pytest.raises(KeyError, match="no triangle field 'rock'"):
+        mesh.to_vertices("rock")
+    with pytest.raises(ValueError, match="each of the 2 triangles"):
+        hit.of_triangles([1, 2, 3])
+    with pytest.raises(ValueError, match=r"triangle_fields\['soil'\] must have the shape \(2,\)"):
+        meshwalk.Mesh(points, [[0, 1, 2], [0, 2, 3]], triangle_fields={"soil": [1, 2, 3]})

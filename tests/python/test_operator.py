@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import pickle
+
 import numpy as np
 import pytest
 
@@ -67,3 +69,15 @@ def test_refused(hit: meshwalk.Locations) -> None:
     surface = meshwalk.Surface([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
     with pytest.raises(TypeError, match="located in a Mesh, not in a Surface"):
         meshwalk.Operator(meshwalk.Locations(surface, hit.records))
+
+
+def test_pickles(hit: meshwalk.Locations, random: np.random.Generator) -> None:
+    values = random.uniform(size=(hit.mesh.vertex_count, 3))
+    for weights in (meshwalk.Operator(hit), meshwalk.Operator(hit[:0])):
+        back = pickle.loads(pickle.dumps(weights))
+        assert repr(back) == repr(weights)
+        np.testing.assert_array_equal(back @ values, weights @ values)
+        spread = random.uniform(size=weights.apply(values[:, 0]).shape)
+        turned = pickle.loads(pickle.dumps(weights.T))
+        assert repr(turned) == repr(weights.T)
+        np.testing.assert_allclose(turned @ spread, weights.T @ spread)

@@ -520,6 +520,17 @@ static mw_status run_volume_between(const call_inputs *in, const call_setting *h
     return status;
 }
 
+static mw_status run_surface_area(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                                  mw_error *error)
+{
+    mw_surface_area_info info;
+    mw_volume_options options = {.threads = how->threads, .progress = how->progress};
+    mw_status status =
+        mw_surface_area(in->locator, in->points, in->locator, &options, &info, error);
+    if (!status) sum_add(sum, info.parts), sum_add_number(sum, info.surface_area);
+    return status;
+}
+
 static mw_status remap_sum(mw_status status, mw_remap *r, uint64_t *sum)
 {
     expect(!status == (r->weights != NULL), "there are weights");
@@ -978,6 +989,7 @@ const long_call long_calls[] = {
     {"mw_segment_batch", run_segments},
     {"mw_remap_to_mesh", run_remap_to_mesh},
     {"mw_remap_to_pixels", run_remap_to_pixels},
+    {"mw_surface_area", run_surface_area},
     {"mw_volume_above", run_volume_above},
     {"mw_volume_between", run_volume_between},
     {"mw_interpolate_table", run_table},

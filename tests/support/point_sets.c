@@ -115,7 +115,7 @@ static mw_point line_and_point(uint64_t *random, uint32_t i, uint32_t n)
     return (mw_point){x, i == n / 2 ? 3 * x + 1 : 3 * x};
 }
 
-/* All on one line but for rounding. */
+/* All on one line except for rounding. */
 static mw_point rounded_line(uint64_t *random, uint32_t i, uint32_t n)
 {
     (void)i, (void)n;

@@ -55,6 +55,14 @@ const char *WEB_EXPORT(web_status_text)(int status)
     return mw_status_text((mw_status)status);
 }
 
+/* On which side of the line from a to b the point c is, exactly: 1 left, -1 right, 0 on it. */
+int WEB_EXPORT(web_orient2d)(double ax, double ay, double bx, double by, double cx, double cy)
+{
+    const double a[2] = {ax, ay}, b[2] = {bx, by}, c[2] = {cx, cy};
+    double side = mw_orient2d(a, b, c);
+    return (side > 0) - (side < 0);
+}
+
 /* A walk's name (0), source (1), help (2); NULL beyond the last. */
 const char *WEB_EXPORT(web_walk_text)(int walk, int what)
 {

@@ -83,8 +83,8 @@ export class Mesh {
   links(): Uint32Array;
   /** Throws if the arrays are unusable: check() tells why. */
   describe(): MeshInfo;
-  /** Every defect, as a mesh of the plane or as a surface in space. */
-  check(asSurface?: boolean): { valid: boolean; defects: Defect[] };
+  /** Every defect: as a mesh of the plane, as a surface, or as a star about a centre. */
+  check(as?: "plane" | "surface" | "star", centre?: Point): { valid: boolean; defects: Defect[] };
   /** Release the memory. Free its locators before. */
   free(): void;
 }
@@ -252,6 +252,8 @@ export class Meshwalk {
   }): Mesh;
   /** The Delaunay triangulation of points x, y. */
   triangulate(points: ArrayLike<number>, name?: string): Mesh;
+  /** The side of the line from a to b that c is on, exactly: 1 left, -1 right, 0 on it. */
+  orient2d(a: ArrayLike<number>, b: ArrayLike<number>, c: ArrayLike<number>): number;
   createSurface(mesh: Mesh, options?: { weld?: boolean }): Surface;
   createLocator(mesh: Mesh, options?: LocatorOptions): Locator;
 }

@@ -108,6 +108,11 @@ export class Meshwalk {
     return new Surface(this.engine, mesh, names, options);
   }
 
+  /** The side of the line from a to b that c is on, exactly: 1 left, -1 right, 0 on it. */
+  orient2d(a, b, c) {
+    return this.engine.call.web_orient2d(a[0], a[1], b[0], b[1], c[0], c[1]);
+  }
+
   /** Prepare a mesh for queries. */
   createLocator(mesh, options) {
     return new Locator(this.engine, mesh, this.names, options);

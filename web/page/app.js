@@ -2,15 +2,21 @@
 
 const TOOL_SPACES = { walk: "plane", profile: "plane", ray: "space", probe: "space" };
 
+const VERDICTS = {
+  plane: ["an embedding: every promise holds", "in the plane"],
+  surface: ["a sound surface", "as a surface"],
+  star: ["star-shaped about the centre", "as a star"],
+};
+
 class App {
   constructor(meshwalk) {
     this.meshwalk = meshwalk;
     this.tool = "look";
     this.hint = "";
-    this.stage = new Stage((context, camera) => drawAll(this, context, camera), {
-      click: (at) => this.click(at),
-      hover: (at) => this.hover(at),
-    });
+    this.lineNotes = [];
+    this.stage = new Stage((context, camera) => drawLines(this, context, camera),
+      (context, camera) => drawAll(this, context, camera),
+      { click: (at) => this.click(at), hover: (at) => this.hover(at) });
     this.here = new HerePanel(this);
     this.loopPanel = new LoopPanel(this);
     this.colours = new ColourPanel(this);
@@ -40,7 +46,9 @@ class App {
     this.stage.show(mesh, topology);
     this.colours.show();
     this.loopPanel.show(this.describe());
-    this.checks = { plane: mesh.check(), space: mesh.hasHeights ? mesh.check(true) : null };
+    this.as = as === "star" ? "star" : "surface";
+    this.checks = { plane: mesh.check(),
+      space: mesh.hasHeights ? mesh.check(this.as, centre) : null };
     this.setSpace(as && as !== "plane" ? "space" : this.likelySpace());
   }
 
@@ -58,22 +66,28 @@ class App {
     this.mesh.free();
   }
 
-  /** What folds in the plane but not in space is meant to be a surface. */
+  /** What is closed, or folds all over in the plane but not in space, is meant to be a surface. A
+   * terrain with a few faults stays in the plane, where these show. */
   likelySpace() {
     const { plane, space } = this.checks;
+    if (!space || plane.valid) return "plane";
     const count = (check) => check.defects.filter(({ kind }) => kind !== "flat").length;
-    return space && !plane.valid && 4 * count(space) < count(plane) ? "space" : "plane";
+    const all = count(plane) > 20 && count(plane) > 0.02 * this.mesh.triangleCount;
+    const closed = this.topology.border.length === 0;
+    return closed || (all && 4 * count(space) < count(plane)) ? "space" : "plane";
   }
 
   setSpace(space) {
     byId("space").value = space;
     for (const [tool, where] of Object.entries(TOOL_SPACES))
       document.querySelector(`[data-tool=${tool}]`).hidden = where !== space;
+    byId("here-form").hidden = space === "space";
     this.setTool("look");
     this.walkPanel.offer(space);
     this.here.clear();
     const check = this.checks[space] || this.checks.plane;
-    this.showVerdict(this.defects.show(check, space), check.valid, space);
+    const voided = space === "plane" && this.locator ? this.locator.voidPromise : null;
+    this.showVerdict(this.defects.show(check, space, voided), check, space);
     this.stage.setSpace(space);
   }
 
@@ -85,12 +99,13 @@ class App {
     }
   }
 
-  showVerdict(defects, valid, space) {
+  showVerdict(count, { valid, defects }, space) {
     const verdict = byId("verdict");
-    const [good, bad] = space === "space" ? ["a sound surface", "as a surface"]
-      : ["an embedding: every promise holds", "in the plane"];
-    verdict.textContent = valid ? `✓ ${good}` : `⚠ ${plural(defects, "defect")} ${bad}`;
-    verdict.className = valid ? "good" : "bad";
+    const [good, bad] = VERDICTS[space === "space" ? this.as : "plane"];
+    const flat = valid && defects.length >= this.mesh.triangleCount; // valid ones are flat only
+    verdict.textContent = flat ? "⚠ no triangle with an area: nothing to locate in"
+      : valid ? `✓ ${good}` : `⚠ ${plural(count, "defect")} ${bad}`;
+    verdict.className = valid && !flat ? "good" : "bad";
   }
 
   makeLocator() {
@@ -198,10 +213,8 @@ class App {
     const { picture, ratio } = this.stage;
     const triangle = picture.triangleAt(...screen.map((value) => Math.floor(value * ratio)));
     if (triangle === null) return null;
-    const [a, b, c] = this.topology.corners(triangle);
-    const [u, v] = [b, c].map((corner) => corner.map((value, k) => value - a[k]));
-    const normal = [0, 1, 2].map((k) => u[(k + 1) % 3] * v[(k + 2) % 3] -
-      u[(k + 2) % 3] * v[(k + 1) % 3]);
+    const [a] = this.topology.corners(triangle);
+    const normal = this.topology.outward(triangle, [0, 0, 0]);
     const along = (vector) => normal.reduce((sum, part, k) => sum + part * vector[k], 0);
     const part = along(point.map((value, k) => a[k] - value)) / along(away);
     return point.map((value, k) => value + part * away[k]);

@@ -11,7 +11,7 @@ class ColourPanel {
       byId(id).addEventListener("change", () => this.apply());
     byId("light").addEventListener("change", () => app.stage.setLight(byId("light").checked));
     for (const id of ["edges", "borders"])
-      byId(id).addEventListener("change", () => app.stage.drawOverlay());
+      byId(id).addEventListener("change", () => app.stage.redraw());
     byId("space").addEventListener("change", () => app.setSpace(byId("space").value));
   }
 

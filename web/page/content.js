@@ -5,7 +5,7 @@ const SIDE_FILES = /\.(ele|prj)$/i;
 
 /** The mesh in the page: { mesh, as, query }; null: the page is empty. */
 function readContent(meshwalk, text) {
-  if (!text.trim()) return null;
+  if (!text.trim().startsWith("{")) return null; // the page as the build made it
   const content = JSON.parse(text);
   const { engine } = meshwalk;
   const doubles = (packed) => new Float64Array(engine.unpack(packed).buffer);

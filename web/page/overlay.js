@@ -107,14 +107,20 @@ class Pen {
   }
 }
 
+/** What belongs to the picture and changes with it only: edges and borders. */
+function drawLines(app, context, camera) {
+  const pen = new Pen(context, camera, app.topology);
+  const ink = styleText("--ink");
+  app.lineNotes = [];
+  if (byId("edges").checked) app.lineNotes.push(drawEdges(app, pen, ink));
+  if (byId("borders").checked) app.lineNotes.push(drawBorders(app, pen, ink));
+}
+
 /** Everything above the picture, from the lowest to the highest. */
 function drawAll(app, context, camera) {
   if (!app.topology) return;
   const pen = new Pen(context, camera, app.topology);
-  const notes = [app.hint];
-  const ink = styleText("--ink");
-  if (byId("edges").checked) notes.push(drawEdges(app, pen, ink));
-  if (byId("borders").checked) notes.push(drawBorders(app, pen, ink));
+  const notes = [app.hint, ...app.lineNotes];
   app.loopPanel.draw(pen);
   app.profile.draw(pen);
   app.points.draw(pen, notes);

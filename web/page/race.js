@@ -14,7 +14,12 @@ class Lane {
     this.canvas = document.createElement("canvas");
     this.words = document.createElement("figcaption");
     this.element.append(this.canvas, this.words);
+    this.element.tabIndex = 0;
+    this.element.setAttribute("role", "button");
     this.element.addEventListener("click", () => race.choose(name));
+    this.element.addEventListener("keydown", ({ key }) => {
+      if (key === "Enter" || key === " ") race.choose(name);
+    });
   }
 
   get count() {

@@ -6,11 +6,12 @@ const CLICK = 5; // pixels that a finger may slip
 const EDGES = 12000; // triangles whose edges are drawn
 const SUN = [-0.5, 0.5, 0.7071]; // from the north-west, 45 degrees high
 
-/** The picture with its camera. `draw` draws what lies above it. */
+/** The picture with its camera. `drawLines` draws lines into it, `draw` what lies above it. */
 class Stage {
-  constructor(draw, acts) {
+  constructor(drawLines, draw, acts) {
     this.canvas = byId("picture");
     this.overlay = byId("overlay");
+    this.drawLines = drawLines;
     this.drawAbove = draw;
     this.acts = acts; // click(point), hover(point)
     this.cameras = { plane: new PlaneCamera(), space: new SpaceCamera() };
@@ -98,7 +99,11 @@ class Stage {
     const { width, height } = this.canvas;
     const pixels = this.picture.draw(this.camera.matrix(this.ratio), this.space === "space");
     const image = new ImageData(pixels, width, height);
-    this.canvas.getContext("2d").putImageData(image, 0, 0);
+    const context = this.canvas.getContext("2d");
+    context.putImageData(image, 0, 0);
+    context.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
+    this.drawLines(context, this.camera);
+    context.resetTransform();
     this.took = performance.now() - begin;
     this.keepShot();
     this.moving = false;

@@ -150,6 +150,10 @@ class WalkPanel {
     byId("walk-step").value = step;
     byId("walk-play").textContent = playing ? "Pause" : "Play";
     const ring = this.ring && step >= this.ring.begin && step < ringEnd(triangles, this.ring);
+    const next = triangles[step + 1];
+    this.step = this.dimension === 2 && triangles.length
+      ? edgesBeyond(this.app, triangles[step], next, this.to) : null;
+    byId("walk-why").textContent = this.step ? tellStep(this.step, next) : "";
     byId("walk-now").textContent = `Step ${step + 1} of ${triangles.length}: ` +
       `triangle ${triangles[step]} (${stageWords(stages[step])})${ring ? ", in a ring" : ""}`;
     this.app.stage.drawOverlay();
@@ -164,6 +168,7 @@ class WalkPanel {
     const colour = styleText("--way");
     if (this.walk) {
       drawVisited(pen, this.walk, this.player.step);
+      if (this.step) drawStep(pen, this.walk.triangles[this.player.step], this.step);
       if (this.walk.line.length) pen.line(this.walk.line, colour, 1.5, [6, 4]);
       pen.dot(this.to, colour, 6);
       pen.label(this.to, "to", colour);

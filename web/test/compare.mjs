@@ -1,10 +1,11 @@
 // compare.mjs MODULE MESHWALK DATA: the engine in WebAssembly answers as the program does, bit for
 // bit, and reads the same files. MW_TEST_LONG=1 compares 10^6 answers, else a tenth.
 import assert from "node:assert/strict";
-import { execFileSync } from "node:child_process";
+import { execFileSync, spawnSync } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
+import { fileURLToPath } from "node:url";
 import { constants, gzipSync } from "node:zlib";
 import { loadMeshwalk, Locations, MeshwalkError } from "../js/meshwalk.js";
 
@@ -92,6 +93,13 @@ function compareSpace(path, from, to) {
   assert.deepEqual(Array.from(probe.iterations), told.map(([, , iteration]) => iteration));
   assert.equal(surface.probe(from, motion, { certain: true }).state, "hit");
   surface.setCentre([0, 0, 0]);
+  for (const [as, centre] of [["star", "0,0,0"], ["star", "0,0,5"], ["surface", null]]) {
+    const how = centre ? ["--as", as, "--centre", centre] : ["--as", as];
+    const { stdout } = spawnSync(program, ["check", "--json", ...how, path], OUTPUT);
+    const own = mesh.check(as, centre ? centre.split(",").map(Number) : undefined);
+    assert.deepEqual(own.defects.map((defect) => [defect.kind, defect.text]),
+      JSON.parse(stdout).defects.map((defect) => [defect.kind, defect.text]));
+  }
   for (const { name } of meshwalk.starWalks) {
     const way = surface.followRay(from, to, { walk: name });
     assert.deepEqual(Array.from(way.triangles),
@@ -165,6 +173,30 @@ function comparePacked(bytes) {
   }
 }
 
+// The program in docs/web.md prints what stands there.
+function compareDocumentation() {
+  const page = readFileSync(new URL("../../docs/web.md", import.meta.url), "utf8");
+  const [, block, output] = page.match(/```js\n([^]*?)```\n\n```output\n([^]*?)```/);
+  const source = fileURLToPath(new URL("../..", import.meta.url));
+  const text = block.replace("build/release/web/meshwalk.wasm", modulePath)
+    .replace("./web/js/", new URL("../js/", import.meta.url).href);
+  writeFileSync(inScratch("documentation.mjs"), text);
+  assert.equal(execFileSync(process.execPath, [inScratch("documentation.mjs")],
+    { encoding: "utf8", cwd: source }), output);
+}
+
+// Every class and method of meshwalk.d.ts is there, and the other way round.
+async function compareDeclarations() {
+  const text = readFileSync(new URL("../js/meshwalk.d.ts", import.meta.url), "utf8");
+  const interfaces = await import("../js/meshwalk.js");
+  const declared = [...text.matchAll(/^export (?:class|function|const) (\w+)/gm)];
+  assert.deepEqual(declared.map(([, name]) => name).sort(), Object.keys(interfaces).sort());
+  for (const [, name, body] of text.matchAll(/^export class (\w+)[^{]*\{\n([^]*?)^\}/gm))
+    for (const [, method] of body.matchAll(/^ {2}(\w+)\(/gm))
+      if (method !== "constructor")
+        assert.equal(typeof interfaces[name].prototype[method], "function", `${name}.${method}`);
+}
+
 function compareNetcdf() {
   const file = Buffer.concat([Buffer.from("CDF\x01"), Buffer.alloc(64)]);
   assert.throws(() => meshwalk.readMesh("ocean.nc", file), /netCDF files cannot be read here/);
@@ -215,6 +247,8 @@ try {
   compareMessage("short.ply", "ply\nformat ascii 1.0\nelement vertex 3\n");
   writeFileSync(inScratch("octahedron.off"), OCTAHEDRON);
   compareSpace(inScratch("octahedron.off"), [0.3, 0.2, 2], [-0.4, -0.5, -0.6]);
+  compareDocumentation();
+  await compareDeclarations();
   compareNetcdf();
   comparePacked(readFileSync(trap));
   console.log(`${answers} answers are equal, bit for bit`);

@@ -1,4 +1,4 @@
-// page.mjs BROWSER MESHWALK DATA: the page of `meshwalk view` in a headless browser. It loads
+// page.mjs BROWSER MESHWALK DATA PAGE: the page of `meshwalk view` in a headless browser. It loads
 // without a fault, its clicks give the answers of the command line, a damaged file gives the
 // reader's message.
 import assert from "node:assert/strict";
@@ -8,7 +8,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { Browser } from "./browser.mjs";
 
-const [chromium, program, data] = process.argv.slice(2);
+const [chromium, program, data, emptyPage] = process.argv.slice(2);
 const scratch = mkdtempSync(join(tmpdir(), "meshwalk-page-"));
 const HOW = { encoding: "utf8", cwd: scratch };
 const run = (...words) => execFileSync(program, words, HOW);
@@ -64,6 +64,31 @@ async function compareWalk(mesh, name, from, to) {
   return walk.ring;
 }
 
+// A click near a vertex means the vertex, where its triangles are a tie.
+async function compareTies() {
+  await clickAt([0.562, 0.529]);
+  const { point, location, ties } = await browser.value(`({ point: meshwalkPage.here.point,
+    location: meshwalkPage.here.location, ties: meshwalkPage.here.ties })`);
+  assert.deepEqual(point, [0.562, 0.528]);
+  assert.equal(location.where, "vertex");
+  assert.equal(Math.min(...ties), location.triangle);
+  assert.ok(ties.length > 2);
+}
+
+// data/README.md: in the ring every other triangle has two edges that the point lies beyond, and
+// one of these would lead to it.
+async function compareRing(ring) {
+  assert.equal(ring.length, 10);
+  const seen = [];
+  for (let step = ring.begin; step < ring.begin + ring.length; step++) {
+    await browser.value(`meshwalkPage.walkPanel.player.goTo(${step})`);
+    seen.push((await browser.value("meshwalkPage.walkPanel.step.beyond")).length);
+    assert.match(await browser.value("document.getElementById('walk-why').textContent"),
+      /beyond edges? .* leaves over edge/);
+  }
+  assert.deepEqual(seen.slice().sort(), [1, 1, 1, 1, 1, 2, 2, 2, 2, 2]);
+}
+
 async function compareRace() {
   await browser.press("#walk-race");
   const lanes = await browser.value(`meshwalkPage.race.lanes.map((lane) =>
@@ -80,7 +105,9 @@ async function testTrap() {
   assert.match(await browser.value("document.getElementById('verdict').textContent"),
     /an embedding/);
   await compareClicks(mesh, [[0.5, 0.5], [0.2, 0.7], [1.04, 0.5]]);
-  assert.ok(await compareWalk(mesh, "lawson", [0.9, 0.1], [0.5, 0.5]));
+  await compareTies();
+  const ring = await compareWalk(mesh, "lawson", [0.9, 0.1], [0.5, 0.5]);
+  await compareRing(ring);
   assert.equal(await compareWalk(mesh, "celestial", [0.9, 0.1], [0.5, 0.5]), null);
   await compareRace();
   assert.equal(await browser.value("meshwalkPage.points.statuses.length"), 16);
@@ -93,7 +120,7 @@ const drop = (name, bytes) => browser.value(`(async () => {
   await openPageFiles([new File([bytes], "${name}")]);
 })()`);
 
-async function testFiles() {
+async function testFiles(shown) {
   await browser.value("window.openPageFiles = (files) => meshwalkPage.openFiles(files)");
   const damaged = "OFF\n3 1 0\n0 0 0\n1 0 zero\n";
   writeFileSync(join(scratch, "damaged.off"), damaged);
@@ -101,7 +128,7 @@ async function testFiles() {
   await drop("damaged.off", damaged);
   const message = await browser.value("document.getElementById('failure').textContent");
   assert.equal(`meshwalk: ${message}`, stderr.trimEnd().split("\n")[0]);
-  assert.equal(await browser.value("document.getElementById('file-name').textContent"), "trap.off");
+  assert.equal(await browser.value("document.getElementById('file-name').textContent"), shown);
 }
 
 // A fold is listed, led to, and explained.
@@ -160,6 +187,13 @@ const drawn = () => browser.value(`(() => {
   return canvas.getContext("2d").getImageData(x, y, 1, 1).data[3] === 255;
 })()`);
 
+// The page as it is installed holds no mesh: it waits for a file.
+async function testEmpty() {
+  await browser.open(emptyPage);
+  assert.match(await browser.value("document.getElementById('notice').textContent"), /drop it/);
+  await testFiles("");
+}
+
 try {
   for (const [width, height, mobile] of [[1280, 800, false], [390, 844, true]]) {
     await browser.size(width, height, mobile);
@@ -168,11 +202,12 @@ try {
     assert.ok(await drawn());
     assert.equal(await browser.value("document.documentElement.scrollWidth"), width);
   }
-  await testFiles();
+  await testFiles("trap.off");
   await testDefects();
   await browser.size(1280, 800);
   await testTerrain();
   await testSpace();
+  await testEmpty();
   assert.deepEqual(browser.faults, []);
   console.log("the page answers as the command line does");
 } finally {

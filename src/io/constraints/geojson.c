@@ -40,7 +40,7 @@ __attribute__((format(printf, 2, 3))) static mw_status geojson_fail(const geojso
 static mw_status geojson_read_position(const geojson_reader *g, const json_t *position,
                                        double xyz[3])
 {
-    size_t size = json_array_size(position); /* 0 of what is no array */
+    size_t size = json_array_size(position); /* 0 of what is not an array */
     if (size < 2) return geojson_fail(g, "a position is not two or three numbers");
     xyz[2] = NAN;
     for (size_t k = 0; k < 3 && k < size; k++) {

@@ -149,7 +149,7 @@ static mw_status msh_read_names(msh_mesh *m, mw_error *error)
     return status;
 }
 
-/* One entity: number, its box, its physical groups, and, but for points, what bounds it. */
+/* One entity: number, its box, its physical groups, and, except for points, what bounds it. */
 static mw_status msh_read_entity(msh_mesh *m, int64_t dimension, mw_error *error)
 {
     msh_group entity = {.dimension = dimension};

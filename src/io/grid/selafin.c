@@ -214,7 +214,7 @@ static mw_status selafin_read_points(mw_selafin *s, mw_mesh_builder *builder, mw
     }
     if (!status) status = mw__selafin_record_end(s, length, error);
     builder->points_complete = true;
-    double *y = s->vertices > 0 ? file->points + 1 : NULL; /* no vertices: there is no array */
+    double *y = file->points ? file->points + 1 : NULL; /* no vertices: there is no array */
     if (!status) status = mw__selafin_values(s, "y", y, 3, error);
     for (size_t v = 0; !status && v < file->point_count; v++)
         file->points[3 * v + 1] += (double)s->parameters[3];

@@ -143,6 +143,7 @@ static mw_status corner_read_all(corner_reading *reading, mw_job *job, mw_error 
     mw_corner_table *table = reading->table;
     size_t at_once = BLOCK_NUMBERS / table->width;
     if (at_once == 0) at_once = 1;
+    if (at_once > table->face_count) at_once = table->face_count; /* 0: of whatever width */
     reading->block = mw__alloc(at_once * table->width, sizeof *reading->block);
     table->corners = mw__alloc(table->face_count * table->width, sizeof *table->corners);
     if (!reading->block || !table->corners) return mw__fail_memory(error);

@@ -28,6 +28,16 @@ static mw_status netcdf_mesh_column(const mw_netcdf *file, const mw_netcdf_varia
     return status;
 }
 
+/* Half of pi as a float is a hundred-millionth more than that: a latitude beyond the pole. */
+static void netcdf_mesh_clamp(double *latitudes, size_t count)
+{
+    const double rounded = 90 * (1 + 1e-7);
+    for (size_t v = 0; v < count; v++) {
+        double *y = latitudes + 3 * v;
+        if (fabs(*y) > 90 && fabs(*y) <= rounded) *y = copysign(90, *y);
+    }
+}
+
 static mw_status netcdf_mesh_points(const mw_netcdf *file, const mw_layout *layout,
                                     mw_mesh_builder *builder, mw_error *error)
 {
@@ -47,6 +57,7 @@ static mw_status netcdf_mesh_points(const mw_netcdf *file, const mw_layout *layo
         status = netcdf_mesh_column(file, axes[k], &values, error);
         for (size_t v = 0; v < count && !status; v++)
             points[3 * v + k] = offset == 0 ? values[v] * scale : values[v] * scale + offset;
+        if (k == 1 && scale != 1) netcdf_mesh_clamp(points + 1, count);
         free(values);
     }
     builder->file->point_count = builder->point_room = count;
@@ -148,6 +159,7 @@ static mw_status netcdf_mesh_weld(const mw_netcdf *file, const mw_layout *layout
         for (size_t k = 0; k < width && !status; k++) {
             size_t at = layout->corner_first ? k * layout->face_count + f : f * width + k;
             double xyz[3] = {values[0][at] * layout->scale, values[1][at] * layout->scale, 0};
+            if (layout->scale != 1) netcdf_mesh_clamp(xyz + 1, 1);
             uint32_t vertex = 0;
             status = mw__weld_vertex(weld, builder, xyz, &vertex, error);
             if (!status) status = mw__build_corner(builder, vertex, error);
@@ -178,6 +190,7 @@ static mw_status netcdf_mesh_read(const mw_netcdf *file, const mw_layout *layout
     mw_job *job = builder->job;
     mw_status status = mw__layout_crs(file, layout, &builder->file->crs, error);
     if (status) return status;
+    builder->lonlat = layout->lonlat;
     if (!layout->corners) {
         status = netcdf_mesh_bounds(file, layout, builder, error);
         return status ? status : netcdf_mesh_face_fields(file, layout, builder, error);

@@ -1,5 +1,6 @@
 #include "io/mesh/mesh_builder.h"
 #include "io/mesh/face_cut.h"
+#include "io/mesh/lonlat_cut.h"
 #include "io/text/number_text.h"
 
 #include <inttypes.h>
@@ -225,7 +226,8 @@ static mw_status polygon_cut(mw_mesh_builder *builder, const build_polygon *poly
 {
     mw_mesh_file *file = builder->file;
     uint32_t *triangles = file->triangles + 3 * polygon->triangle;
-    if (mw__face_cut(file->points, builder->corners, builder->corner_count, triangles))
+    if ((builder->lonlat ? mw__lonlat_cut : mw__face_cut)(file->points, builder->corners,
+                                                          builder->corner_count, triangles))
         return MW_OK;
     return mw__source_fail_at(builder->source, polygon->position, error,
                               "face %" PRIu64 " of %zu corners is not convex; cut it into convex "

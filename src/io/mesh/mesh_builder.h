@@ -20,6 +20,7 @@ typedef struct mw_mesh_builder {
     size_t point_room, triangle_room;
     int64_t first_number; /* number of the first vertex: 0 or 1 */
     bool points_complete;
+    bool lonlat;     /* x and y are longitudes and latitudes, as far as is known */
     int64_t highest; /* largest vertex (counted from 0) named so far, -1 if none, and where */
     uint64_t highest_position;
     uint32_t *corners; /* of the present face, each that differs from the one before */

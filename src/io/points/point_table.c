@@ -201,7 +201,7 @@ static char *table_read_missing(const table_state *t, char *p, double *value)
     return p + (end - p);
 }
 
-/* Read the cell that begins at p, behind the gap. Returns its end, or NULL if it is no number. */
+/* Read the cell that begins at p, after the gap. Returns its end; NULL if it is not a number. */
 static MW_INLINE char *table_read_cell(table_state *t, char *p, double *value)
 {
     bool quoted = *p == '"';

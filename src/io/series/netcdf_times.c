@@ -1,6 +1,7 @@
 #include "io/series/netcdf_times.h"
 
 #include "io/netcdf/netcdf_values.h"
+#include "io/series/time_texts.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -127,6 +128,11 @@ mw_status mw__netcdf_times(const mw_netcdf *file, int dimension, mw_series_part 
     mw__netcdf_dimension_at(file, dimension, &part->step_count);
     part->times = mw__alloc(part->step_count, sizeof *part->times);
     if (!part->times) return mw__fail_memory(error);
+    const mw_netcdf_variable *texts = axis ? NULL : mw__time_texts_find(file, dimension);
+    if (texts) {
+        status = mw__time_texts_read(file, texts, part, error);
+        return status ? status : netcdf_times_check(file, texts, part, error);
+    }
     for (size_t s = 0; s < part->step_count && !axis; s++) part->times[s] = (double)s;
     if (!axis) return MW_OK;
     status = mw__netcdf_text(file, axis, "units", &part->time_unit, error);

@@ -9,7 +9,7 @@ typedef struct mw_greedy_edge {
     uint32_t low, high;
 } mw_greedy_edge;
 
-/* All zero but for `point`: empty. Release `item` with free(). An edge may wait twice. */
+/* All zero except for `point`: empty. Release `item` with free(). An edge may wait twice. */
 typedef struct mw_greedy_heap {
     const mw_point *point;
     mw_greedy_edge *item;
