@@ -17,6 +17,7 @@
 struct mw_index {
     mw_start_kind start; /* says which member of the union is there */
     double seconds;      /* it took to build                        */
+    bool sort_batches;   /* of a guide: large batches are sorted, and begin at the query before */
     union {
         mw_grid grid;
         mw_two_level_grid two_level_grid;

@@ -216,8 +216,11 @@ static void batch_choose_start_beside_hints(locate_batch *b)
 static void batch_choose_start(locate_batch *b, size_t n)
 {
     if (b->cursor.start != MW_START_AUTO) return;
+    enum { TILES_PER_QUERY = 128 }; /* fewer: from query to query is not far */
     const mw_index *guide = &b->locator->guide;
-    b->guided = guide->start != MW_START_AUTO;
+    const bool sorts = guide->sort_batches && !b->queries.hints &&
+                       n >= b->locator->tiling.tri_count / TILES_PER_QUERY;
+    b->guided = guide->start != MW_START_AUTO && !sorts;
     if (b->guided) {
         b->cursor.start = (uint8_t)guide->start;
         b->cursor.index = guide;

@@ -154,25 +154,33 @@ static double guide_walk_length(const mw_locator *locator, const mw_index *guide
     return walks ? (double)visited / walks : 0;
 }
 
-/* Where the guide leads badly, chains take its place: a query by them takes as long as a walk over
- * FEW tiles, and 68 to 88 bytes a tile. Tiles that are edited would leave them behind. */
-bool mw__locator_guide(const mw_locator *locator, mw_job *job, mw_index *guide)
+static bool guide_make_chains(const mw_locator *locator, mw_job *job, mw_index *guide)
 {
-    static const double FEW = 24;
-    mw_job_span outer = mw__job_part(job, 0.6);
-    bool done = locator_lay_guide(locator, job, guide);
-    mw__job_part_end(job, outer);
-    if (!done) return false;
-    if (guide->start == MW_START_AUTO || locator->tiling.tile_of ||
-        !(guide_walk_length(locator, guide) > FEW))
-        return true;
-    mw_index chains = {.start = MW_START_CHAINS};
-    outer = mw__job_part(job, 0.4);
-    done = mw__chains_create(&chains.chains, &locator->tiling, job);
+    mw_index chains = {.start = MW_START_CHAINS, .sort_batches = guide->start == MW_START_AUTO};
+    mw_job_span outer = mw__job_part(job, 0.4);
+    bool done = mw__chains_create(&chains.chains, &locator->tiling, job);
     mw__job_part_end(job, outer);
     mw__index_release(done ? guide : &chains);
     if (done) *guide = chains;
     return done;
+}
+
+/* Where the guide leads badly, or there is none, chains take its place: a query by them takes as
+ * long as a walk over FEW tiles, and 68 to 88 bytes a tile. Tiles that are edited would leave them
+ * behind. */
+bool mw__locator_guide(const mw_locator *locator, mw_job *job, mw_index *guide)
+{
+    static const double FEW = 24;
+    enum { SMALL = 256 };
+    const mw_tiling *tiling = &locator->tiling;
+    mw_job_span outer = mw__job_part(job, 0.6);
+    bool done = locator_lay_guide(locator, job, guide);
+    mw__job_part_end(job, outer);
+    if (!done) return false;
+    if (tiling->tile_of || tiling->border_loops || !tiling->embedding || tiling->tri_count < SMALL)
+        return true;
+    bool leads = guide->start != MW_START_AUTO && !(guide_walk_length(locator, guide) > FEW);
+    return leads || guide_make_chains(locator, job, guide);
 }
 
 static bool are_slots_numbers(const mw_tiling *tiling)

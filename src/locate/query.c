@@ -226,11 +226,15 @@ static mw_verdict walk_hand_over(const mw_tiling *tiling, mw_walk *walk, mw_verd
     return verdict;
 }
 
-/* The chains that are the locator's guide, if the start was left to choose; else NULL. */
+/* The chains that are the locator's guide, if the start was left to choose (a batch may then have
+ * chosen to go from query to query); else NULL. */
 static const mw_index *query_chains(const mw_locator *locator, const mw_cursor *cursor)
 {
     const mw_index *guide = &locator->guide;
-    bool chosen = cursor->index ? cursor->index == guide : cursor->start == MW_START_AUTO;
+    bool chained = cursor->start == MW_START_SORTED || cursor->start == MW_START_LAST;
+    bool chosen = cursor->index
+                      ? cursor->index == guide
+                      : cursor->start == MW_START_AUTO || (chained && guide->sort_batches);
     return chosen && guide->start == MW_START_CHAINS ? guide : NULL;
 }
 

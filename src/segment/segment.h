@@ -20,12 +20,29 @@ static MW_INLINE uint8_t mw__segment_user_place(uint32_t user, uint8_t at)
                          : MW_AT_VERTEX + mw__user_local_vertex(user, at - MW_AT_VERTEX));
 }
 
+/* The segment may go on over this link: ask for the tile there, and for the vertex that it would
+ * turn at. That is known before the turn is, so one step's memory comes while the one before it
+ * computes. */
+static MW_INLINE void mw__segment_look_ahead(const mw_locator *locator, uint32_t link)
+{
+    const mw_tiling *tiling = &locator->tiling;
+    uint32_t t = link == MW_NONE ? 0 : mw__link_triangle(link), e = mw__link_edge(link);
+    __builtin_prefetch(&tiling->point[tiling->tri[t].v[mw__prev(e)]]);
+}
+
+/* The edge after edge e, or the one before. Arithmetic: from `left ? mw__next(e) : mw__prev(e)`
+ * gcc makes a jump, which a processor guesses wrong every other time. */
+static MW_INLINE uint32_t mw__segment_turn(uint32_t e, bool left)
+{
+    return (18u >> (2 * e + left)) & 3;
+}
+
 /* Follow a segment that enters tile after tile over edges, through at most `steps` tiles, and
  * append its pieces, for which there is room. Returns false where rounded areas are not sure, at
- * vertices, and at b: there mw__segment_next_surely goes on. For tilings without cut triangles. The
- * turn is not a branch, since a processor would predict half of them wrong. */
-static MW_INLINE bool mw__segment_run(mw_segment *s, size_t steps, mw_segment_piece *piece,
-                                      size_t *count)
+ * vertices, and at b: there mw__segment_next_surely goes on. For tilings without cut triangles.
+ * `ahead`: ask for the memory of the next step; lanes that take turns do that themselves. */
+static MW_INLINE bool mw__segment_run(mw_segment *s, size_t steps, bool ahead,
+                                      mw_segment_piece *piece, size_t *count)
 {
     const mw_triangle *tri = s->locator->tiling.tri;
     const mw_point *point = s->locator->tiling.point, a = mw__segment_a(s), b = mw__segment_b(s);
@@ -37,9 +54,13 @@ static MW_INLINE bool mw__segment_run(mw_segment *s, size_t steps, mw_segment_pi
     for (; steps > 0; steps--) {
         const mw_triangle *tile = &tri[t];
         uint32_t apex = mw__prev(e), user = tile->user;
+        if (ahead) {
+            mw__segment_look_ahead(s->locator, tile->link[apex]);
+            mw__segment_look_ahead(s->locator, tile->link[mw__next(e)]);
+        }
         double unsure, off_a, off_b,
             side = mw__orient2d_rounded(a, b, point[tile->v[apex]], &unsure);
-        uint32_t out = side > 0 ? mw__next(e) : apex, link = tile->link[out];
+        uint32_t out = mw__segment_turn(e, side > 0), link = tile->link[out];
         mw_point p = point[tile->v[out]], q = point[tile->v[out + 1]];
         double of_a = mw__orient2d_rounded(p, q, a, &off_a),
                of_b = -mw__orient2d_rounded(p, q, b, &off_b), sum = of_a + of_b;

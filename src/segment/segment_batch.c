@@ -145,8 +145,11 @@ static MW_INLINE bool follower_step(segment_batch *b, segments_follower *lane)
         return false;
     }
     if (mw__segment_may_run(&lane->s)) {
-        size_t steps = b->lanes > 1 ? 1 : lane->room - lane->count;
-        if (mw__segment_run(&lane->s, steps, lane->piece + lane->count, &lane->count)) return true;
+        mw_segment_piece *piece = lane->piece + lane->count;
+        bool sure = b->lanes > 1 ? mw__segment_run(&lane->s, 1, false, piece, &lane->count)
+                                 : mw__segment_run(&lane->s, lane->room - lane->count, true, piece,
+                                                   &lane->count);
+        if (sure) return true;
         if (lane->count == lane->room) return true;
     }
     if (mw__segment_next_surely(&lane->s, lane->piece + lane->count))

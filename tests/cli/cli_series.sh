@@ -5,7 +5,7 @@
 . "$(dirname "$0")/driver.sh"
 if "$meshwalk" --version | grep -q 'libnetcdf is not found'; then
     left_out "libnetcdf is not found"
-    finish
+    exit 0
 fi
 
 # UGRID, classic netCDF: the unit square cut into two triangles, zeta = 10 time + x + y at the

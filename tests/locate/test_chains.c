@@ -82,6 +82,25 @@ static arrays rings(uint32_t n)
     return a;
 }
 
+/* Layers round a circle, from a billionth of a thousandth apart on. Neither a grid nor the curve
+ * leads well. */
+static mw_mesh *boundary_layers(uint32_t n)
+{
+    enum { LAYERS = 60 };
+    uint32_t per_layer = n / LAYERS;
+    double *p = malloc(2 * (size_t)n * sizeof *p), thickness = 1e-12;
+    assert_non_null(p);
+    for (uint32_t layer = 0, i = 0; layer < LAYERS; layer++, thickness *= 1.4)
+        for (uint32_t k = 0; k < per_layer; k++, i++) {
+            double angle = 6.28318530717958648 * (k + 0.5 * (layer & 1)) / per_layer;
+            p[2 * i] = (1 + thickness) * cos(angle);
+            p[2 * i + 1] = (1 + thickness) * sin(angle);
+        }
+    mw_mesh *mesh = mesh_delaunay(p, LAYERS * per_layer);
+    free(p);
+    return mesh;
+}
+
 /* --- what queries do -------------------------------------------------------------------------- */
 
 typedef arrays make_arrays(uint32_t n);
@@ -191,6 +210,32 @@ static void test_traps(void **state)
         for (uint32_t n = 4000; n <= 16000; n *= 2) expect_few_steps(traps[i], n, &random);
 }
 
+/* Where no grid serves for a guide, chains do. Large batches are sorted, and chains end walks that
+ * get long. */
+static void test_without_grid(void **state)
+{
+    (void)state;
+    enum { QUERIES = 4000 };
+    uint64_t random = 20;
+    mw_mesh *mesh = boundary_layers(18000);
+    arrays a = arrays_of_mesh(mesh);
+    mw_locator *locator = mesh_locator(mesh, (mw_locator_options){0});
+    assert_true(locator->guide.start == MW_START_CHAINS && locator->guide.sort_batches);
+    double *q = draw(&a, QUERIES, &random);
+    mw_location *at = malloc(QUERIES * sizeof *at);
+    mw_query_options options = {.counters = 1};
+    mw_counters c;
+    assert_int_equal(mw_locate_batch(locator, q, QUERIES, 2, &options, at, &c, NULL), MW_OK);
+    expect_counts(&c, QUERIES, log2(locator->tiling.tri_count + 1.0) + 3);
+    assert_true(c.orient_init < 4 * QUERIES);
+    expect_answers(locator, q, QUERIES, &random);
+    free(q);
+    free(at);
+    mw_locator_destroy(locator);
+    mw_mesh_destroy(mesh);
+    arrays_free(&a);
+}
+
 /* Where a grid leads well, nothing else is built. */
 static void test_good_meshes(void **state)
 {
@@ -245,6 +290,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_traps),
+        cmocka_unit_test(test_without_grid),
         cmocka_unit_test(test_good_meshes),
         cmocka_unit_test(test_extents),
     };

@@ -7,6 +7,7 @@
 #include <setjmp.h>
 #include <cmocka.h>
 
+#include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
@@ -272,13 +273,53 @@ static void test_fields(void **state)
     arrays_free(&a);
 }
 
+/* Walks are long: the locator takes chains for its guide. */
+static void test_chains(void **state)
+{
+    (void)state;
+    enum { STEPS = 300 };
+    arrays a = arrays_make(2 * STEPS + 2, 2 * STEPS);
+    for (int i = 0; i <= STEPS; i++)
+        for (int y = 0; y < 2; y++) arrays_point(&a, ldexp(1, 900 - 6 * i), y);
+    for (uint32_t i = 0; i < 2 * STEPS; i += 2) {
+        arrays_triangle(&a, i, i + 1, i + 2);
+        arrays_triangle(&a, i + 2, i + 1, i + 3);
+    }
+    mw_mesh *mesh = arrays_mesh(&a, (mw_mesh_options){0});
+    mw_locator *locator = mesh_locator(mesh, (mw_locator_options){0});
+    mw_locator_info info;
+    mw_locator_describe(locator, &info);
+    assert_int_equal(info.guide, MW_START_CHAINS);
+    mw_locator_destroy(locator);
+    mw_mesh_destroy(mesh);
+    exhaust(locator_job, &a);
+    exhaust(batch_job, &a);
+    arrays_free(&a);
+}
+
+/* Points that are triangulated as a copy, multiplied by a power of two. */
+static void test_tiny(void **state)
+{
+    (void)state;
+    static const double extent[] = {5e-324, 1e-300, 1e300};
+    uint64_t random = 3;
+    for (size_t i = 0; i < sizeof extent / sizeof *extent; i++) {
+        arrays a = arrays_grid(6, 0, &random);
+        arrays_transform(&a, extent[i], 0, 0);
+        exhaust(delaunay_job, &a);
+        exhaust(locator_job, &a);
+        arrays_free(&a);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_convex),    cmocka_unit_test(test_punched),
         cmocka_unit_test(test_cut),       cmocka_unit_test(test_defective),
         cmocka_unit_test(test_bad_index), cmocka_unit_test(test_layout),
-        cmocka_unit_test(test_fields),
+        cmocka_unit_test(test_fields),    cmocka_unit_test(test_chains),
+        cmocka_unit_test(test_tiny),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

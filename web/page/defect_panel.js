@@ -22,7 +22,7 @@ class DefectPanel {
     if (defects.length > DEFECTS_SHOWN) this.tell(`The first ${DEFECTS_SHOWN} of ` +
       `${plural(defects.length, "defect")}; 'meshwalk check${this.as()}' lists all.`);
     if (voided) this.tell(`So long as they are there, a promise does not hold: ${voided}.`);
-    if (!defects.length) this.tell(space === "space" ? "None, as a surface." : "None.");
+    if (!defects.length) this.tell(space === "space" ? `None, as a ${this.app.as}.` : "None.");
     if (space === "space") this.tellPlane();
     return real;
   }
@@ -54,12 +54,16 @@ class DefectPanel {
       other.setAttribute("aria-current", other === button);
     this.explain(defect);
     const box = topology.box(this.triangles(), this.vertices());
+    if (stage.space === "space" && defect.triangle !== null) {
+      const { low, high } = topology.extent();
+      stage.camera.face(topology.outward(defect.triangle, low.map((v, k) => (v + high[k]) / 2)));
+    }
     if (Number.isFinite(box.low[0])) stage.goTo(box);
     else stage.drawOverlay();
   }
 
   explain({ kind, text }) {
-    const { title, text: why, mended } = explainDefect(kind);
+    const { title, text: why, mendable } = explainDefect(kind);
     const box = document.createElement("div");
     box.className = "explained";
     const head = document.createElement("strong");
@@ -67,18 +71,18 @@ class DefectPanel {
     const words = document.createElement("div");
     words.textContent = `${why} Here: ${text}.`;
     box.append(head, words);
-    if (mended) {
+    if (mendable) {
       const hint = document.createElement("code");
       hint.textContent = `meshwalk check --fix all${this.as()} -o mended.ply ` +
         this.app.mesh.name;
-      box.append("It can be mended: ", hint);
+      box.append("Perhaps this mends it: ", hint);
     }
     byId("defect-about").replaceChildren(box);
   }
 
   /** The option of the command line for a surface. */
   as() {
-    return this.space === "space" ? " --as surface" : "";
+    return this.space === "space" ? ` --as ${this.app.as}` : "";
   }
 
   triangles() {

@@ -3,10 +3,15 @@
 const TIE_WORDS = { edge: "on an edge", vertex: "at a vertex", inside: "inside a triangle",
   outside: "outside the mesh", hole: "in a hole", near: "near the mesh", bad: "nowhere" };
 const TIES_SHOWN = 12;
+const NEAR = 6; // pixels
 
 class HerePanel {
   constructor(app) {
     this.app = app;
+    byId("here-form").addEventListener("submit", (event) => {
+      event.preventDefault();
+      this.showTyped();
+    });
     this.clear();
   }
 
@@ -24,6 +29,7 @@ class HerePanel {
     const { app } = this;
     this.kept = keep && !(this.kept && this.sameAs(screen));
     if (app.stage.space === "space") this.showSpace(screen);
+    else if (keep) this.showPoint(this.snapped(app.stage.camera.toMesh(screen)));
     else this.showPoint(app.stage.camera.toMesh(screen));
     app.stage.drawOverlay();
   }
@@ -40,18 +46,28 @@ class HerePanel {
     this.app.stage.drawOverlay();
   }
 
-  /** A click near a vertex means the vertex. */
+  /** A click near a vertex means the vertex: its triangles are a tie. */
   snapped(point) {
-    const { stage, topology, mesh } = this.app;
-    const near = this.app.locate(point);
-    if (!near || near.triangle === null) return point;
+    const { stage, topology } = this.app;
+    const found = this.app.locate(point);
+    if (!found || found.triangle === null) return point;
     const at = stage.camera.toScreen(point);
     const close = (other) => {
       const screen = stage.camera.toScreen(other);
-      return Math.hypot(screen[0] - at[0], screen[1] - at[1]) < 6;
+      return Math.hypot(screen[0] - at[0], screen[1] - at[1]) < NEAR;
     };
-    const corner = topology.corners(near.triangle).find(close);
-    return corner && mesh ? [corner[0], corner[1]] : point;
+    const corner = topology.corners(found.triangle).find(close);
+    return corner ? [corner[0], corner[1]] : point;
+  }
+
+  /** The point in the field. */
+  showTyped() {
+    const point = parsePoint(byId("here-at").value);
+    this.app.complain(point ? "" : "A point is two numbers: x, y");
+    if (!point) return;
+    this.kept = true;
+    this.showPoint(point);
+    this.app.stage.drawOverlay();
   }
 
   showPoint(point) {
@@ -60,7 +76,7 @@ class HerePanel {
     this.point = point;
     this.location = found;
     this.ties = found ? app.topology.tie(found) : [];
-    const rows = [["x, y", point.map((value) => readable(value, 9)).join(", ")]];
+    const rows = [["x, y", point.map((value) => Number(value.toPrecision(9))).join(", ")]];
     if (found) rows.push(...this.locationRows(found));
     else rows.push(["answer", "none: the mesh has a defect"]);
     this.fill(rows);

@@ -21,18 +21,22 @@ const DEFECT_WORDS = {
     "this is a remark."],
   clashing: ["Neighbours face opposite ways", "Two neighbours have opposite orientation: one of " +
     "them shows its back."],
+  "through-centre": ["A facet seen edge-on", "Its plane passes through the centre, so no ray from " +
+    "there meets it in one point."],
+  turned: ["A facet that shows its back", "Seen from the centre it is turned the other way than its " +
+    "neighbour: the polyhedron is not star-shaped about this centre."],
+  covered: ["Covered", "A ray from the centre meets this facet and another one."],
   "open-edge": ["An open edge", "This edge has one triangle only, so the surface is not closed."],
 };
 
-const MENDED_BY = {
-  "repeated-vertex": "drop", "edge-shared": "drop", "vertex-in-edge": "split", flat: "drop",
-  overlap: "drop", crossing: "weld",
-};
+/** Kinds that `meshwalk check --fix` mends, if not always. */
+const MENDABLE = new Set(["not-finite", "repeated-vertex", "edge-shared", "vertex-in-edge",
+  "overlap", "flat", "clashing"]);
 
 /** What a defect is: { title, text }. */
 function explainDefect(kind) {
   const [title, text] = DEFECT_WORDS[kind] || [kind, ""];
-  return { title, text, mended: Boolean(MENDED_BY[kind]) };
+  return { title, text, mendable: MENDABLE.has(kind) };
 }
 
 function byId(id) {

@@ -64,6 +64,17 @@ async function compareWalk(mesh, name, from, to) {
   return walk.ring;
 }
 
+// A click near a vertex means the vertex, where its triangles are a tie.
+async function compareTies() {
+  await clickAt([0.562, 0.529]);
+  const { point, location, ties } = await browser.value(`({ point: meshwalkPage.here.point,
+    location: meshwalkPage.here.location, ties: meshwalkPage.here.ties })`);
+  assert.deepEqual(point, [0.562, 0.528]);
+  assert.equal(location.where, "vertex");
+  assert.equal(Math.min(...ties), location.triangle);
+  assert.ok(ties.length > 2);
+}
+
 // data/README.md: in the ring every other triangle has two edges that the point lies beyond, and
 // one of these would lead to it.
 async function compareRing(ring) {
@@ -94,6 +105,7 @@ async function testTrap() {
   assert.match(await browser.value("document.getElementById('verdict').textContent"),
     /an embedding/);
   await compareClicks(mesh, [[0.5, 0.5], [0.2, 0.7], [1.04, 0.5]]);
+  await compareTies();
   const ring = await compareWalk(mesh, "lawson", [0.9, 0.1], [0.5, 0.5]);
   await compareRing(ring);
   assert.equal(await compareWalk(mesh, "celestial", [0.9, 0.1], [0.5, 0.5]), null);

@@ -21,7 +21,7 @@ static mw_status netcdf_source_contents(mw_source *source, char **contents, size
             if (larger) *contents = larger;
         }
         if (status) return status;
-        memcpy(*contents + used, bytes, count);
+        if (count > 0) memcpy(*contents + used, bytes, count);
         used += count;
         status = mw__source_skip(source, count, error);
         if (status) return status;
