@@ -11,7 +11,8 @@
 /* Each type of pixels has a loop of its own. */
 #define RASTER_INLINE inline __attribute__((always_inline))
 
-static const char *const names[BAND_COUNT] = {"value", "slope", "aspect", "hillshade", "triangle"};
+static const char *const names[BAND_COUNT] = {"value",  "cell",      "slope",
+                                              "aspect", "hillshade", "triangle"};
 
 const char *raster_band_name(raster_band band)
 {
@@ -83,6 +84,7 @@ static double triangle_property(const raster_mesh *m, raster_band band, uint32_t
 {
     double g[2];
     if (triangle == MW_NONE) return NAN;
+    if (band == BAND_CELL) return m->cells[raster_mesh_face(m, triangle)];
     if (band == BAND_TRIANGLE) return m->numbers ? m->numbers[triangle] : triangle;
     triangle_gradient(m, triangle, g);
     return band == BAND_SLOPE    ? gradient_slope(g)
@@ -237,7 +239,7 @@ static int block_write(band_block *block, gdal_raster *raster)
     if (rows > b->grid->rows - row) rows = b->grid->rows - row;
     int end = 0;
     for (uint32_t k = 0; end == 0 && k < b->count; k++)
-        end = gdal_raster_write(raster, k, row, rows, block->pixels[k]);
+        end = gdal_raster_write(raster, b->offset + k, row, rows, block->pixels[k]);
     progress_points((uint64_t)(row + rows) * b->grid->columns,
                     (double)(row + rows) / b->grid->rows);
     return end;

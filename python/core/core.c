@@ -15,10 +15,10 @@ static int core_exec(PyObject *module)
                    location_init(module, state) || locator_init(module, state) ||
                    surface_init(module, state) || star_init(module, state) ||
                    prober_init(module, state) || editor_init(module, state) ||
-                   operator_init(module, state) || check_init(module) || mend_init(module) ||
-                   layouts_init(module) || triangulation_init(module) || files_init(module) ||
-                   points_init(module) || borrowed_init(module) || segments_init(module) ||
-                   core_add_numbers(module)
+                   operator_init(module, state) || polygons_init(module, state) ||
+                   check_init(module) || mend_init(module) || layouts_init(module) ||
+                   triangulation_init(module) || files_init(module) || points_init(module) ||
+                   borrowed_init(module) || segments_init(module) || core_add_numbers(module)
                ? -1
                : 0;
 }
@@ -34,6 +34,7 @@ static int core_traverse(PyObject *module, visitproc visit, void *arg)
     Py_VISIT(state->prober_type);
     Py_VISIT(state->editor_type);
     Py_VISIT(state->operator_type);
+    Py_VISIT(state->polygons_type);
     Py_VISIT(state->memory_type);
     Py_VISIT(state->input_error);
     Py_VISIT(state->limit_error);
@@ -52,6 +53,7 @@ static int core_clear(PyObject *module)
     Py_CLEAR(state->prober_type);
     Py_CLEAR(state->editor_type);
     Py_CLEAR(state->operator_type);
+    Py_CLEAR(state->polygons_type);
     Py_CLEAR(state->memory_type);
     Py_CLEAR(state->input_error);
     Py_CLEAR(state->limit_error);

@@ -45,6 +45,7 @@ from meshwalk._mend import MendChange, Mended, mend
 from meshwalk._mesh import Mesh, MeshInfo
 from meshwalk._operator import Operator
 from meshwalk._plot import explain, plot
+from meshwalk._polygons import PolygonHits, Polygons
 from meshwalk._prober import NearestPoints, Prober, Touches, TouchState
 from meshwalk._segments import Segments
 from meshwalk._star import Star, StarInfo, direction_to_lonlat, lonlat_to_direction
@@ -87,6 +88,8 @@ __all__ = [
     "NearestPoints",
     "Operator",
     "OptimumWarning",
+    "PolygonHits",
+    "Polygons",
     "Prober",
     "Segments",
     "SkippedRingWarning",

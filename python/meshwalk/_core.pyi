@@ -114,6 +114,21 @@ def operator_from_locations(
 _Mesh = TypeVar("_Mesh", bound=Mesh)
 _Locator = TypeVar("_Locator", bound=Locator)
 
+class Polygons:
+    def at(
+        self, points: Buffer, threads: int, progress: Progress | None, /
+    ) -> tuple[memoryview, memoryview]: ...
+    def crossing(self) -> memoryview: ...
+    def describe(self) -> tuple[int, int, int]: ...
+
+def polygons_from_rings(
+    points: Buffer,
+    segments: Buffer,
+    polygon: Buffer,
+    threads: int,
+    progress: Progress | None,
+    /,
+) -> Polygons: ...
 def operator_from_entries(
     row: Buffer,
     column: Buffer,

@@ -322,4 +322,15 @@ run triangulate many.xyz --constraints small.json -o small.off; exits 0
 says '^meshwalk: many\.xyz: 27 of its 36 points lie outside of the polygons in small\.json.*--keep hull'
 run triangulate many.xyz --constraints small.json --keep hull --crs EPSG:4326 -o small.off; exits 0
 says_nothing
+# A vertex where two lines cross gets its height from the lower-numbered of the two lines.
+printf 'x,y,z\n-9,-9,0\n9,-9,0\n9,9,0\n-9,9,0\n' >corners.csv
+line() { # line "POSITION, POSITION": a feature with a line
+    echo "{\"type\": \"Feature\", \"geometry\": {\"type\": \"LineString\", \"coordinates\": [$1]}}"
+}
+echo "{\"type\": \"FeatureCollection\", \"features\": [$(line '[-8, 8, 100], [-6, 8, 100]'),
+    $(line '[0, 0, 10], [4, 0, 14]'), $(line '[1, -1, 50], [1, 1, 50]'),
+    $(line '[3, -1, 60], [3, 1, 60]')]}" >crossed.geojson
+run triangulate -q corners.csv --constraints crossed.geojson --split -o crossed.off; exits 0
+holds "both crossings are along the second line" test \
+    "$(sed -n 3,16p crossed.off | grep -E '^[13] 0 ' | sort | xargs)" == '1 0 11 3 0 13'
 finish

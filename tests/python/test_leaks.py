@@ -51,6 +51,15 @@ def _use_meshes(folder: Path) -> None:
     locator.locate(POINTS, hints=hit.triangle)
     hit.interpolate(np.zeros((3, 400)).T, progress=lambda stage, done: None)
     pickle.loads(pickle.dumps((mesh, locator, hit, cursor, meshwalk.Operator(hit))))
+    parcels = meshwalk.Polygons(SQUARE, RING, [0] * 4)
+    _ = (
+        parcels.at(POINTS).first,
+        parcels.crossing,
+        len(parcels),
+        pickle.loads(pickle.dumps(parcels)),
+    )
+    with contextlib.suppress(meshwalk.InputError):
+        meshwalk.Polygons(SQUARE, RING[:3], [0] * 3)
     meshwalk.mend([*SQUARE, [6, 0]], [[0, 1, 2], [2, 3, 0], [0, 5, 2], [0, 0, 9]]).mesh()
     with contextlib.suppress(meshwalk.InputError):
         meshwalk.mend(SQUARE, [[0, 1, 9]], "weld")

@@ -1,4 +1,4 @@
-/* check_object.c - the defects of a mesh, in the plane or as a surface in space. */
+/* check_object.c - the defects of a mesh: in the plane, as a surface in space, or as a star. */
 #include "engine/mesh_object.h"
 
 #include <stdlib.h>
@@ -6,14 +6,20 @@
 /* web/js/mesh.js reads defects by these places. */
 _Static_assert(sizeof(mw_defect) == 20, "defects as JavaScript reads them");
 
-mw_check *WEB_EXPORT(web_check)(const web_mesh *m, int as_surface)
+static mw_status check_run(const web_mesh *m, int as, const double centre[3], mw_check *check)
 {
     mw_arrays arrays = mw_mesh_file_arrays(&m->file);
+    mw_star_options star = {.centre = {centre[0], centre[1], centre[2]}};
+    if (as == 0) return mw_check_arrays(&arrays, NULL, check, &web_error);
+    if (as == 1) return mw_surface_check_arrays(&arrays, 0, NULL, check, &web_error);
+    return mw_star_check_arrays(&arrays, 1, &star, check, &web_error);
+}
+
+/* 0: in the plane; 1: as a surface; 2: as a polyhedron that is star-shaped about a centre. */
+mw_check *WEB_EXPORT(web_check)(const web_mesh *m, int as, double x, double y, double z)
+{
     mw_check *check = calloc(1, sizeof *check);
-    if (!check) return NULL;
-    mw_status status = as_surface ? mw_surface_check_arrays(&arrays, 0, NULL, check, &web_error)
-                                  : mw_check_arrays(&arrays, NULL, check, &web_error);
-    if (status == MW_OK) return check;
+    if (!check || check_run(m, as, (const double[3]){x, y, z}, check) == MW_OK) return check;
     free(check);
     return NULL;
 }

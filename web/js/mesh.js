@@ -98,10 +98,11 @@ export class Mesh {
     });
   }
 
-  /** Every defect; of a surface in space if `asSurface`. */
-  check(asSurface = false) {
+  /** Every defect of a mesh in the "plane", of a "surface", or of a "star" about a centre. */
+  check(as = "plane", centre = [0, 0, 0]) {
     const { engine, address } = this;
-    const check = engine.need(engine.call.web_check(address, asSurface ? 1 : 0));
+    const way = ["plane", "surface", "star"].indexOf(as);
+    const check = engine.need(engine.call.web_check(address, way, ...centre));
     const count = engine.call.web_check_count(check);
     const defects = Array.from({ length: count }, (_, i) => this.defect(check, i));
     const valid = engine.call.web_check_valid(check) === 1;

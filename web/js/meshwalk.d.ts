@@ -83,8 +83,8 @@ export class Mesh {
   links(): Uint32Array;
   /** Throws if the arrays are unusable: check() tells why. */
   describe(): MeshInfo;
-  /** Every defect, as a mesh of the plane or as a surface in space. */
-  check(asSurface?: boolean): { valid: boolean; defects: Defect[] };
+  /** Every defect: as a mesh of the plane, as a surface, or as a star about a centre. */
+  check(as?: "plane" | "surface" | "star", centre?: Point): { valid: boolean; defects: Defect[] };
   /** Release the memory. Free its locators before. */
   free(): void;
 }

@@ -2,6 +2,12 @@
 
 const TOOL_SPACES = { walk: "plane", profile: "plane", ray: "space", probe: "space" };
 
+const VERDICTS = {
+  plane: ["an embedding: every promise holds", "in the plane"],
+  surface: ["a sound surface", "as a surface"],
+  star: ["star-shaped about the centre", "as a star"],
+};
+
 class App {
   constructor(meshwalk) {
     this.meshwalk = meshwalk;
@@ -40,7 +46,9 @@ class App {
     this.stage.show(mesh, topology);
     this.colours.show();
     this.loopPanel.show(this.describe());
-    this.checks = { plane: mesh.check(), space: mesh.hasHeights ? mesh.check(true) : null };
+    this.as = as === "star" ? "star" : "surface";
+    this.checks = { plane: mesh.check(),
+      space: mesh.hasHeights ? mesh.check(this.as, centre) : null };
     this.setSpace(as && as !== "plane" ? "space" : this.likelySpace());
   }
 
@@ -93,8 +101,7 @@ class App {
 
   showVerdict(count, { valid, defects }, space) {
     const verdict = byId("verdict");
-    const [good, bad] = space === "space" ? ["a sound surface", "as a surface"]
-      : ["an embedding: every promise holds", "in the plane"];
+    const [good, bad] = VERDICTS[space === "space" ? this.as : "plane"];
     const flat = valid && defects.length >= this.mesh.triangleCount; // valid ones are flat only
     verdict.textContent = flat ? "⚠ no triangle with an area: nothing to locate in"
       : valid ? `✓ ${good}` : `⚠ ${plural(count, "defect")} ${bad}`;
@@ -206,10 +213,8 @@ class App {
     const { picture, ratio } = this.stage;
     const triangle = picture.triangleAt(...screen.map((value) => Math.floor(value * ratio)));
     if (triangle === null) return null;
-    const [a, b, c] = this.topology.corners(triangle);
-    const [u, v] = [b, c].map((corner) => corner.map((value, k) => value - a[k]));
-    const normal = [0, 1, 2].map((k) => u[(k + 1) % 3] * v[(k + 2) % 3] -
-      u[(k + 2) % 3] * v[(k + 1) % 3]);
+    const [a] = this.topology.corners(triangle);
+    const normal = this.topology.outward(triangle, [0, 0, 0]);
     const along = (vector) => normal.reduce((sum, part, k) => sum + part * vector[k], 0);
     const part = along(point.map((value, k) => a[k] - value)) / along(away);
     return point.map((value, k) => value + part * away[k]);

@@ -80,6 +80,14 @@ class SpaceCamera {
       this.size[1] / 2 + this.shift[1] - this.scale * along(up)];
   }
 
+  /** Look against a direction, so that what faces it is seen. */
+  face([x, y, z]) {
+    const length = Math.hypot(x, y, z);
+    if (!(length > 0)) return;
+    this.yaw = Math.atan2(x, -y);
+    this.pitch = Math.asin(z / length);
+  }
+
   /** The line of sight through a place of the screen: a point of it, and its direction. */
   sight([x, y]) {
     const [right, up, away] = this.axes();

@@ -22,7 +22,7 @@ class DefectPanel {
     if (defects.length > DEFECTS_SHOWN) this.tell(`The first ${DEFECTS_SHOWN} of ` +
       `${plural(defects.length, "defect")}; 'meshwalk check${this.as()}' lists all.`);
     if (voided) this.tell(`So long as they are there, a promise does not hold: ${voided}.`);
-    if (!defects.length) this.tell(space === "space" ? "None, as a surface." : "None.");
+    if (!defects.length) this.tell(space === "space" ? `None, as a ${this.app.as}.` : "None.");
     if (space === "space") this.tellPlane();
     return real;
   }
@@ -54,6 +54,10 @@ class DefectPanel {
       other.setAttribute("aria-current", other === button);
     this.explain(defect);
     const box = topology.box(this.triangles(), this.vertices());
+    if (stage.space === "space" && defect.triangle !== null) {
+      const { low, high } = topology.extent();
+      stage.camera.face(topology.outward(defect.triangle, low.map((v, k) => (v + high[k]) / 2)));
+    }
     if (Number.isFinite(box.low[0])) stage.goTo(box);
     else stage.drawOverlay();
   }
@@ -78,7 +82,7 @@ class DefectPanel {
 
   /** The option of the command line for a surface. */
   as() {
-    return this.space === "space" ? " --as surface" : "";
+    return this.space === "space" ? ` --as ${this.app.as}` : "";
   }
 
   triangles() {

@@ -27,6 +27,16 @@ class Topology {
     return (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]);
   }
 
+  /** A normal of a triangle in space, on the side that points away from a middle. */
+  outward(triangle, middle) {
+    const [a, b, c] = this.corners(triangle);
+    const [u, v] = [b, c].map((corner) => [0, 1, 2].map((k) => corner[k] - a[k]));
+    const normal = [0, 1, 2].map((k) =>
+      u[(k + 1) % 3] * v[(k + 2) % 3] - u[(k + 2) % 3] * v[(k + 1) % 3]);
+    const side = normal.reduce((sum, part, k) => sum + part * (a[k] - middle[k]), 0);
+    return side < 0 ? normal.map((part) => -part) : normal;
+  }
+
   /** Border edges as pairs of vertices, with the mesh on the left. */
   findBorder() {
     const found = [];

@@ -1,7 +1,7 @@
 // compare.mjs MODULE MESHWALK DATA: the engine in WebAssembly answers as the program does, bit for
 // bit, and reads the same files. MW_TEST_LONG=1 compares 10^6 answers, else a tenth.
 import assert from "node:assert/strict";
-import { execFileSync } from "node:child_process";
+import { execFileSync, spawnSync } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
@@ -93,6 +93,13 @@ function compareSpace(path, from, to) {
   assert.deepEqual(Array.from(probe.iterations), told.map(([, , iteration]) => iteration));
   assert.equal(surface.probe(from, motion, { certain: true }).state, "hit");
   surface.setCentre([0, 0, 0]);
+  for (const [as, centre] of [["star", "0,0,0"], ["star", "0,0,5"], ["surface", null]]) {
+    const how = centre ? ["--as", as, "--centre", centre] : ["--as", as];
+    const { stdout } = spawnSync(program, ["check", "--json", ...how, path], OUTPUT);
+    const own = mesh.check(as, centre ? centre.split(",").map(Number) : undefined);
+    assert.deepEqual(own.defects.map((defect) => [defect.kind, defect.text]),
+      JSON.parse(stdout).defects.map((defect) => [defect.kind, defect.text]));
+  }
   for (const { name } of meshwalk.starWalks) {
     const way = surface.followRay(from, to, { walk: name });
     assert.deepEqual(Array.from(way.triangles),
