@@ -98,6 +98,9 @@ for time in x 2..1 1.. nearest: nearest:nan -1; do
 done
 run sample flow.nc points.csv --time all --field zeta,w
 refused 3 "flow.nc: has no field 'w' over time; --field may be of: zeta u"
+run sample flow.nc points.csv --field zeta
+refused 3 "flow.nc: 'zeta' has values over time; 'meshwalk sample --time all' takes them"
+run sample flow.nc points.csv --field w; refused 3 'nothing to sample'
 run sample flow.nc points.csv --time all --outside nearest
 refused 2 "'--outside' is not for values"
 run sample flow.nc points.csv --time-column t --wide; refused 2 '--wide is for --time'
