@@ -327,6 +327,8 @@ void measure_queries(const Model &model, const ProgramOptions &options, TextTabl
             star_queries.enter(walk, start, false, false);
         star_queries.enter(walk, MW_STAR_START_LAST, false, true);
     }
+    star_queries.enter(MW_STAR_WALK_AUTO, MW_STAR_START_AUTO, false, false);
+    star_queries.enter(MW_STAR_WALK_AUTO, MW_STAR_START_AUTO, false, true);
     star_queries.enter(MW_STAR_WALK_AUTO, MW_STAR_START_AUTO, true, false);
     star_queries.measure(model, options, table);
 }

@@ -264,6 +264,10 @@ typedef struct mw_star_cursor {
 /**
  * Initialise a cursor.
  *
+ * MW_STAR_START_AUTO begins at the facet of the query before if the ray is near it, else where a
+ * curve over the sphere leads: near the answer, in any order of the queries. Where that walk meets
+ * a vertex of 64 facets or more, it jumps to the facet there that faces the ray.
+ *
  * MW_STAR_START_SORTED acts as MW_STAR_START_LAST in single queries. In a batch of more queries
  * than facets each query starts at the facet of the previous one; in a smaller batch it starts
  * where the curve leads.
@@ -326,7 +330,8 @@ MW_API mw_status mw_star_locate_batch(const mw_star *star, const double *points,
                                       mw_error *error);
 
 /**
- * The facets that one query visits, in order, the first one included.
+ * The facets that one query visits, in order, the first one included. Each is linked to the one
+ * before, unless the walk has jumped round a vertex of many facets (mw_star_cursor_init()).
  *
  * @param star      the star
  * @param cursor    a cursor of this star

@@ -7,6 +7,7 @@
 #ifndef MW_SRC_STAR_STAR_H
 #define MW_SRC_STAR_STAR_H
 
+#include "base/hilbert.h"
 #include "base/job.h"
 #include "surface/surface.h"
 
@@ -36,6 +37,20 @@ typedef struct mw_star_facet {
  * 2^-24, as the sum of |n_k f_k| is at most 1. */
 #define MW_STAR_SURE 0x1p-21f
 
+/* A vertex of many facets: see star_hubs.h. */
+typedef struct mw_star_hub {
+    uint32_t vertex;       /* its representative */
+    uint32_t first, count; /* its part of the ring */
+    uint32_t half;         /* the first of its half-edges to the right of its first one */
+} mw_star_hub;
+
+typedef struct mw_star_hubs {
+    mw_star_hub *hub; /* by vertex; NULL: there is none */
+    uint32_t *ring;   /* half-edges that start at the hub, counter-clockwise */
+    uint32_t count;
+    uint32_t used; /* of the ring: less than 3 a facet */
+} mw_star_hubs;
+
 struct mw_star {
     const mw_surface *surface;
     mw_triangle *tri;     /* while preparing: the facets in the user's order, oriented; else NULL */
@@ -43,6 +58,9 @@ struct mw_star {
     /* For the upper bits of a curve key, a facet near there; see mw__star_guide_facet. */
     uint32_t *guide;
     uint32_t guide_bits;
+    mw_hilbert curve; /* of keys */
+    float near;       /* a query this near to a facet's cone starts there: see star_start.c */
+    mw_star_hubs hubs;
     /* Per vertex: its representative, from the surface or own; NULL: no two coincide. */
     const uint32_t *coincident;
     uint32_t *own_coincident;
@@ -152,6 +170,14 @@ static MW_INLINE uint32_t mw__star_guide_bits(uint32_t facets)
     uint32_t bits = 1;
     while (bits < 30 && facets >> bits >= 4) bits++;
     return bits;
+}
+
+/* The key of the direction d, not zero, on the curve over the sphere. */
+static MW_INLINE uint32_t mw__star_curve_key(const mw_star *star, const double d[3])
+{
+    double x, y;
+    mw__star_unfold(d, &x, &y);
+    return mw__hilbert_key(&star->curve, x, y);
 }
 
 /* A facet near a key of the curve over the sphere. */

@@ -3,6 +3,7 @@
 #include "base/options.h"
 #include "star/flat_facets.h"
 #include "star/kernel_check.h"
+#include "star/star_hubs.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -91,7 +92,9 @@ static mw_status star_decide(mw_star *star, mw_job *job, mw_error *error)
     star_fill_owners(star);
     star_replace_voids(star, star_any_facet(star));
     mw__job_stage(job, "laying out facets", 0.4);
-    return mw__star_lay_out(star, job) ? MW_OK : mw__fail_memory(error);
+    if (!mw__star_lay_out(star, job)) return mw__fail_memory(error);
+    mw__star_hubs_release(&star->hubs);
+    return mw__star_hubs_create(&star->hubs, star) ? MW_OK : mw__fail_memory(error);
 }
 
 /* Fill in everything that depends on coordinates and links. */
@@ -118,6 +121,14 @@ static mw_status star_prepare(mw_star *star, mw_job *job, mw_error *error)
 static uint32_t star_fuel(uint32_t facets)
 {
     return (uint32_t)(4096 + 45 * sqrt(facets));
+}
+
+/* A facet takes up 4 pi / n of the sphere, on average. */
+#define NEAR_FACETS 2.5
+
+static float star_near(uint32_t facets)
+{
+    return (float)fmin(NEAR_FACETS * sqrt(12.6 / facets), 0.5);
 }
 
 static bool star_allocate(mw_star *star, bool angles)
@@ -148,6 +159,8 @@ mw_status mw_star_create(const mw_surface *surface, const mw_star_options *optio
     star->tri_count = surface->tri_count;
     star->point_count = surface->point_count;
     star->fuel = star_fuel(surface->tri_count);
+    star->near = star_near(surface->tri_count);
+    star->curve = mw__hilbert((const double[2]){-1, -1}, (const double[2]){1, 1});
     memcpy(star->centre, options->centre, sizeof star->centre);
     mw_job job = mw__job(1, options->progress);
     status = star_allocate(star, options->angles) ? star_prepare(star, &job, error)
@@ -171,6 +184,7 @@ void mw_star_destroy(mw_star *star)
     if (!star) return;
     free(star->facet);
     free(star->guide);
+    mw__star_hubs_release(&star->hubs);
     free(star->own_coincident);
     free(star->owner);
     free(star->angle);
@@ -185,7 +199,8 @@ void mw_star_describe(const mw_star *star, mw_star_info *info)
     size_t facets = star->tri_count * sizeof *star->facet,
            owners = star->point_count * sizeof *star->owner;
     *info = (mw_star_info){
-        .bytes = sizeof *star + facets + owners + guide + angles + coincident,
+        .bytes = sizeof *star + facets + owners + guide + angles + coincident +
+                 mw__star_hubs_bytes(&star->hubs),
         .angle_bytes = angles,
         .flat_facets = star->tri_count - star->area_count,
         .centre = {star->centre[0], star->centre[1], star->centre[2]},

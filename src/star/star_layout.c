@@ -14,26 +14,22 @@
 
 /* The key of the direction to the middle of a facet. The direction is rounded, and halved so that
  * it does not overflow. */
-static uint32_t facet_curve_key(const mw_hilbert *hilbert, const mw_star *star,
-                                const mw_triangle *t)
+static uint32_t facet_curve_key(const mw_star *star, const mw_triangle *t)
 {
-    double d[3], x, y;
+    double d[3];
     for (int k = 0; k < 3; k++) {
         double middle = mw__star_corner_point(star, t->v, 0)[k] / 6 +
                         mw__star_corner_point(star, t->v, 1)[k] / 6 +
                         mw__star_corner_point(star, t->v, 2)[k] / 6;
         d[k] = middle - star->centre[k] / 2;
     }
-    mw__star_unfold(d, &x, &y);
-    return mw__hilbert_key(hilbert, x, y);
+    return mw__star_curve_key(star, d);
 }
 
 static void facets_sort(const mw_star *star, mw_key *keys, mw_key *scratch)
 {
-    static const double low[2] = {-1, -1}, high[2] = {1, 1};
-    mw_hilbert hilbert = mw__hilbert(low, high);
     for (uint32_t t = 0; t < star->tri_count; t++)
-        keys[t] = (mw_key){facet_curve_key(&hilbert, star, &star->tri[t]), t};
+        keys[t] = (mw_key){facet_curve_key(star, &star->tri[t]), t};
     mw__sort_keys(keys, scratch, star->tri_count);
 }
 

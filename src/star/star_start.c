@@ -52,6 +52,29 @@ static uint32_t star_start_indexed(const mw_star *star, const mw_star_index *ind
     return MW_LIKELY(t < star->tri_count) ? t : t % star->tri_count;
 }
 
+/* Is the ray near a facet: not farther beyond any of its edges than star->near? This reads one
+ * cache line, which the query before has just read. It is only a guide. */
+static bool star_ray_is_near(const mw_star *star, uint32_t t, const float f[3])
+{
+    const mw_star_facet *facet = &star->facet[t];
+    float least = INFINITY;
+    for (uint32_t k = 0; k < 3; k++) {
+        const float *n = facet->normal[k];
+        float side = n[0] * f[0] + n[1] * f[1] + n[2] * f[2];
+        least = side < least ? side : least;
+    }
+    return least > -star->near;
+}
+
+/* From the facet of the query before, if the ray is near; else from where the curve leads. */
+static uint32_t star_start_auto(const mw_star *star, uint32_t last, const mw_star_walk *walk)
+{
+    if (last < star->tri_count && star_ray_is_near(star, last, walk->f)) return last;
+    double half[3];
+    for (int k = 0; k < 3; k++) half[k] = walk->q[k] / 2 - star->centre[k] / 2;
+    return mw__star_guide_facet(star, mw__star_curve_key(star, half));
+}
+
 uint32_t mw__star_start(const mw_star *star, const mw_star_cursor *cursor, uint32_t last,
                         mw_star_walk *walk)
 {
@@ -65,7 +88,7 @@ uint32_t mw__star_start(const mw_star *star, const mw_star_cursor *cursor, uint3
     case MW_STAR_START_SORTED:
         if (last < star->tri_count) return last;
         break;
-    case MW_STAR_START_AUTO:
+    case MW_STAR_START_AUTO: return star_start_auto(star, last, walk);
     case MW_STAR_START_SAMPLE:
     case MW_STAR_START_COUNT: break;
     }

@@ -91,14 +91,14 @@ prints_line '^1,0.75,0.25,5,6,inside,0,'
 # What is not clear is asked for, with the columns.
 for table in 'id,a,b' 'lat,depth' 'lon,depth' 'x,z' 'id,x' 'depth,x'; do
     run_on "$table"$'\n' locate square.off - -o o.csv
-    refused 2 "standard input: which of its [23] columns are x,y\? They are: ${table//,/, }; --columns tells, by names"
+    refused 2 "standard input: which of its [23] columns are x,y\? They are: ${table//,/, }; use --columns, with names"
 done
 run_on $'id,x,y,lon,lat\n1,0,0,5,6\n' locate square.off - -o o.csv
 refused 2 'Both x,y and lon,lat fit\. They are: id, x, y, lon, lat;'
 run_on $'id,x,y,X\n1,0,0,5\n' locate square.off - -o o.csv
 refused 2 'Several are called X\. They are'
 run_on $'1 0.5 0.5\n' locate square.off - -o o.csv
-refused 2 'which of its 3 columns are x,y\? They have no names; --columns'
+refused 2 'which of its 3 columns are x,y\? They have no names; use --columns'
 run_on $'x\n1\n' locate square.off - -o o.csv
 refused 3 'standard input: has 1 column, but a row is x,y'
 run_on $'id,x,y,X\n1,0,0,5\n' locate square.off --columns x,y - -o o.csv

@@ -121,6 +121,7 @@ static void expect_volume(const ground *a, const ground *b, double range)
     expect_near(back.level_area, is.level_area, size);
     assert_true((is.parts == 0) == (should.area == 0));
     assert_int_equal(back.parts, is.parts);
+    assert_true(is.parts <= (uint64_t)a->of.triangle_count * b->of.triangle_count * 4);
     assert_memory_equal(&is, &again, sizeof is);
 }
 

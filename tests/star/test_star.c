@@ -285,6 +285,85 @@ static void test_short_walks(void **state)
     star_shape_free(&p);
 }
 
+/* Two poles over a ring of m vertices at all heights. Coordinates are integers. */
+static star_shape make_poles(uint32_t m, uint64_t *seed)
+{
+    star_shape p = {0};
+    for (uint32_t i = 0; i < m; i++) {
+        double angle = 2 * 3.14159265358979 * i / m;
+        star_shape_point(&p, rint(0x1p24 * cos(angle)), rint(0x1p24 * sin(angle)),
+                         (double)mw__random_below(seed, 1 << 22) - (1 << 21));
+    }
+    uint32_t north = star_shape_point(&p, 0, 0, 0x1p23), south = star_shape_point(&p, 0, 0, -1000);
+    for (uint32_t i = 0; i < m; i++) {
+        star_shape_triangle(&p, i, (i + 1) % m, north);
+        star_shape_triangle(&p, (i + 1) % m, i, south);
+    }
+    star_shape_shuffle(&p, seed);
+    return p;
+}
+
+/* Vertices of very many facets: answers, also where each facet has vertices of its own, and that no
+ * walk goes round such a vertex facet by facet. */
+static void test_poles(void **state)
+{
+    (void)state;
+    uint64_t seed = 47;
+    static const double origin[3] = {0, 0, 0};
+    for (uint32_t m = 60; m <= 240; m += 60) {
+        star_shape p = make_poles(m, &seed);
+        check_rays(&p, (mw_surface_options){0}, origin, 0x1p24, 25, &seed);
+        star_shape_tear(&p);
+        check_rays(&p, (mw_surface_options){.weld = 1}, origin, 0x1p24, 10, &seed);
+        star_shape_free(&p);
+    }
+    star_shape p = make_poles(40000, &seed);
+    star_world w = make_world(&p, (mw_surface_options){0}, (mw_star_options){0});
+    enum { N = 2000 };
+    double q[3 * N];
+    mw_location location[N];
+    mw_star_query_options options = {.counters = 1};
+    mw_star_cursor cursor;
+    mw_counters counters;
+    for (size_t i = 0; i < N; i++) draw(&p, origin, 0x1p24, &seed, q + 3 * i);
+    expect_ok(mw_star_locate_batch(w.star, q, N, 0, &options, location, &counters, NULL), "batch",
+              NULL);
+    expect_ok(mw_star_cursor_init(w.star, &options, &cursor, NULL), "cursor", NULL);
+    for (size_t i = 0; i < N; i++) {
+        mw_location alone = mw_star_locate(w.star, &cursor, q + 3 * i);
+        expect_location(&alone, &location[i], q + 3 * i);
+    }
+    assert_true(counters.triangles_max < 64 && cursor.counters.triangles_max < 64);
+    assert_int_equal(counters.handovers + cursor.counters.handovers, 0);
+    release_world(&w);
+    star_shape_free(&p);
+}
+
+/* Single queries begin near their end, in any order: at the last facet, or where the curve
+ * leads. */
+static void test_single_queries(void **state)
+{
+    (void)state;
+    uint64_t seed = 53;
+    star_shape p = star_shape_octahedron(6);
+    star_shape_shuffle(&p, &seed);
+    star_world w = make_world(&p, (mw_surface_options){0}, (mw_star_options){0});
+    enum { N = 2000 };
+    for (int along = 0; along < 2; along++) {
+        mw_star_cursor cursor;
+        mw_star_query_options options = {.counters = 1};
+        expect_ok(mw_star_cursor_init(w.star, &options, &cursor, NULL), "cursor", NULL);
+        for (int i = 0; i < N; i++) {
+            double angle = 6.28 * i / N, q[3] = {cos(angle), sin(angle), sin(5 * angle) / 2};
+            for (int k = 0; k < 3 && !along; k++) q[k] = random_unit(&seed) - 0.5;
+            mw_star_locate(w.star, &cursor, q);
+        }
+        assert_true(cursor.counters.triangles_visited < (along ? 3 : 4) * N);
+    }
+    release_world(&w);
+    star_shape_free(&p);
+}
+
 /* A path begins at the first facet, crosses edges, and ends where the ray is; it is as long as the
  * counters say. */
 static void test_paths(void **state)
@@ -687,6 +766,8 @@ int main(void)
         cmocka_unit_test(test_welded),
         cmocka_unit_test(test_indices_and_batches),
         cmocka_unit_test(test_short_walks),
+        cmocka_unit_test(test_poles),
+        cmocka_unit_test(test_single_queries),
         cmocka_unit_test(test_paths),
         cmocka_unit_test(test_refused),
         cmocka_unit_test(test_turned_facet),

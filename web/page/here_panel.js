@@ -76,7 +76,7 @@ class HerePanel {
     this.point = point;
     this.location = found;
     this.ties = found ? app.topology.tie(found) : [];
-    const rows = [["x, y", point.map((value) => readable(value, 9)).join(", ")]];
+    const rows = [["x, y", point.map((value) => Number(value.toPrecision(9))).join(", ")]];
     if (found) rows.push(...this.locationRows(found));
     else rows.push(["answer", "none: the mesh has a defect"]);
     this.fill(rows);

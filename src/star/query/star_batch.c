@@ -130,15 +130,12 @@ static mw_counters star_batch_answer(const mw_batch *queries, uint32_t first, ui
 /* Sort queries along a Hilbert curve over the sphere, the same as that of the facets. */
 static void star_batch_sort(const mw_batch *queries, size_t n, mw_key *keys, mw_key *scratch)
 {
-    static const double low[2] = {-1, -1}, high[2] = {1, 1};
     const mw_star *star = ((const star_batch *)queries)->star;
-    mw_hilbert hilbert = mw__hilbert(low, high);
     for (size_t i = 0; i < n; i++) {
-        double d[3], x, y;
+        double d[3];
         for (int k = 0; k < 3; k++)
             d[k] = queries->points[i * queries->stride + (size_t)k] / 2 - star->centre[k] / 2;
-        mw__star_unfold(d, &x, &y);
-        keys[i] = (mw_key){mw__hilbert_key(&hilbert, x, y), (uint32_t)i};
+        keys[i] = (mw_key){mw__star_curve_key(star, d), (uint32_t)i};
     }
     mw__sort_keys(keys, scratch, n);
 }

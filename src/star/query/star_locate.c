@@ -2,6 +2,7 @@
  * lowest-numbered of the facets that the ray meets is the answer (lowest_facet). */
 #include "star/query/star_locate.h"
 
+#include "star/star_hubs.h"
 #include "star/star_location.h"
 #include "star/star_walk_run.h"
 
@@ -75,19 +76,70 @@ const mw_star_kernels *mw__star_kernels_of(const mw_star_cursor *cursor)
     return kernels[cursor->walk];
 }
 
+/* --- hubs --- */
+
+/* On a star with hubs a walk of the library's choice goes so many steps before it looks for a hub.
+ * From a good start most walks are much shorter. */
+#define STEPS_BETWEEN_HUBS 12u
+
+static bool star_query_minds_hubs(const mw_star *star, const mw_star_cursor *cursor)
+{
+    return star->hubs.count > 0 && cursor->walk == MW_STAR_WALK_AUTO;
+}
+
+static uint32_t star_query_fuel(const mw_star *star, const mw_star_cursor *cursor)
+{
+    if (cursor->walk == MW_STAR_WALK_STRAIGHT) return UINT32_MAX;
+    return star_query_minds_hubs(star, cursor) ? STEPS_BETWEEN_HUBS : star->fuel;
+}
+
+/* Where the walk goes on: from the facet of the n-th hub of its facet that faces the ray, counted
+ * round; from where it is if the facet has none. */
+static uint32_t star_facet_to_go_on(const mw_star_walk *walk, uint32_t n)
+{
+    const mw_star_hub *hub[3];
+    uint32_t count = 0;
+    for (uint32_t k = 0; k < 3; k++) {
+        hub[count] = mw__star_hub_at(walk->star, walk->t, k);
+        count += hub[count] != NULL;
+    }
+    return count ? mw__star_hub_facet(walk->star, hub[n % count], walk->q) : walk->t;
+}
+
+static void star_walk_jump(mw_star_walk *walk, uint32_t t, mw_star_trace *trace)
+{
+    mw__star_walk_enter(walk, t, MW_STAR_STAGE_WALK, 0);
+    if (walk->work) walk->work->visited++;
+    if (trace) mw__star_trace_add(trace, walk);
+}
+
+/* Go on with a walk that took long. If it takes too long in all, another walk has to end it. */
+static mw_star_verdict star_query_walk_on(mw_star_walk *walk, mw_star_trace *trace)
+{
+    mw_star_verdict verdict = MW_STAR_DRY;
+    for (uint32_t n = 0; n < walk->star->fuel / STEPS_BETWEEN_HUBS && verdict == MW_STAR_DRY; n++) {
+        uint32_t t = star_facet_to_go_on(walk, n);
+        if (t != walk->t) star_walk_jump(walk, t, trace);
+        walk->fuel = STEPS_BETWEEN_HUBS;
+        verdict = mw__star_walk_run(walk, kernels[MW_STAR_WALK_AUTO], trace);
+    }
+    return verdict;
+}
+
 void mw__star_query_begin(mw_star_walk *walk, const mw_star *star, const mw_star_cursor *cursor,
                           const double q[3], uint32_t last, uint64_t random, mw_star_work *work)
 {
     mw__star_walk_begin(walk, star, q, random, work);
     uint32_t t = mw__star_start(star, cursor, last, walk);
-    mw__star_walk_enter(walk, t, MW_STAR_STAGE_WALK,
-                        cursor->walk == MW_STAR_WALK_STRAIGHT ? UINT32_MAX : star->fuel);
+    mw__star_walk_enter(walk, t, MW_STAR_STAGE_WALK, star_query_fuel(star, cursor));
     if (work) work->visited++;
 }
 
 void mw__star_query_end(const mw_star_cursor *cursor, mw_star_walk *walk, mw_star_verdict verdict,
                         mw_location *location)
 {
+    if (MW_UNLIKELY(verdict == MW_STAR_DRY) && star_query_minds_hubs(walk->star, cursor))
+        verdict = star_query_walk_on(walk, NULL);
     mw__star_walk_go_on(walk, verdict, kernels[cursor->finish], NULL);
     star_settle(walk->star, walk->t, walk->q, location);
 }
@@ -103,6 +155,8 @@ mw_location mw__star_query_answer(const mw_star *star, const mw_star_cursor *cur
                          cursor->count || trace ? &work : NULL);
     if (trace) mw__star_trace_add(trace, &walk);
     mw_star_verdict verdict = mw__star_walk_run(&walk, kernels[cursor->walk], trace);
+    if (MW_UNLIKELY(verdict == MW_STAR_DRY) && star_query_minds_hubs(star, cursor))
+        verdict = star_query_walk_on(&walk, trace);
     bool handed_over = mw__star_walk_go_on(&walk, verdict, kernels[cursor->finish], trace);
     mw_location location;
     star_settle(star, walk.t, point, &location);
