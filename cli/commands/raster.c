@@ -8,6 +8,8 @@
 #include "cli/gdal/gdal_crs.h"
 #include "cli/raster/raster_bands.h"
 #include "cli/raster/raster_like.h"
+#include "cli/raster/raster_mean.h"
+#include "cli/raster/raster_series.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -18,10 +20,11 @@ enum { TYPE_AUTO = 0, TYPE_FLOAT32, TYPE_FLOAT64 };
 typedef struct raster_settings {
     common_settings common;
     raster_grid_wish grid;
+    const char *time, *values;
     const char *like, *field, *derive, *nodata, *vertex_nodata, *driver, *creation, *crs;
     double max_edge;
     int outside, type;
-    bool json;
+    bool json, mean;
 } raster_settings;
 
 static const char *empty_or_nearest_name(int i)
@@ -58,6 +61,16 @@ static const option raster_options[] = {
      "XMIN,YMIN,XMAX,YMAX of the raster (default: that of MESH, grown to multiples of R)", NULL},
     {"field", 0, OPTION_TEXT, offsetof(raster_settings, field), "NAME",
      "the value of the pixels: z or a field of MESH (default: z)", NULL},
+    {"time", 0, OPTION_TEXT, offsetof(raster_settings, time), "STEPS",
+     "values over time: all, FIRST..LAST or N (steps, from 0), or nearest:T. A band for each step "
+     "and field; --field is a list then (default: all fields over time)",
+     NULL},
+    {"values", 0, OPTION_TEXT, offsetof(raster_settings, values), "FILE",
+     "the file with the values over time (default: MESH)", NULL},
+    {"mean", 0, OPTION_FLAG, offsetof(raster_settings, mean), NULL,
+     "the mean over the part of each pixel that MESH covers, by area, instead of the value at its "
+     "centre",
+     NULL},
     {"derive", 0, OPTION_TEXT, offsetof(raster_settings, derive), "LIST",
      "instead, a band for each of slope, aspect (degrees), hillshade, triangle (its number)", NULL},
     {"nodata", 0, OPTION_TEXT, offsetof(raster_settings, nodata), "V",
@@ -93,6 +106,8 @@ typedef struct raster_work {
     raster_like like;
     raster_scan *scan;
     raster_bands bands;
+    raster_series series;
+    raster_mean mean;
     gdal_raster *raster;
     double begin;
 } raster_work;
@@ -154,16 +169,22 @@ static int raster_choose_bands(const raster_settings *s, raster_bands *b)
 /* Refuse wrong settings before the work begins. */
 static int raster_check_settings(const raster_settings *s, const char *mesh, raster_work *w)
 {
-    const char *inputs[] = {mesh, s->like};
+    const char *inputs[] = {mesh, s->values ? s->values : mesh, s->like};
     if (s->like && (s->grid.extent || s->grid.resolution > 0))
         return raster_refuse(
             "--resolution and --extent cannot be used with --like, which sets the pixels");
-    int end = raster_grid_check(&s->grid);
+    if (s->values && !s->time) return raster_refuse("--values is for values over time: --time");
+    if (s->time && (s->derive || s->outside != OUTSIDE_EMPTY || s->vertex_nodata))
+        return raster_refuse("--derive, --outside and --vertex-nodata are not for --time");
+    if (s->mean && (s->time || s->derive || s->outside != OUTSIDE_EMPTY))
+        return raster_refuse("--time, --derive and --outside cannot be used with --mean");
+    int end = s->time ? series_check_time(s->time) : 0;
+    if (end == 0) end = raster_grid_check(&s->grid);
     if (end == 0) end = raster_choose_bands(s, &w->bands);
     if (end == 0) end = crs_check_option("crs", s->crs);
     if (end == 0) end = nodata_parse("vertex-nodata", s->vertex_nodata, &w->wish.field.nodata);
     if (end == 0) end = gdal_raster_check(s->common.output, s->driver);
-    return end ? end : files_check_output(s->common.output, inputs, s->like ? 2 : 1);
+    return end ? end : files_check_output(s->common.output, inputs, s->like ? 3 : 2);
 }
 
 /* --- the grid --------------------------------------------------------------------------------- */
@@ -208,12 +229,13 @@ static int raster_write(const raster_settings *s, const char *path, raster_work 
         names[k] = b->bands[k] == BAND_VALUE ? w->wish.field.field : raster_band_name(b->bands[k]);
     gdal_raster_form form = {.columns = g->columns,
                              .rows = g->rows,
-                             .bands = b->count,
+                             .bands = s->time ? w->series.bands : b->count,
+                             .by_band = s->time != NULL,
                              .corner = {g->west, g->north},
                              .size = {g->width, g->height},
                              .type = b->type,
                              .nodata = b->nodata,
-                             .names = names,
+                             .names = s->time ? (const char *const *)w->series.names : names,
                              .crs = w->mesh.crs ? w->mesh.crs : w->like.crs,
                              .driver = s->driver,
                              .creation = s->creation};
@@ -224,8 +246,12 @@ static int raster_write(const raster_settings *s, const char *path, raster_work 
     b->scan = w->scan;
     b->nearest = s->outside == OUTSIDE_NEAREST;
     b->threads = s->common.threads;
+    w->mean = (raster_mean){.bands = b, .degrees = w->mesh.crs && crs_is_lonlat(w->mesh.crs)};
     progress_phase("writing", s->common.output);
-    if (end == 0) end = raster_bands_write(b, w->raster);
+    if (end == 0)
+        end = s->time   ? raster_series_write(&w->series, b, &w->mesh, w->raster)
+              : s->mean ? raster_mean_write(&w->mean, w->raster)
+                        : raster_bands_write(b, w->raster);
     int closed = gdal_raster_close(w->raster, end == 0);
     if (end == 0) end = closed;
     if (end == 0) raster_warn(s, path, w);
@@ -244,11 +270,14 @@ static int raster_print_report(const raster_settings *s, const raster_work *w)
     report_begin(&r, s->json);
     report_count(&r, "columns", g->columns);
     report_count(&r, "rows", g->rows);
+    if (s->time) report_count(&r, "bands", w->series.bands);
     report_numbers(&r, "resolution", size, g->width == g->height ? 1 : 2);
     report_numbers(&r, "extent", box, 4);
     if (s->max_edge > 0) report_count(&r, "peeled", w->mesh.peeled);
     report_count(&r, "with_value", w->bands.filled);
     report_count(&r, "empty", pixels - w->bands.filled);
+    if (s->mean) report_number(&r, "area", w->mean.area);
+    if (s->mean) report_number(&r, "integral", w->mean.integral);
     report_number(&r, "nodata", w->bands.nodata);
     report_rounded(&r, "seconds", monotonic_seconds() - w->begin);
     report_end(&r);
@@ -264,13 +293,22 @@ static int raster_run(const void *settings, const char *const *operands)
         .field = {.field = s->field ? s->field : "z", .quiet = s->common.quiet},
         .crs = s->crs,
         .max_edge = s->max_edge,
+        .over_time = s->time != NULL,
         .border = s->outside == OUTSIDE_NEAREST};
     int end = raster_check_settings(s, operands[0], &w);
     if (end == 0) end = raster_like_read(&w.like, s->like);
     if (end == 0) end = raster_mesh_read(&w.mesh, operands[0], &w.wish);
+    const series_request request = {.path = s->values,
+                                    .mesh = operands[0],
+                                    .layout = s->common.layout,
+                                    .fields = s->field,
+                                    .time = s->time};
+    if (end == 0 && s->time)
+        end = raster_series_open(&w.series, &request, &w.mesh, s->common.quiet);
     if (end == 0) end = raster_make_grid(s, operands[0], &w);
     if (end == 0) end = raster_write(s, operands[0], &w);
     if (end == 0) end = raster_print_report(s, &w);
+    if (s->time) raster_series_close(&w.series);
     raster_scan_release(w.scan);
     raster_grid_release(&w.grid);
     raster_mesh_release(&w.mesh);

@@ -116,12 +116,17 @@ static char **creation_split(const char *list, const char *const *more)
 /* Drivers that cannot be written row by row copy a GeoTIFF. */
 static int raster_choose_drivers(gdal_raster *r)
 {
-    static const char *const large[] = {"BIGTIFF=IF_SAFER", NULL}, *const none[] = {NULL};
+    static const char *const by_band[] = {"INTERLEAVE=BAND", "BIGTIFF=IF_SAFER", NULL},
+                             *const *const large = by_band + 1, *const *const none = by_band + 2;
     const char *name = r->form.driver ? r->form.driver : raster_driver_name(r->target.path);
     GDALDriverH driver = r->gdal->GDALGetDriverByName(name);
     bool tiff = strcasecmp(name, "GTiff") == 0 &&
                 !(r->form.creation && strstr(r->form.creation, "BIGTIFF"));
-    r->creation = creation_split(r->form.creation ? r->form.creation : "", tiff ? large : none);
+    bool apart =
+        tiff && r->form.by_band && !(r->form.creation && strstr(r->form.creation, "INTERLEAVE"));
+    r->creation = creation_split(r->form.creation ? r->form.creation : "", apart  ? by_band
+                                                                           : tiff ? large
+                                                                                  : none);
     r->scratch = malloc(strlen(r->target.temporary) + 32);
     if (!r->creation || !r->scratch) return fail_memory();
     bool direct = driver_can(r->gdal, driver, GDAL_DCAP_CREATE) && strcasecmp(name, "GPKG") != 0;

@@ -16,6 +16,7 @@ typedef enum raster_type {
 /* A raster to be written. */
 typedef struct gdal_raster_form {
     uint32_t columns, rows, bands;
+    bool by_band; /* the bands are written one after the other */
     double corner[2],
         size[2]; /* the outer corner of the first pixel; widths of a pixel, positive */
     raster_type type;

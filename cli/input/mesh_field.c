@@ -14,6 +14,22 @@ static size_t mesh_field_of_triangles(const mw_mesh_file *file, const char *fiel
     return i < file->triangle_field_count ? i : SIZE_MAX;
 }
 
+/* Does the file have the field, or its layers, over time? */
+static bool mesh_field_is_over_time(const char *path, const char *field)
+{
+    mw_series *series;
+    bool is = false;
+    const size_t length = strlen(field);
+    if (strcmp(path, "-") == 0 || mw_series_open(path, NULL, &series, NULL) != MW_OK) return false;
+    const mw_series_info *info = mw_series_describe(series);
+    for (size_t i = 0; i < info->field_count && !is; i++) {
+        const char *name = info->fields[i].name;
+        is = strncmp(name, field, length) == 0 && (!name[length] || name[length] == ':');
+    }
+    mw_series_close(series);
+    return is;
+}
+
 static int mesh_field_fail(const char *path, const mw_mesh_file *file,
                            const mesh_field_choice *choice)
 {
@@ -29,6 +45,9 @@ static int mesh_field_fail(const char *path, const mw_mesh_file *file,
     else if (mesh_field_of_triangles(file, choice->field) != SIZE_MAX)
         complain("%s: '%s' is a field of triangles; values at vertices are needed here", path,
                  choice->field);
+    else if (mesh_field_is_over_time(path, choice->field))
+        complain("%s: '%s' has values over time; 'meshwalk sample --time all' takes them, or some",
+                 path, choice->field);
     else if (names.size == 0)
         complain("%s: has neither heights nor fields: there is nothing to sample", path);
     else

@@ -11,7 +11,8 @@
 /* Each type of pixels has a loop of its own. */
 #define RASTER_INLINE inline __attribute__((always_inline))
 
-static const char *const names[BAND_COUNT] = {"value", "slope", "aspect", "hillshade", "triangle"};
+static const char *const names[BAND_COUNT] = {"value",  "cell",      "slope",
+                                              "aspect", "hillshade", "triangle"};
 
 const char *raster_band_name(raster_band band)
 {
@@ -83,6 +84,7 @@ static double triangle_property(const raster_mesh *m, raster_band band, uint32_t
 {
     double g[2];
     if (triangle == MW_NONE) return NAN;
+    if (band == BAND_CELL) return m->cells[raster_mesh_face(m, triangle)];
     if (band == BAND_TRIANGLE) return m->numbers ? m->numbers[triangle] : triangle;
     triangle_gradient(m, triangle, g);
     return band == BAND_SLOPE    ? gradient_slope(g)
@@ -139,13 +141,11 @@ static RASTER_INLINE void pixels_store(raster_type type, double nodata, const do
     found[1] += mistakable;
 }
 
-/* Store values in the type of the raster. */
-static void worker_store(strip_worker *w, bool first, const double *values, size_t count,
-                         void *pixels)
+void raster_bands_store(const raster_bands *b, const double *values, size_t count, void *pixels,
+                        uint64_t found[2])
 {
-    uint64_t none[2] = {0}, *found = first ? w->found : none;
-    double nodata = w->bands->nodata;
-    switch (w->bands->type) {
+    double nodata = b->nodata;
+    switch (b->type) {
     case RASTER_FLOAT32: pixels_store(RASTER_FLOAT32, nodata, values, count, pixels, found); break;
     case RASTER_FLOAT64: pixels_store(RASTER_FLOAT64, nodata, values, count, pixels, found); break;
     case RASTER_INT32: pixels_store(RASTER_INT32, nodata, values, count, pixels, found); break;
@@ -199,8 +199,10 @@ static void worker_do_strip(strip_worker *w, const band_block *block, uint32_t s
     if (b->nearest) worker_fill_outside(w, row, rows);
     for (uint32_t k = 0; k < b->count; k++) {
         if (b->bands[k] != BAND_VALUE) worker_derive(w, b->bands[k], count);
-        worker_store(w, k == 0, w->values, count,
-                     block->pixels[k] + before * gdal_raster_size(b->type));
+        uint64_t none[2] = {0};
+        raster_bands_store(b, w->values, count,
+                           block->pixels[k] + before * gdal_raster_size(b->type),
+                           k == 0 ? w->found : none);
     }
 }
 
@@ -237,7 +239,7 @@ static int block_write(band_block *block, gdal_raster *raster)
     if (rows > b->grid->rows - row) rows = b->grid->rows - row;
     int end = 0;
     for (uint32_t k = 0; end == 0 && k < b->count; k++)
-        end = gdal_raster_write(raster, k, row, rows, block->pixels[k]);
+        end = gdal_raster_write(raster, b->offset + k, row, rows, block->pixels[k]);
     progress_points((uint64_t)(row + rows) * b->grid->columns,
                     (double)(row + rows) / b->grid->rows);
     return end;

@@ -8,6 +8,7 @@
 
 typedef enum raster_band {
     BAND_VALUE = 0, /* that of the field */
+    BAND_CELL,      /* that of the face of the triangle: raster_mesh.cells */
     BAND_SLOPE,     /* of the triangle's plane, in degrees */
     BAND_ASPECT,    /* the azimuth that the plane falls to, from 0 (north) to 360 (clockwise) */
     BAND_HILLSHADE, /* 1 .. 255, the sun in the north west at 45 degrees */
@@ -26,6 +27,7 @@ typedef struct raster_bands {
     const raster_scan *scan;
     raster_band bands[BAND_COUNT];
     uint32_t count;
+    uint32_t offset; /* so many bands of the raster come before these */
     raster_type type;
     double nodata;
     bool nearest; /* outside pixels have the value at the nearest point of the border */
@@ -34,6 +36,10 @@ typedef struct raster_bands {
     uint64_t filled;     /* pixels that have a value in the first band */
     uint64_t mistakable; /* of these, those whose value is that of nodata */
 } raster_bands;
+
+/* Store values in the type of the raster, NaN as nodata, and count as `filled` and `mistakable`. */
+void raster_bands_store(const raster_bands *b, const double *values, size_t count, void *pixels,
+                        uint64_t found[2]);
 
 /* Compute and write all bands. Returns 0, or an exit code after a complaint. */
 int raster_bands_write(raster_bands *b, gdal_raster *raster);

@@ -15,6 +15,7 @@ void raster_mesh_release(raster_mesh *m)
     mw_mesh_destroy(m->mesh);
     free(m->values);
     free(m->numbers);
+    free(m->faces);
     free(m->crs);
     *m = (raster_mesh){0};
 }
@@ -101,6 +102,17 @@ static int raster_mesh_measure(raster_mesh *m)
     return 0;
 }
 
+/* Room for values that come later. */
+static int raster_mesh_leave_values(raster_mesh *m, const mw_mesh_file *file)
+{
+    m->face_count = file->faces ? file->face_count : file->triangle_count;
+    m->values = malloc((size_t)mw_mesh_vertex_count(m->mesh) * sizeof *m->values + 1);
+    if (file->faces) m->faces = malloc(file->triangle_count * sizeof *m->faces + 1);
+    if (!m->values || (file->faces && !m->faces)) return fail_memory();
+    if (file->faces) memcpy(m->faces, file->faces, file->triangle_count * sizeof *m->faces);
+    return 0;
+}
+
 static int raster_mesh_take_values(raster_mesh *m, const char *path, const mw_mesh_file *file,
                                    const raster_mesh_settings *s)
 {
@@ -122,7 +134,9 @@ int raster_mesh_read(raster_mesh *m, const char *path, const raster_mesh_setting
     end = mesh_crs_settle(path, s->crs, file.crs, s->common->quiet, &m->crs);
     progress_phase("preparing", path);
     if (end == 0) end = raster_mesh_create(m, path, &file, s);
-    if (end == 0) end = raster_mesh_take_values(m, path, &file, s);
+    if (end == 0)
+        end = s->over_time ? raster_mesh_leave_values(m, &file)
+                           : raster_mesh_take_values(m, path, &file, s);
     if (end == 0 && s->max_edge > 0) end = raster_mesh_peel(m, path, &file, s);
     mw_mesh_file_release(&file);
     if (end == 0) end = raster_mesh_locate(m, path, s);

@@ -10,6 +10,7 @@ typedef struct raster_mesh_settings {
     mesh_field_choice field;
     const char *crs; /* of the mesh; NULL: not given */
     double max_edge; /* 0: not given */
+    bool over_time;  /* the file's own values are not asked for: `values` is empty */
     bool border;     /* the nearest point of the border will be asked for */
 } raster_mesh_settings;
 
@@ -18,12 +19,22 @@ typedef struct raster_mesh {
     mw_locator *locator;
     double *values;    /* one for each vertex, NaN where it is missing */
     uint32_t *numbers; /* in the file, of the triangles that --max-edge has left; NULL: the same */
+    double *cells;     /* one for each face of the file, where those are asked for; not owned */
+    uint32_t *faces;   /* in the file, of its triangles; NULL: triangle i is face i */
+    size_t face_count; /* of the file */
     size_t peeled;     /* triangles that --max-edge took away */
     double extent[4];  /* xmin, ymin, xmax, ymax of the vertices that triangles have */
     double area;       /* of the triangles */
     uint64_t vertices; /* that triangles have */
     char *crs;         /* NULL: not known */
 } raster_mesh;
+
+/* The face of the file that a triangle is a part of. */
+static inline uint32_t raster_mesh_face(const raster_mesh *m, uint32_t triangle)
+{
+    uint32_t t = m->numbers ? m->numbers[triangle] : triangle;
+    return m->faces ? m->faces[t] : t;
+}
 
 /* Returns 0, or an exit code after a complaint; release it in both cases. */
 int raster_mesh_read(raster_mesh *m, const char *path, const raster_mesh_settings *settings);

@@ -56,7 +56,9 @@ static int remap_make(remap_run *r)
         r->target.locator
             ? mw_remap_to_mesh(&source, &target, &options, &r->remap, &error)
             : mw_remap_to_pixels(&source, &r->target.pixels, &options, &r->remap, &error);
-    return status == MW_OK ? 0 : fail_query(&error);
+    if (status != MW_ERROR_INPUT) return status == MW_OK ? 0 : fail_query(&error);
+    complain("%s, %s: %s", r->path[0], r->path[1], error.message);
+    return END_INPUT;
 }
 
 static int remap_write(const remap_run *r)

@@ -200,7 +200,11 @@ typedef struct mw_index_options {
     mw_descent descent;          /**< MW_START_LAYERS: where a search goes down */
     uint64_t seed;               /**< MW_START_LAYERS: seed of the random vertices */
     const mw_progress *progress; /**< progress and cancelling, see base.h; NULL: none */
-    uint32_t reserved[4];        /**< must be zero */
+    /** MW_START_GRID: 1 keeps the corners of each cell's triangle, 12 bytes a cell more. A single
+     * query then asks memory for them and for the triangle at once: in a large mesh it takes about
+     * an eighth less time, and a batch as long as before. An editor ignores it. */
+    uint32_t corners;
+    uint32_t reserved[3]; /**< must be zero */
 } mw_index_options;
 
 /** The most layers of an index, the mesh included. */

@@ -160,7 +160,9 @@ typedef struct mw_operator_apply_options {
  * @return MW_OK; MW_ERROR_ARGUMENT for NULL, an unknown type or rule, or a stride less than count
  *         without a step; MW_CANCELLED, after which some results are written.
  *
- * Thread-safe. The same bits for any number of threads. Allocates memory for threads only.
+ * Thread-safe. The same bits for any number of threads. Allocates memory for threads only, but for
+ * four fields or more one after another, of scattered rows or columns, 64 bytes a row and a column:
+ * these are then brought side by side, eight at a time. Without that memory it takes longer.
  */
 MW_API mw_status mw_operator_apply(const mw_operator *weights, const mw_value_table *table,
                                    const mw_operator_apply_options *options, void *result,

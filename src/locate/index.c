@@ -36,7 +36,11 @@ mw_status mw__index_build(mw_index *index, const mw_tiling *tiling, const double
     uint32_t cells = mw__cells_bound(options->cells, tiling->tri_count);
     bool done = false;
     switch (index->start) {
-    case MW_START_GRID: done = mw__grid_create(&index->grid, tiling, low, high, cells, job); break;
+    case MW_START_GRID:
+        done =
+            mw__grid_create(&index->grid, tiling, low, high, cells, job) &&
+            (!options->corners || tiling->tile_of || mw__grid_keep_corners(&index->grid, tiling));
+        break;
     case MW_START_TWO_LEVEL_GRID:
         done = mw__two_level_grid_create(&index->two_level_grid, tiling, low, high, cells, job);
         break;
@@ -158,10 +162,23 @@ uint32_t mw__index_tile_ahead(const mw_tiling *tiling, const mw_index *index, mw
                                           : mw__tile_of_name(tiling, name);
 }
 
+/* The tile for q by a grid that keeps corners. These and the tile are asked of memory at once. */
+static uint32_t grid_tile_with_corners(const mw_tiling *tiling, const mw_grid *grid, mw_point q)
+{
+    const uint32_t cell = mw__lattice_cell(&grid->lattice, q), *corner = grid->corner[cell];
+    const uint32_t t = mw__tile_of_name(tiling, grid->tile[cell]);
+    __builtin_prefetch(&tiling->tri[t]);
+    for (uint32_t k = 0; k < 3; k++)
+        if (corner[k] < tiling->point_count) __builtin_prefetch(&tiling->point[corner[k]]);
+    return t;
+}
+
 /* In most tilings a tile's slot is its number. The tile itself shows whether it is, and is needed
  * next anyway: then nothing else has to be read from memory. */
 uint32_t mw__index_tile(const mw_tiling *tiling, const mw_index *index, mw_point q)
 {
+    if (MW_UNLIKELY(index->start == MW_START_GRID && index->grid.corner))
+        return grid_tile_with_corners(tiling, &index->grid, q);
     const uint32_t name = index_first_name(index, q);
     if (index->start == MW_START_CURVE) return tile_within(tiling, name);
     if (tiling->slots_are_numbers && mw__slot_is_number(tiling, name)) return name;

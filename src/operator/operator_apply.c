@@ -6,9 +6,11 @@
  * soon, and a normal write would first read each cache line. */
 #include "base/job.h"
 #include "base/options.h"
+#include "operator/field_rows.h"
 #include "operator/operator.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 #ifdef __SSE2__
 #include <emmintrin.h>
@@ -333,6 +335,97 @@ static apply_call apply_begin(const mw_operator *o, const mw_value_table *table,
     return c;
 }
 
+/* --- fields one after another, of scattered rows or columns ----------------------------------- */
+
+/* Does the next rank mostly read far from the last one? */
+static bool columns_jump(const mw_operator *o)
+{
+    enum { LOOKS = 256, FAR = 4096 };
+    const size_t apart = o->rows / LOOKS;
+    size_t far = 0;
+    for (size_t i = 0; i < LOOKS && apart > 1 && o->entries > 0; i++) {
+        const uint64_t a = mw__operator_first(o, i * apart),
+                       b = mw__operator_first(o, i * apart + 1);
+        if (b >= mw__operator_first(o, o->rows)) continue;
+        const uint32_t x = o->column[a], y = o->column[b];
+        far += (x > y ? x - y : y - x) >= FAR;
+    }
+    return far > LOOKS / 4;
+}
+
+/* Do groups of fields, brought side by side, repay two more passes over their memory? Where most
+ * columns are used, and a field is more than the nearest caches hold. */
+static bool groups_repay(const apply_call *c)
+{
+    enum { FEWEST = 4, MANY = 1 << 16 };
+    const mw_operator *o = c->o;
+    return c->step > 1 && c->count >= FEWEST && o->columns >= MANY && o->rows >= o->columns / 2 &&
+           (o->row || columns_jump(o));
+}
+
+/* Part `part` of three of a group. */
+static bool group_part(apply_call *c, const mw_field_rows *in, const mw_field_rows *out, int part,
+                       mw_job *job)
+{
+    if (part == 0) return mw__field_rows_gather(in, job);
+    if (part == 2) return mw__field_rows_spread(out, job);
+    return mw__job_chunks(job, mw__job_team(job, c->ranges), c->ranges, apply_chunk, c);
+}
+
+static bool groups_of_fields_apply(const apply_call *c, char *values, char *result, size_t most,
+                                   mw_job *job)
+{
+    const size_t size = c->narrow ? sizeof(float) : sizeof(double);
+    bool on = true;
+    for (size_t k = 0; k < c->count && on; k += most) {
+        const size_t n = c->count - k < most ? c->count - k : most;
+        apply_call group = *c;
+        group.values = values;
+        group.result = result;
+        group.count = group.fields = group.stride = group.row = n;
+        group.step = group.field = 1;
+        group.past_caches = n == most && c->o->rows >= LARGE / LINE;
+        const mw_field_rows in = {(char *)c->values + k * c->step * size,
+                                  values,
+                                  c->o->columns,
+                                  n,
+                                  size,
+                                  c->stride,
+                                  c->step},
+                            out = {(char *)c->result + k * c->field * size,
+                                   result,
+                                   c->o->rows,
+                                   n,
+                                   size,
+                                   1,
+                                   c->field};
+        for (int part = 0; part < 3 && on; part++) {
+            mw_job_span outer = mw__job_steps_of(job, 3 * k + (uint64_t)part * n, n, 3 * c->count);
+            on = group_part(&group, &in, &out, part, job);
+            mw__job_steps_end(job, outer);
+        }
+    }
+    return on;
+}
+
+static char *line_begin(void *memory)
+{
+    return (char *)memory + -(uintptr_t)memory % LINE;
+}
+
+/* Returns false, and has done nothing, without memory for the groups. */
+static bool groups_apply(const apply_call *c, mw_job *job)
+{
+    const size_t most = LINE / (c->narrow ? sizeof(float) : sizeof(double));
+    void *values = mw__alloc((size_t)c->o->columns + 1, LINE),
+         *result = mw__alloc((size_t)c->o->rows + 1, LINE);
+    const bool there = values && result;
+    if (there) groups_of_fields_apply(c, line_begin(values), line_begin(result), most, job);
+    free(values);
+    free(result);
+    return there;
+}
+
 mw_status mw_operator_apply(const mw_operator *weights, const mw_value_table *table,
                             const mw_operator_apply_options *options, void *result, mw_error *error)
 {
@@ -344,6 +437,7 @@ mw_status mw_operator_apply(const mw_operator *weights, const mw_value_table *ta
     mw_job job = mw__job(options->threads, options->progress);
     mw__job_stage(&job, "applying weights", 1);
     const uint64_t chunks = call.ranges * ((call.count + call.fields - 1) / call.fields);
-    mw__job_chunks(&job, mw__job_team(&job, chunks), chunks, apply_chunk, &call);
+    if (!groups_repay(&call) || !groups_apply(&call, &job))
+        mw__job_chunks(&job, mw__job_team(&job, chunks), chunks, apply_chunk, &call);
     return mw__job_end(&job, MW_OK, error);
 }

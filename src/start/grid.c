@@ -315,12 +315,23 @@ bool mw__grid_create(mw_grid *grid, const mw_tiling *tiling, const double low[2]
     return mw__grid_begin(grid, &plan, low, high, cells) && mw__grid_end(grid, &plan, false);
 }
 
+bool mw__grid_keep_corners(mw_grid *grid, const mw_tiling *tiling)
+{
+    const uint32_t cells = mw__lattice_cells(&grid->lattice);
+    grid->corner = mw__alloc(cells, sizeof *grid->corner);
+    for (uint32_t c = 0; c < cells && grid->corner; c++)
+        for (uint32_t k = 0; k < 3; k++) grid->corner[c][k] = tiling->tri[grid->tile[c]].v[k];
+    return grid->corner;
+}
+
 void mw__grid_release(mw_grid *grid)
 {
+    free(grid->corner);
     free(grid->tile);
 }
 
 size_t mw__grid_bytes(const mw_grid *grid)
 {
-    return mw__lattice_cells(&grid->lattice) * sizeof *grid->tile;
+    return mw__lattice_cells(&grid->lattice) *
+           (sizeof *grid->tile + (grid->corner ? sizeof *grid->corner : 0));
 }

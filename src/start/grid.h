@@ -7,6 +7,8 @@
 typedef struct mw_grid {
     mw_lattice lattice;
     uint32_t *tile; /* of each cell: the name of the one that holds its middle, or near it */
+    /* of each cell: the vertices of that tile, to ask memory for them; NULL: not kept */
+    uint32_t (*corner)[3];
 } mw_grid;
 
 /* About `cells` cells (0: by the number of vertices, at most MW_MAX_CELLS) over low..high, the
@@ -47,6 +49,8 @@ bool mw__grid_end(mw_grid *grid, mw_grid_plan *plan, bool sparse);
  * the tile of the old cell, which takes no walk. The grid stays as it was if memory is short or if
  * cells would be too small for doubles. While this runs it takes 16 more bytes a cell. */
 void mw__grid_refine(mw_grid *grid, const mw_tiling *tiling, uint32_t stride, mw_job *job);
+/* Keep the corners of each cell's tile. The tiling is not edited. False when out of memory. */
+bool mw__grid_keep_corners(mw_grid *grid, const mw_tiling *tiling);
 void mw__grid_release(mw_grid *grid);
 size_t mw__grid_bytes(const mw_grid *grid);
 

@@ -64,6 +64,33 @@ run sample flow.nc points.csv --time all --wide -o other.nc; refused 2 '--wide i
 run sample flow.nc points.csv --time all -q -o none/other.nc; refused 4 'none/other.nc: '
 holds "nothing is written then" test ! -e other.nc
 
+# As bands of a raster: each pixel is what its centre is as a point. Values of faces, too.
+printf '%s\n' x,y 0.25,0.75 0.75,0.75 0.25,0.25 0.75,0.25 >centres.csv
+run raster flow.nc -o bands.img --driver ENVI --time all --resolution 0.5 --type float64
+if grep -Eq 'built with GDAL|cannot be loaded' "$logs/err"; then
+    left_out 'GDAL is not found: no rasters over time'
+else
+    exits 0
+    says 'remark: 3 of 3 steps; times are in hours since 2020-01-01'
+    prints_line '^bands +6$'
+    run sample flow.nc centres.csv --time all --only-answers -q; exits 0
+    # rows of a step: zeta and u at each point; bands: each field at all points
+    awk -F, 'NR > 1 { z = z $4 "\n"; u = u $5 "\n"; if (NR % 4 == 1) { printf "%s%s", z, u; z = u = "" } }' \
+        "$logs/out" >asked
+    holds 'bands are steps and fields' same_text \
+        <(perl -e 'local $/; open my $h, "<:raw", "bands.img"; print "$_\n" for unpack "d*", <$h>') \
+        asked
+    holds 'bands are named' grep -q 'zeta@0' bands.hdr
+    holds 'bands are named' grep -q 'u@3' bands.hdr
+    run raster flow.nc -q -o one.tif --time nearest:1.9 --field zeta --creation COMPRESS=DEFLATE
+    exits 0
+    says_nothing
+    run raster flow.nc -o one.tif --time 7; refused 3 'there is no step 7'
+    run raster flow.nc -o one.tif --time x; refused 2 "'--time' must be all"
+    run raster flow.nc -o one.tif --values flow.nc; refused 2 '--values is for'
+    run raster flow.nc -o one.tif --time 1 --derive slope; refused 2 'are not for --time'
+fi
+
 # What is refused.
 run sample flow.nc points.csv --time 7; refused 3 'flow.nc: has 3 steps, from 0: there is no step 7'
 for time in x 2..1 1.. nearest: nearest:nan -1; do
@@ -71,6 +98,9 @@ for time in x 2..1 1.. nearest: nearest:nan -1; do
 done
 run sample flow.nc points.csv --time all --field zeta,w
 refused 3 "flow.nc: has no field 'w' over time; --field may be of: zeta u"
+run sample flow.nc points.csv --field zeta
+refused 3 "flow.nc: 'zeta' has values over time; 'meshwalk sample --time all' takes them"
+run sample flow.nc points.csv --field w; refused 3 'nothing to sample'
 run sample flow.nc points.csv --time all --outside nearest
 refused 2 "'--outside' is not for values"
 run sample flow.nc points.csv --time-column t --wide; refused 2 '--wide is for --time'

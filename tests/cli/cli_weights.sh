@@ -39,7 +39,14 @@ refused 2 "'--columns' is for points"
 run_on "$points" weights square.off - --norm fracarea -o x.npz; refused 2 "'--norm' is for"
 run weights square.off none.off $conservative -o x.npz; refused 3 'none.off'
 run weights square.off none.tif $conservative -o x.npz; refused 3 'none.tif'
-rm -f same.npz part.npz v.npz moved.off
+sed 's/^\(0\|1\) 1 /\1 95 /; s/^1 2$/1 2/' square.off >pole.off
+if "$meshwalk" --version | grep -q 'GDAL .*found'; then
+    run weights pole.off square.off $conservative --crs EPSG:4326 --points-crs EPSG:4326 -o x.npz
+    refused 3 'pole.off, square.off: latitudes from 0 to 95: they end at 90 degrees'
+    run weights square.off square.off $conservative --crs EPSG:4326 --points-crs EPSG:2056 -o x.npz
+    refused 3 'bring one to the other first'
+fi
+rm -f pole.off same.npz part.npz v.npz moved.off
 
 if ! "$meshwalk" --version | grep -q '^  netCDF .*found' ||
     "$meshwalk" --version | grep -q 'libnetcdf is not found'; then

@@ -578,6 +578,27 @@ static void test_undo_limit(void **state)
     }
 }
 
+/* Insertions are counted, too, if nobody asks what they change. */
+static void test_edits_unreported(void **state)
+{
+    (void)state;
+    arrays a = lattice();
+    mw_mesh *mesh = arrays_mesh(&a, (mw_mesh_options){0});
+    mw_editor *editor;
+    mw_error error;
+    expect_ok(mw_editor_create(mesh, NULL, &editor, &error), "editor", &error);
+    for (int k = 0; k < 3; k++) {
+        mw_edit e = {.kind = MW_EDIT_INSERT, .x = 0.3 + 0.2 * k, .y = 0.4, .value = NAN};
+        expect_ok(mw_edit_apply(editor, &e, NULL, &error), "insertion", &error);
+        mw_editor_info info;
+        mw_editor_describe(editor, &info);
+        assert_int_equal(info.edits, k + 1);
+    }
+    mw_editor_destroy(editor);
+    mw_mesh_destroy(mesh);
+    arrays_free(&a);
+}
+
 /* --- degenerate ------------------------------------------------------------------------------- */
 
 /* All of a vertex's neighbours on one circle, and so many that a star of a square of them would
@@ -827,6 +848,7 @@ int main(void)
         cmocka_unit_test(test_arguments),
         cmocka_unit_test(test_refusals),
         cmocka_unit_test(test_undo_limit),
+        cmocka_unit_test(test_edits_unreported),
         cmocka_unit_test(test_hub),
         cmocka_unit_test(test_grow),
         cmocka_unit_test(test_magnitudes),

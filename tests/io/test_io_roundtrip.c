@@ -372,7 +372,8 @@ static void test_refused(void **state)
     expect_refused("a.xyz", NULL, &file, MW_ERROR_ARGUMENT,
                    "a.xyz: no mesh format has this ending");
     expect_refused("-", NULL, &file, MW_ERROR_ARGUMENT, "no mesh format");
-    expect_refused("a.off", "dxf", &file, MW_ERROR_ARGUMENT, "unknown mesh format 'dxf'");
+    expect_refused("a.off", "dxf", &file, MW_ERROR_ARGUMENT,
+                   "unknown mesh format 'dxf' (known: off, ply, ply-ascii, ");
     expect_refused("a.off.gz", NULL, &file, MW_ERROR_ARGUMENT, "gzip is read, but not written");
     expect_refused("-", "node", &file, MW_ERROR_ARGUMENT, "two files");
     expect_refused("nowhere/a.node", NULL, &file, MW_ERROR_SYSTEM, "nowhere/a.node: No such file");

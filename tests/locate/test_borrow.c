@@ -275,6 +275,30 @@ static void expect_refused(const foreign *f, int64_t triangle, const char *words
                  error.message, (long long)triangle, words);
 }
 
+/* Counts over more triangles than one thread takes at a time. */
+static void clockwise_triangles_are_counted(void **state)
+{
+    enum { SIDE = 130, TURNED = 3 };
+    uint64_t random = 1;
+    (void)state;
+    arrays a = arrays_grid(SIDE, 0.5, &random);
+    uint32_t turned = 0;
+    for (uint32_t t = 0; t < a.triangle_count; t += TURNED, turned++) {
+        uint32_t *v = a.triangles + 3 * (size_t)t, was = v[1];
+        v[1] = v[2];
+        v[2] = was;
+    }
+    foreign f = foreign_of(&a, MW_UINT32, MW_NEIGHBOUR_ACROSS_EDGE);
+    mw_borrowed *view = borrow(&f, (mw_borrow_options){0});
+    mw_borrowed_info info;
+    mw_borrowed_describe(view, &info);
+    assert_int_equal(info.clockwise_triangles, turned);
+    assert_true(info.convex);
+    mw_borrowed_release(view);
+    foreign_free(&f);
+    arrays_free(&a);
+}
+
 static void wrong_neighbours_are_refused(void **state)
 {
     uint64_t random = 1;
@@ -482,6 +506,7 @@ int main(void)
         cmocka_unit_test(extreme_coordinates_are_exact),
         cmocka_unit_test(flat_triangles_own_no_point),
         cmocka_unit_test(flat_neighbours_are_taken),
+        cmocka_unit_test(clockwise_triangles_are_counted),
         cmocka_unit_test(wrong_neighbours_are_refused),
         cmocka_unit_test(folds_are_refused),
         cmocka_unit_test(wrong_calls_are_refused),

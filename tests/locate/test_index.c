@@ -727,7 +727,9 @@ static void test_memory(void **state)
             mw_error error = {0};
             mw_index *index;
             allocations_left = failures;
-            mw_status status = mw_index_create(locator, (mw_start_kind)start, NULL, &index, &error);
+            mw_index_options options = {.corners = 1};
+            mw_status status =
+                mw_index_create(locator, (mw_start_kind)start, &options, &index, &error);
             failed = allocations_left < 0;
             allocations_left = -1;
             assert_int_equal(status, failed ? MW_ERROR_MEMORY : MW_OK);
@@ -740,6 +742,44 @@ static void test_memory(void **state)
     mw_locator_destroy(locator);
     mw_mesh_destroy(mesh);
     arrays_free(&a);
+}
+
+/* A grid that keeps corners takes four times the memory, and answers as any, also when it was made
+ * from another mesh. */
+static void test_corners(void **state)
+{
+    (void)state;
+    uint64_t random = 31;
+    for (uint32_t side = 1; side <= 21; side += 20) {
+        arrays a = arrays_grid(side, 0.4, &random), b = arrays_grid(7, 0.4, &random);
+        arrays_scramble(&a, 1, &random);
+        mw_mesh *mesh = arrays_mesh(&a, (mw_mesh_options){0}),
+                *other = arrays_mesh(&b, (mw_mesh_options){0});
+        mw_locator *locator = mesh_locator(mesh, (mw_locator_options){0}),
+                   *at_other = mesh_locator(other, (mw_locator_options){0});
+        mw_index *plain = index_of(locator, MW_START_GRID, 0), *index;
+        mw_index_info info[2];
+        mw_error error;
+        expect_ok(mw_index_create(locator, MW_START_GRID, &(mw_index_options){.corners = 1}, &index,
+                                  &error),
+                  "index", &error);
+        mw_index_describe(plain, &info[0]);
+        mw_index_describe(index, &info[1]);
+        assert_int_equal(info[1].bytes - sizeof(mw_index), 4 * (info[0].bytes - sizeof(mw_index)));
+        size_t n;
+        double *q = arrays_queries(&a, 40, &n, &random);
+        expect_guide(locator, index, q, n);
+        expect_guide(at_other, index, q, n);
+        mw_index_destroy(plain);
+        mw_index_destroy(index);
+        mw_locator_destroy(locator);
+        mw_locator_destroy(at_other);
+        mw_mesh_destroy(mesh);
+        mw_mesh_destroy(other);
+        free(q);
+        arrays_free(&a);
+        arrays_free(&b);
+    }
 }
 
 int main(void)
@@ -764,6 +804,7 @@ int main(void)
         cmocka_unit_test(test_nearest_vertex),
         cmocka_unit_test(test_spiral),
         cmocka_unit_test(test_triangle_buckets),
+        cmocka_unit_test(test_corners),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

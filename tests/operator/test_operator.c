@@ -318,6 +318,39 @@ static void test_entries(void **state)
     }
 }
 
+/* One row more than threads take at a time, and one less: each row is applied. */
+static void test_many_rows(void **state)
+{
+    (void)state;
+    for (uint32_t rows = 16383; rows <= 16385; rows++) {
+        uint32_t *row = malloc(2 * rows * sizeof *row);
+        double *weight = malloc(2 * (size_t)rows * sizeof *weight), *result = weight + rows;
+        assert_true(row && weight);
+        for (uint32_t i = 0; i < rows; i++) {
+            row[i] = i;
+            row[rows + i] = 0;
+            weight[i] = i + 1;
+            result[i] = -1;
+        }
+        mw_operator *weights;
+        mw_error error;
+        const mw_operator_entries entries = {.row = row,
+                                             .column = row + rows,
+                                             .weight = weight,
+                                             .count = rows,
+                                             .rows = rows,
+                                             .columns = 1};
+        expect_ok(mw_operator_create_from_entries(&entries, NULL, &weights, &error), "rows",
+                  &error);
+        const mw_value_table table = {.values = (double[]){2}, .count = 1};
+        expect_ok(mw_operator_apply(weights, &table, NULL, result, &error), "apply", &error);
+        for (uint32_t i = 0; i < rows; i++) assert_true(result[i] == 2.0 * (i + 1));
+        mw_operator_destroy(weights);
+        free(weight);
+        free(row);
+    }
+}
+
 static void test_bad_entries(void **state)
 {
     (void)state;
@@ -428,6 +461,7 @@ int main(void)
         cmocka_unit_test(test_long_rows),
         cmocka_unit_test(test_description_and_copy),
         cmocka_unit_test(test_entries),
+        cmocka_unit_test(test_many_rows),
         cmocka_unit_test(test_bad_entries),
         cmocka_unit_test(test_missing),
         cmocka_unit_test(test_arguments),

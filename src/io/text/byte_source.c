@@ -238,8 +238,10 @@ static mw_status source_fill(mw_source *source, mw_error *error)
         return source->ended ? source_zlib_error(source, got, error) : MW_OK;
     }
     size_t got = room < source->memory_left ? room : source->memory_left;
-    if (got > 0) memcpy(source->buffer + left, source->memory, got);
-    source->memory += got;
+    if (got > 0) { /* else there may be no memory at all */
+        memcpy(source->buffer + left, source->memory, got);
+        source->memory += got;
+    }
     source->memory_left -= got;
     source->end += got;
     source->ended = source->memory_left == 0;

@@ -1,0 +1,90 @@
+#include "cli/raster/raster_series.h"
+#include "cli/frame/message.h"
+#include "cli/frame/text.h"
+
+#include <stdlib.h>
+
+enum { SERIES_MOST_BANDS = 65535 }; /* of a GeoTIFF */
+
+static size_t series_steps(const raster_series *s)
+{
+    return s->choice.last - s->choice.first + 1;
+}
+
+/* "zeta@3600", as the columns of 'sample --wide' are called. */
+static char *series_band_name(const raster_series *s, size_t step, size_t k)
+{
+    text name = {0};
+    text_printf(&name, "%s@", series_field(&s->choice, k)->name);
+    text_double(&name, s->choice.info->times[step]);
+    text_bytes(&name, "", 1);
+    if (name.failed) text_release(&name);
+    return name.bytes;
+}
+
+static int series_name_bands(raster_series *s)
+{
+    size_t fields = s->choice.field_count, count = series_steps(s) * fields;
+    if (count > SERIES_MOST_BANDS) {
+        complain("%s: %zu fields and steps are more than the %d bands that a raster may have: "
+                 "--time and --field choose some",
+                 s->choice.path, count, SERIES_MOST_BANDS);
+        return END_RESOURCE;
+    }
+    s->names = calloc(count + 1, sizeof *s->names);
+    if (!s->names) return fail_memory();
+    for (; s->bands < count; s->bands++) {
+        s->names[s->bands] =
+            series_band_name(s, s->choice.first + s->bands / fields, s->bands % fields);
+        if (!s->names[s->bands]) return fail_memory();
+    }
+    return 0;
+}
+
+int raster_series_open(raster_series *s, const series_request *request, const raster_mesh *mesh,
+                       bool quiet)
+{
+    *s = (raster_series){0};
+    int end =
+        series_choose(&s->choice, request, mw_mesh_vertex_count(mesh->mesh), mesh->face_count);
+    if (end) return end;
+    const mw_series_info *info = s->choice.info;
+    if (!quiet && *info->time_unit)
+        complain("%s: remark: %zu of %zu steps; times are in %s", s->choice.path, series_steps(s),
+                 info->step_count, info->time_unit);
+    return series_name_bands(s);
+}
+
+void raster_series_close(raster_series *s)
+{
+    for (uint32_t i = 0; i < s->bands; i++) free(s->names[i]);
+    free(s->names);
+    series_close(&s->choice);
+    *s = (raster_series){0};
+}
+
+int raster_series_write(raster_series *s, raster_bands *b, raster_mesh *mesh, gdal_raster *raster)
+{
+    mw_error error;
+    uint64_t filled = 0, mistakable = 0;
+    size_t fields = s->choice.field_count;
+    int end = 0;
+    mesh->cells = malloc(mesh->face_count * sizeof *mesh->cells + 1);
+    if (!mesh->cells) end = fail_memory();
+    for (b->offset = 0; end == 0 && b->offset < s->bands; b->offset++) {
+        size_t k = b->offset % fields, step = s->choice.first + b->offset / fields;
+        bool cells = series_field(&s->choice, k)->location == MW_SERIES_FACE;
+        b->bands[0] = cells ? BAND_CELL : BAND_VALUE;
+        if (mw_series_read(s->choice.series, s->choice.field[k], step,
+                           cells ? mesh->cells : mesh->values, &error) != MW_OK)
+            end = fail_reading(&error);
+        if (end == 0) end = raster_bands_write(b, raster);
+        if (b->offset == 0) filled = b->filled;
+        mistakable += b->mistakable;
+    }
+    b->filled = filled;
+    b->mistakable = mistakable;
+    free(mesh->cells);
+    mesh->cells = NULL;
+    return end;
+}

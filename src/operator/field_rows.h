@@ -1,0 +1,22 @@
+/* field_rows.h - fields that lie one after another are brought side by side, a few at a time.
+ * Private; for this room only.
+ *
+ * A scattered row then reads, and writes, whole cache lines, where it would else use one number of
+ * each. */
+#ifndef MW_SRC_OPERATOR_FIELD_ROWS_H
+#define MW_SRC_OPERATOR_FIELD_ROWS_H
+
+#include "base/job.h"
+
+/* `count` fields of `n` values of `size` bytes: value i of field k is at i * stride + k * step (in
+ * values), and in the rows at i * count + k. */
+typedef struct mw_field_rows {
+    char *fields, *rows;
+    size_t n, count, size, stride, step;
+} mw_field_rows;
+
+/* A stage of the job's steps each. Return false if the job is to stop. */
+bool mw__field_rows_gather(const mw_field_rows *f, mw_job *job);
+bool mw__field_rows_spread(const mw_field_rows *f, mw_job *job);
+
+#endif

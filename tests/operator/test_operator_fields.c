@@ -1,0 +1,104 @@
+/* test_operator_fields.c - many fields one after another, scattered rows and columns: the bits of
+ * one field after the other, of doubles and floats, of narrow and wide rows, with missing values,
+ * and without memory. */
+/* wrap: malloc calloc realloc aligned_alloc */
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <setjmp.h>
+#include <cmocka.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "support/allocations.h"
+
+#include <meshwalk/operator.h>
+
+enum { ROWS = 70000, COLUMNS = 66000, FIELDS = 11, WIDEST = 5 };
+
+static uint32_t next_number(uint64_t *state, uint32_t below)
+{
+    *state = *state * 6364136223846793005u + 1442695040888963407u;
+    return (uint32_t)((*state >> 33) % below);
+}
+
+/* Rows of none to `width` entries, anywhere. */
+static mw_operator *make_operator(uint32_t width, uint64_t seed)
+{
+    uint32_t *row = malloc(ROWS * WIDEST * sizeof *row), *column = malloc(ROWS * WIDEST * 4);
+    double *weight = malloc(ROWS * WIDEST * sizeof *weight);
+    mw_operator *made;
+    mw_operator_entries entries = {
+        .row = row, .column = column, .weight = weight, .rows = ROWS, .columns = COLUMNS};
+    assert_true(row && column && weight);
+    for (uint32_t i = 0; i < ROWS; i++) {
+        const uint32_t count = i % 7 == 0 ? next_number(&seed, width + 1) : width;
+        for (uint32_t k = 0; k < count; k++, entries.count++) {
+            row[entries.count] = i;
+            column[entries.count] = next_number(&seed, COLUMNS);
+            weight[entries.count] = (1 + next_number(&seed, 1000)) / 999.0;
+        }
+    }
+    assert_int_equal(mw_operator_create_from_entries(&entries, NULL, &made, NULL), MW_OK);
+    free(row);
+    free(column);
+    free(weight);
+    return made;
+}
+
+static void fill(void *values, mw_value_type type)
+{
+    uint64_t seed = 5;
+    for (size_t i = 0; i < (size_t)COLUMNS * FIELDS; i++) {
+        const uint32_t number = next_number(&seed, 1000000);
+        const double value = number % 97 == 0 ? NAN : number / 7.0;
+        if (type == MW_FLOAT32)
+            ((float *)values)[i] = (float)value;
+        else
+            ((double *)values)[i] = value;
+    }
+}
+
+static void expect_equal(const mw_operator *weights, mw_value_type type, mw_missing_rule rule)
+{
+    const size_t size = type == MW_FLOAT32 ? 4 : 8;
+    char *values = malloc(size * COLUMNS * FIELDS), *all = malloc(size * ROWS * FIELDS),
+         *one = malloc(size * ROWS);
+    const mw_value_table table = {values, type, FIELDS, 0, COLUMNS};
+    assert_true(values && all && one);
+    fill(values, type);
+    for (int round = 0; round < 3; round++) {
+        const mw_operator_apply_options options = {.threads = round == 1 ? 2 : 1, .missing = rule};
+        memset(all, 0x55, size * ROWS * FIELDS);
+        allocations_left = round == 2 ? 0 : -1;
+        assert_int_equal(mw_operator_apply(weights, &table, &options, all, NULL), MW_OK);
+        allocations_left = -1;
+        for (size_t k = 0; k < FIELDS; k++) {
+            const mw_value_table field = {values + k * COLUMNS * size, type, 1, 0, 0};
+            assert_int_equal(mw_operator_apply(weights, &field, &options, one, NULL), MW_OK);
+            assert_memory_equal(one, all + k * ROWS * size, ROWS * size);
+        }
+    }
+    free(values);
+    free(all);
+    free(one);
+}
+
+static void test_fields(void **state)
+{
+    (void)state;
+    for (uint32_t width = 3; width <= WIDEST; width += 2) {
+        mw_operator *weights = make_operator(width, width);
+        expect_equal(weights, MW_FLOAT64, MW_MISSING_SPREADS);
+        expect_equal(weights, MW_FLOAT32, MW_MISSING_SPREADS);
+        expect_equal(weights, MW_FLOAT64, MW_MISSING_LEFT_OUT);
+        mw_operator_destroy(weights);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_fields)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
