@@ -20,7 +20,7 @@ _meshwalk_options() {
         volume) echo "--base --against --field --against-field --nodata --crs --against-crs --json --strict $common" ;;
         profile) echo "--field --nodata --attribute --layer --columns --crs --lines-crs --strict $common" ;;
         raster)
-            echo "--resolution --like --extent --field --time --values --derive --nodata --outside --max-edge --vertex-nodata --type"
+            echo "--resolution --like --extent --field --time --values --mean --derive --nodata --outside --max-edge --vertex-nodata --type"
             echo "--driver --creation --crs --json $common"
             ;;
         visible)

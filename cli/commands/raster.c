@@ -8,6 +8,7 @@
 #include "cli/gdal/gdal_crs.h"
 #include "cli/raster/raster_bands.h"
 #include "cli/raster/raster_like.h"
+#include "cli/raster/raster_mean.h"
 #include "cli/raster/raster_series.h"
 
 #include <math.h>
@@ -23,7 +24,7 @@ typedef struct raster_settings {
     const char *like, *field, *derive, *nodata, *vertex_nodata, *driver, *creation, *crs;
     double max_edge;
     int outside, type;
-    bool json;
+    bool json, mean;
 } raster_settings;
 
 static const char *empty_or_nearest_name(int i)
@@ -66,6 +67,10 @@ static const option raster_options[] = {
      NULL},
     {"values", 0, OPTION_TEXT, offsetof(raster_settings, values), "FILE",
      "the file with the values over time (default: MESH)", NULL},
+    {"mean", 0, OPTION_FLAG, offsetof(raster_settings, mean), NULL,
+     "the mean over the part of each pixel that MESH covers, by area, instead of the value at its "
+     "centre",
+     NULL},
     {"derive", 0, OPTION_TEXT, offsetof(raster_settings, derive), "LIST",
      "instead, a band for each of slope, aspect (degrees), hillshade, triangle (its number)", NULL},
     {"nodata", 0, OPTION_TEXT, offsetof(raster_settings, nodata), "V",
@@ -102,6 +107,7 @@ typedef struct raster_work {
     raster_scan *scan;
     raster_bands bands;
     raster_series series;
+    raster_mean mean;
     gdal_raster *raster;
     double begin;
 } raster_work;
@@ -170,6 +176,8 @@ static int raster_check_settings(const raster_settings *s, const char *mesh, ras
     if (s->values && !s->time) return raster_refuse("--values is for values over time: --time");
     if (s->time && (s->derive || s->outside != OUTSIDE_EMPTY || s->vertex_nodata))
         return raster_refuse("--derive, --outside and --vertex-nodata are not for --time");
+    if (s->mean && (s->time || s->derive || s->outside != OUTSIDE_EMPTY))
+        return raster_refuse("--time, --derive and --outside cannot be used with --mean");
     int end = s->time ? series_check_time(s->time) : 0;
     if (end == 0) end = raster_grid_check(&s->grid);
     if (end == 0) end = raster_choose_bands(s, &w->bands);
@@ -238,10 +246,12 @@ static int raster_write(const raster_settings *s, const char *path, raster_work 
     b->scan = w->scan;
     b->nearest = s->outside == OUTSIDE_NEAREST;
     b->threads = s->common.threads;
+    w->mean = (raster_mean){.bands = b, .degrees = w->mesh.crs && crs_is_lonlat(w->mesh.crs)};
     progress_phase("writing", s->common.output);
     if (end == 0)
-        end = s->time ? raster_series_write(&w->series, b, &w->mesh, w->raster)
-                      : raster_bands_write(b, w->raster);
+        end = s->time   ? raster_series_write(&w->series, b, &w->mesh, w->raster)
+              : s->mean ? raster_mean_write(&w->mean, w->raster)
+                        : raster_bands_write(b, w->raster);
     int closed = gdal_raster_close(w->raster, end == 0);
     if (end == 0) end = closed;
     if (end == 0) raster_warn(s, path, w);
@@ -266,6 +276,8 @@ static int raster_print_report(const raster_settings *s, const raster_work *w)
     if (s->max_edge > 0) report_count(&r, "peeled", w->mesh.peeled);
     report_count(&r, "with_value", w->bands.filled);
     report_count(&r, "empty", pixels - w->bands.filled);
+    if (s->mean) report_number(&r, "area", w->mean.area);
+    if (s->mean) report_number(&r, "integral", w->mean.integral);
     report_number(&r, "nodata", w->bands.nodata);
     report_rounded(&r, "seconds", monotonic_seconds() - w->begin);
     report_end(&r);

@@ -141,13 +141,11 @@ static RASTER_INLINE void pixels_store(raster_type type, double nodata, const do
     found[1] += mistakable;
 }
 
-/* Store values in the type of the raster. */
-static void worker_store(strip_worker *w, bool first, const double *values, size_t count,
-                         void *pixels)
+void raster_bands_store(const raster_bands *b, const double *values, size_t count, void *pixels,
+                        uint64_t found[2])
 {
-    uint64_t none[2] = {0}, *found = first ? w->found : none;
-    double nodata = w->bands->nodata;
-    switch (w->bands->type) {
+    double nodata = b->nodata;
+    switch (b->type) {
     case RASTER_FLOAT32: pixels_store(RASTER_FLOAT32, nodata, values, count, pixels, found); break;
     case RASTER_FLOAT64: pixels_store(RASTER_FLOAT64, nodata, values, count, pixels, found); break;
     case RASTER_INT32: pixels_store(RASTER_INT32, nodata, values, count, pixels, found); break;
@@ -201,8 +199,10 @@ static void worker_do_strip(strip_worker *w, const band_block *block, uint32_t s
     if (b->nearest) worker_fill_outside(w, row, rows);
     for (uint32_t k = 0; k < b->count; k++) {
         if (b->bands[k] != BAND_VALUE) worker_derive(w, b->bands[k], count);
-        worker_store(w, k == 0, w->values, count,
-                     block->pixels[k] + before * gdal_raster_size(b->type));
+        uint64_t none[2] = {0};
+        raster_bands_store(b, w->values, count,
+                           block->pixels[k] + before * gdal_raster_size(b->type),
+                           k == 0 ? w->found : none);
     }
 }
 

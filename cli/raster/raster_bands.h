@@ -37,6 +37,10 @@ typedef struct raster_bands {
     uint64_t mistakable; /* of these, those whose value is that of nodata */
 } raster_bands;
 
+/* Store values in the type of the raster, NaN as nodata, and count as `filled` and `mistakable`. */
+void raster_bands_store(const raster_bands *b, const double *values, size_t count, void *pixels,
+                        uint64_t found[2]);
+
 /* Compute and write all bands. Returns 0, or an exit code after a complaint. */
 int raster_bands_write(raster_bands *b, gdal_raster *raster);
 

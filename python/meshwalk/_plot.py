@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -30,14 +31,14 @@ def _axes(axes: Axes | None) -> Axes:
 def plot(
     mesh: Mesh, values: ArrayLike | str | None = None, axes: Axes | None = None, **style: Any
 ) -> Axes:
-    """Draw a mesh: its edges, or values at its vertices in colours.
+    """Draw a mesh: its edges, or values at its vertices or of its triangles in colours.
 
     Parameters
     ----------
     mesh : Mesh
         The mesh.
     values : array_like, shape (n_vertices,), or str, optional
-        Values at the vertices, or the name of a field.
+        Values at the vertices, or the name of a field, also of a `Mesh.triangle_fields`.
     axes : matplotlib.axes.Axes, optional
         Where to draw; new ones by default.
     **style
@@ -64,7 +65,10 @@ def plot(
     if values is None:
         axes.triplot(x, y, mesh.triangles, **{"linewidth": 0.5, "color": "0.5", **style})
         return axes
-    given = mesh.fields[values] if isinstance(values, str) else values
+    if isinstance(values, str) and values in mesh.triangle_fields and values not in mesh.fields:
+        axes.tripcolor(x, y, mesh.triangles, facecolors=mesh.triangle_fields[values], **style)
+        return axes
+    given = _arrays.named(mesh.fields, values) if isinstance(values, str) else values
     heights = _arrays.values(given, "values", mesh.vertex_count)
     axes.tripcolor(x, y, mesh.triangles, heights, **{"shading": "gouraud", **style})
     return axes
@@ -107,7 +111,8 @@ def explain(
     >>> import meshwalk
     >>> mesh = meshwalk.Mesh([[0, 0], [4, 0], [4, 4], [0, 4]], [[0, 1, 2], [0, 2, 3]])
     >>> print(meshwalk.explain(meshwalk.Locator(mesh), 2, 2).get_title())
-    on edge 2 of triangle 0; triangle 1 has it, too, and a higher number
+    on edge 2 of triangle 0; triangle 1 has it, too, and
+    a higher number
     """
     location = locator.locate_one(x, y)
     if location.where is Where.BAD:
@@ -123,7 +128,7 @@ def explain(
     middles = mesh.points[mesh.triangles[path]].mean(1)
     axes.plot(*middles.T, color="tab:blue", marker=".")
     axes.plot(x, y, color="black", marker="x", linestyle="none")
-    axes.set_title(_sentence(location, others))
+    axes.set_title(textwrap.fill(_sentence(location, others), 52))
     return axes
 
 

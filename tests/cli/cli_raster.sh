@@ -170,4 +170,32 @@ printf '%s\n' "$overlap" >overlap.off
 run raster overlap.off -o bad.tif; refused 3 "'meshwalk check overlap\.off' lists every defect"
 absent bad.tif
 holds "no temporary directory is left" test -z "$(find . -name '.meshwalk*')"
+# Means over pixels: exact clipping, so that sums are kept whatever the pixels are; of a plane the
+# value at the centre. test_remap holds the clipping against an oracle.
+run raster square.off -q --mean -o mean.img --driver ENVI --type float64 --resolution 0.25; exits 0
+run raster square.off -q -o centre.img --driver ENVI --type float64 --resolution 0.25; exits 0
+holds 'means of a plane' test -z "$(paste <(raw d mean.img) <(raw d centre.img) |
+    awk '$1 - $2 > 1e-14 || $2 - $1 > 1e-14')"
+run volume random.ply --base -1000; exits 0
+net=$(awk '$1 == "net" { net = $2 } $1 == "area" { area = $2 }
+    END { printf "%.10g", net - 1000 * area }' "$logs/out")
+for size in 0.9 7 60; do
+    run raster random.ply --mean -o mean.img --driver ENVI --type float64 --resolution $size
+    exits 0
+    says_nothing
+    holds "the integral at $size is that of the mesh" test "$(awk '$1 == "integral" {
+        printf "%.10g", $2 }' "$logs/out")" == "$net"
+    cp mean.img all.img
+    run raster -q random.ply --mean -o mean.img --driver ENVI --type float64 --resolution $size \
+        --threads 1
+    holds 'no mean depends on threads' same_text mean.img all.img
+done
+# Half a pixel is covered: the mean over that half. A corner without a value: none.
+printf '%s\n' OFF '4 2 0' '0 0 1' '1 0 1' '0 1 4' '-1 0 nan' '3 0 1 2' '3 0 2 3' >half.off
+run raster half.off --mean -o mean.img --driver ENVI --type float64 --resolution 1; exits 0
+prints_line '^with value +1$'
+prints_line '^integral +1$'
+holds 'a half pixel' test "$(raw d mean.img | xargs)" == 'empty 2'
+run raster square.off --mean --derive slope -o x.tif; refused 2 'cannot be used with --mean'
+
 finish
