@@ -1,5 +1,6 @@
 /* test_rehearsal.c - work is tried in a child: it comes to its end, or does not, and this process
  * goes on in either case. */
+#include <fcntl.h>
 #include <signal.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -75,11 +76,29 @@ static void handlers_of_the_host_are_not_asked(void **state)
     signal(SIGCHLD, SIG_DFL);
 }
 
+/* The pipe would get the number of a stream, which the child turns to /dev/null. */
+static void closed_streams_do_no_harm(void **state)
+{
+    int value = 1, kept[3];
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        kept[k] = fcntl(k, F_DUPFD, 10);
+        close(k);
+    }
+    const bool ended = comes_to_an_end(ends, &value);
+    for (int k = 0; k < 3; k++) {
+        dup2(kept[k], k);
+        close(kept[k]);
+    }
+    assert_true(ended);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(work_that_ends_is_told_from_other_work),
         cmocka_unit_test(handlers_of_the_host_are_not_asked),
+        cmocka_unit_test(closed_streams_do_no_harm),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

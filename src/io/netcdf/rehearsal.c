@@ -51,17 +51,24 @@ static _Noreturn void rehearsal_perform(int pipe, void (*perform)(void *), void 
     _exit(written != 1);
 }
 
+/* Above the standard streams, which a host may have closed, and the child takes. */
+static int rehearsal_lift(int descriptor)
+{
+    const int higher = fcntl(descriptor, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+    close(descriptor);
+    return higher;
+}
+
 bool mw__rehearsal_begin(mw_rehearsal *r, void (*perform)(void *), void *work)
 {
     int ends[2];
     if (pipe(ends) != 0) return false;
-    fcntl(ends[0], F_SETFD, FD_CLOEXEC);
-    fcntl(ends[1], F_SETFD, FD_CLOEXEC);
-    r->child = fork();
+    for (int k = 0; k < 2; k++) ends[k] = rehearsal_lift(ends[k]);
+    r->child = ends[0] < 0 || ends[1] < 0 ? -1 : fork();
     if (r->child == 0) rehearsal_perform(ends[1], perform, work);
-    close(ends[1]);
+    if (ends[1] >= 0) close(ends[1]);
     r->pipe = ends[0];
-    if (r->child < 0) close(ends[0]);
+    if (r->child < 0 && ends[0] >= 0) close(ends[0]);
     return r->child > 0;
 }
 
