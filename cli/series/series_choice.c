@@ -70,8 +70,8 @@ static int choice_find_steps(series_choice *c, const char *time)
     else
         steps_parse(time, &c->first, &c->last);
     if (c->last < c->info->step_count) return 0;
-    complain("%s: has %zu steps, from 0: there is no step %zu", c->path, c->info->step_count,
-             c->last);
+    complain("%s: has %zu step%s, from 0: there is no step %zu", c->path, c->info->step_count,
+             c->info->step_count == 1 ? "" : "s", c->last);
     return END_INPUT;
 }
 

@@ -19,17 +19,17 @@ if TYPE_CHECKING:
     from meshwalk._mesh import Mesh
 
 
-def _axes(axes: Axes | None) -> Axes:
-    if axes is None:
+def _axes(ax: Axes | None) -> Axes:
+    if ax is None:
         import matplotlib.pyplot as plt
 
-        _, axes = plt.subplots()
-    axes.set_aspect("equal")
-    return axes
+        _, ax = plt.subplots()
+    ax.set_aspect("equal")
+    return ax
 
 
 def plot(
-    mesh: Mesh, values: ArrayLike | str | None = None, axes: Axes | None = None, **style: Any
+    mesh: Mesh, values: ArrayLike | str | None = None, ax: Axes | None = None, **style: Any
 ) -> Axes:
     """Draw a mesh: its edges, or values at its vertices or of its triangles in colours.
 
@@ -39,7 +39,7 @@ def plot(
         The mesh.
     values : array_like, shape (n_vertices,), or str, optional
         Values at the vertices, or the name of a field, also of a `Mesh.triangle_fields`.
-    axes : matplotlib.axes.Axes, optional
+    ax : matplotlib.axes.Axes, optional
         Where to draw; new ones by default.
     **style
         For ``Axes.tripcolor`` if there are values, else for ``Axes.triplot``.
@@ -60,25 +60,25 @@ def plot(
     >>> meshwalk.plot(mesh, "z").get_aspect()
     1.0
     """
-    axes = _axes(axes)
+    ax = _axes(ax)
     x, y = mesh.points.T
     if values is None:
-        axes.triplot(x, y, mesh.triangles, **{"linewidth": 0.5, "color": "0.5", **style})
-        return axes
+        ax.triplot(x, y, mesh.triangles, **{"linewidth": 0.5, "color": "0.5", **style})
+        return ax
     if isinstance(values, str) and values in mesh.triangle_fields and values not in mesh.fields:
-        axes.tripcolor(x, y, mesh.triangles, facecolors=mesh.triangle_fields[values], **style)
-        return axes
+        ax.tripcolor(x, y, mesh.triangles, facecolors=mesh.triangle_fields[values], **style)
+        return ax
     given = _arrays.named(mesh.fields, values) if isinstance(values, str) else values
     heights = _arrays.values(given, "values", mesh.vertex_count)
-    axes.tripcolor(x, y, mesh.triangles, heights, **{"shading": "gouraud", **style})
-    return axes
+    ax.tripcolor(x, y, mesh.triangles, heights, **{"shading": "gouraud", **style})
+    return ax
 
 
 def explain(
     locator: Locator,
     x: float,
     y: float,
-    axes: Axes | None = None,
+    ax: Axes | None = None,
     *,
     walk: str = "auto",
     start: str = "auto",
@@ -91,7 +91,7 @@ def explain(
         The locator.
     x, y : float
         A finite point.
-    axes : matplotlib.axes.Axes, optional
+    ax : matplotlib.axes.Axes, optional
         Where to draw; new ones by default.
     walk, start : str, optional
         Of `Locator.walk_path`.
@@ -118,23 +118,23 @@ def explain(
     if location.where is Where.BAD:
         raise ValueError(f"the point {x}, {y} is not finite")
     mesh = locator.mesh
-    axes = plot(mesh, axes=axes)
+    ax = plot(mesh, ax=ax)
     path = locator.walk_path(x, y, walk=walk, start=start)
     others = _sharing(mesh, location)
-    _fill(axes, mesh, path, "tab:blue", 0.2)
-    _fill(axes, mesh, np.array(others, int), "tab:orange", 0.5)
+    _fill(ax, mesh, path, "tab:blue", 0.2)
+    _fill(ax, mesh, np.array(others, int), "tab:orange", 0.5)
     if location.triangle >= 0:
-        _fill(axes, mesh, np.array([location.triangle]), "tab:red", 0.5)
+        _fill(ax, mesh, np.array([location.triangle]), "tab:red", 0.5)
     middles = mesh.points[mesh.triangles[path]].mean(1)
-    axes.plot(*middles.T, color="tab:blue", marker=".")
-    axes.plot(x, y, color="black", marker="x", linestyle="none")
-    axes.set_title(textwrap.fill(_sentence(location, others), 52))
-    return axes
+    ax.plot(*middles.T, color="tab:blue", marker=".")
+    ax.plot(x, y, color="black", marker="x", linestyle="none")
+    ax.set_title(textwrap.fill(_sentence(location, others), 52))
+    return ax
 
 
-def _fill(axes: Axes, mesh: Mesh, triangles: NDArray[Any], colour: str, opacity: float) -> None:
+def _fill(ax: Axes, mesh: Mesh, triangles: NDArray[Any], colour: str, opacity: float) -> None:
     for corners in mesh.points[mesh.triangles[triangles]]:
-        axes.fill(*corners.T, color=colour, alpha=opacity, linewidth=0)
+        ax.fill(*corners.T, color=colour, alpha=opacity, linewidth=0)
 
 
 def _sharing(mesh: Mesh, location: Location) -> list[int]:
