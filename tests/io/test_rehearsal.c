@@ -39,6 +39,17 @@ static void leaves(void *work)
     _exit(0);
 }
 
+static void waits(void *work)
+{
+    (void)work;
+    for (;;) pause();
+}
+
+static void goes_on(void *work)
+{
+    for (;;) ++*(volatile unsigned *)work;
+}
+
 static void reports(int number)
 {
     (void)number;
@@ -62,6 +73,16 @@ static void work_that_ends_is_told_from_other_work(void **state)
     assert_false(comes_to_an_end(falls, &value));
     assert_false(comes_to_an_end(leaves, &value));
     assert_int_equal(waitpid(-1, NULL, WNOHANG), -1); /* no child is left */
+}
+
+/* A child that waits has met a lock that stays locked; one that never ends is the work's fault. */
+static void waiting_is_told_from_working(void **state)
+{
+    int value = 1;
+    (void)state;
+    assert_true(comes_to_an_end(waits, &value));
+    assert_false(comes_to_an_end(goes_on, &value));
+    assert_int_equal(waitpid(-1, NULL, WNOHANG), -1);
 }
 
 static void handlers_of_the_host_are_not_asked(void **state)
@@ -97,6 +118,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(work_that_ends_is_told_from_other_work),
+        cmocka_unit_test(waiting_is_told_from_working),
         cmocka_unit_test(handlers_of_the_host_are_not_asked),
         cmocka_unit_test(closed_streams_do_no_harm),
     };

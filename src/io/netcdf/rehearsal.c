@@ -25,9 +25,11 @@ bool mw__rehearsal_end(mw_rehearsal *r)
 #include <stddef.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
-enum { PROCESSOR_SECONDS = 5, LONGEST_WAIT = 120 * 1000 /* milliseconds, for slow disks */ };
+/* Of the processor, that a child may use; and of the clock, in which it may use none of it. */
+enum { PROCESSOR_SECONDS = 5, IDLE_SECONDS = 3 };
 
 /* The handlers of the host program are not for its child, nor a file with its memory. */
 static void rehearsal_be_quiet(void)
@@ -72,18 +74,38 @@ bool mw__rehearsal_begin(mw_rehearsal *r, void (*perform)(void *), void *work)
     return r->child > 0;
 }
 
-bool mw__rehearsal_end(mw_rehearsal *r)
+/* How long the child has had the processor; negative: not known. */
+static double rehearsal_seconds(const mw_rehearsal *r)
+{
+    clockid_t clock;
+    struct timespec used;
+    if (clock_getcpuclockid(r->child, &clock) || clock_gettime(clock, &used)) return -1;
+    return (double)used.tv_sec + 1e-9 * (double)used.tv_nsec;
+}
+
+/* Wait until the child says something or ends; false if it does nothing at all. */
+static bool rehearsal_wait(const mw_rehearsal *r)
 {
     struct pollfd end = {.fd = r->pipe, .events = POLLIN};
+    double before = -1;
+    for (int idle = 0; idle < IDLE_SECONDS; idle++) {
+        const int ready = poll(&end, 1, 1000);
+        if (ready > 0) return true;
+        const double now = rehearsal_seconds(r);
+        if (ready < 0 || now > before) idle = -1; /* interrupted, or at work */
+        before = now;
+    }
+    return false;
+}
+
+bool mw__rehearsal_end(mw_rehearsal *r)
+{
     char byte;
-    int ready;
-    do ready = poll(&end, 1, LONGEST_WAIT);
-    while (ready < 0 && errno == EINTR);
-    const bool performed = ready > 0 && read(r->pipe, &byte, 1) == 1;
+    const bool idle = !rehearsal_wait(r), performed = !idle && read(r->pipe, &byte, 1) == 1;
     if (!performed) kill(r->child, SIGKILL);
     close(r->pipe);
     while (waitpid(r->child, NULL, 0) < 0 && errno == EINTR) continue;
-    return performed;
+    return performed || idle;
 }
 
 #endif

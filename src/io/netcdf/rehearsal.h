@@ -17,7 +17,8 @@ typedef struct mw_rehearsal {
  * of the processor. It has one thread and what the caller has locked. */
 bool mw__rehearsal_begin(mw_rehearsal *r, void (*perform)(void *), void *work);
 
-/* Wait for the child. False: it came to no orderly end. */
+/* Wait for the child. False: it fell, or used up its time. True: it came to its end; or it only
+ * waits, for a lock that another thread held when the child began, which nobody opens there. */
 bool mw__rehearsal_end(mw_rehearsal *r);
 
 #endif
