@@ -114,28 +114,12 @@ void report_end(report *r)
     if (r->json) text_string(&r->text, "\n}\n");
 }
 
-/* The length of the UTF-8 sequence at s; 0 if there is none. Overlong forms, surrogates and codes
- * above U+10FFFF are none. */
-static size_t utf8_length(const unsigned char *s)
-{
-    if (s[0] < 0x80) return 1;
-    size_t length = s[0] >= 0xf0 ? 4 : s[0] >= 0xe0 ? 3 : 2;
-    if (s[0] < 0xc2 || s[0] > 0xf4) return 0;
-    for (size_t i = 1; i < length; i++)
-        if ((s[i] & 0xc0) != 0x80) return 0;
-    if (s[0] == 0xe0 && s[1] < 0xa0) return 0;
-    if (s[0] == 0xed && s[1] >= 0xa0) return 0;
-    if (s[0] == 0xf0 && s[1] < 0x90) return 0;
-    if (s[0] == 0xf4 && s[1] >= 0x90) return 0;
-    return length;
-}
-
 void report_quote(text *t, const char *value)
 {
     const unsigned char *s = (const unsigned char *)value;
     text_string(t, "\"");
     while (*s) {
-        size_t length = utf8_length(s);
+        size_t length = text_utf8_length(s);
         if (length == 0)
             text_string(t, "\\ufffd");
         else if (*s == '"' || *s == '\\')

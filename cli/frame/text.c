@@ -69,3 +69,25 @@ void text_release(text *t)
     free(t->bytes);
     *t = (text){0};
 }
+
+size_t text_utf8_length(const unsigned char *s)
+{
+    if (s[0] < 0x80) return 1;
+    size_t length = s[0] >= 0xf0 ? 4 : s[0] >= 0xe0 ? 3 : 2;
+    if (s[0] < 0xc2 || s[0] > 0xf4) return 0;
+    for (size_t i = 1; i < length; i++)
+        if ((s[i] & 0xc0) != 0x80) return 0;
+    if (s[0] == 0xe0 && s[1] < 0xa0) return 0;
+    if (s[0] == 0xed && s[1] >= 0xa0) return 0;
+    if (s[0] == 0xf0 && s[1] < 0x90) return 0;
+    if (s[0] == 0xf4 && s[1] >= 0x90) return 0;
+    return length;
+}
+
+bool text_is_utf8(const char *string)
+{
+    const unsigned char *s = (const unsigned char *)string;
+    for (size_t length; *s; s += length)
+        if ((length = text_utf8_length(s)) == 0) return false;
+    return true;
+}

@@ -23,4 +23,9 @@ void text_double(text *t, double value);
 void text_clear(text *t); /* keeps the memory */
 void text_release(text *t);
 
+/* The length of the UTF-8 sequence at s; 0 if there is none. Overlong forms, surrogates and codes
+ * above U+10FFFF are none. */
+size_t text_utf8_length(const unsigned char *s);
+bool text_is_utf8(const char *string);
+
 #endif

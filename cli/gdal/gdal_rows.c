@@ -1,6 +1,7 @@
 #include "cli/gdal/gdal_rows.h"
 #include "cli/frame/files.h"
 #include "cli/frame/message.h"
+#include "cli/frame/text.h"
 #include "cli/gdal/gdal_crs.h"
 #include "cli/gdal/gdal_directory.h"
 #include "cli/gdal/vector_formats.h"
@@ -243,6 +244,12 @@ static int rows_create_field(gdal_rows *r, row_column *column)
                                          [KIND_REAL] = OFTReal,
                                          [KIND_TEXT] = OFTString};
     const gdal_functions *gdal = r->gdal;
+    if (!text_is_utf8(column->name)) {
+        complain("%s: the name of column %zu is not UTF-8, as a vector file needs it; "
+                 "'iconv -f WINDOWS-1252 -t UTF-8' converts most tables",
+                 r->target.path, (size_t)(column - r->columns) + 1);
+        return END_INPUT;
+    }
     OGRFieldDefnH definition = gdal->OGR_Fld_Create(column->name, types[column->kind]);
     if (r->format->shapefile && types[column->kind] == OFTString)
         gdal->OGR_Fld_SetWidth(definition, 254);
@@ -343,6 +350,20 @@ static int feature_set_real(gdal_rows *r, OGRFeatureH feature, const row_column 
     return end;
 }
 
+/* Text goes into a vector file as UTF-8; GDAL would write other bytes as they are. */
+static int feature_set_text(gdal_rows *r, OGRFeatureH feature, const row_column *column,
+                            const char *value)
+{
+    if (!text_is_utf8(value)) {
+        complain("%s: row %" PRIu64 ": the text in the column '%.60s' is not UTF-8, as a vector "
+                 "file needs it; 'iconv -f WINDOWS-1252 -t UTF-8' converts most tables",
+                 r->target.path, r->written + 1, column->name);
+        return END_INPUT;
+    }
+    r->gdal->OGR_F_SetFieldString(feature, column->field, value);
+    return 0;
+}
+
 static int feature_set_field(gdal_rows *r, OGRFeatureH feature, const row_column *column,
                              const row_cell *cell)
 {
@@ -364,7 +385,7 @@ static int feature_set_field(gdal_rows *r, OGRFeatureH feature, const row_column
     else if (column->kind == KIND_REAL)
         return feature_set_real(r, feature, column, value);
     else
-        gdal->OGR_F_SetFieldString(feature, column->field, value);
+        return feature_set_text(r, feature, column, value);
     return 0;
 }
 

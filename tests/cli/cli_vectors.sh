@@ -140,6 +140,15 @@ run sample square.off comma.csv -o comma.fgb; exits 0
 run sample square.off comma.fgb; exits 0
 prints $'x_mw,y_mw,id,x,y,z,z_mw\n0.75,0.25,A,0.75,0.25,1,1'
 : >none.csv
+# Bytes that are not UTF-8 would be written as they are, and nobody could read them.
+printf 'x,y,town\n0.5,0.25,Z\374rich\n' >latin1.csv
+run sample square.off latin1.csv; exits 0
+run sample square.off latin1.csv -o latin1.gpkg
+refused 3 "latin1\.gpkg: row 1: the text in the column 'town' is not UTF-8"
+printf 'x,y,H\366he\n0.5,0.25,1\n' >latin1.csv
+run sample square.off latin1.csv -o latin1.geojson
+refused 3 'latin1\.geojson: the name of column 3 is not UTF-8'
+holds "nothing is left" test ! -e latin1.gpkg -a ! -e latin1.geojson
 run sample square.off none.csv -o none.gpkg; exits 0
 run sample square.off none.gpkg; exits 0; prints x_mw,y_mw,x,y,z,z_mw
 run star --lonlat tetra.off none.csv -o none.gpkg; exits 0
