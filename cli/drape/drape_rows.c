@@ -36,8 +36,9 @@ static bool drape_names_have(const char *const *names, const char *name)
 }
 
 /* A name of an attribute that is also one of ours gets a prefix. */
-static bool drape_own_name(const drape *d, const char *name)
+static bool drape_own_name(const void *rows, const char *name)
 {
+    const drape *d = rows;
     static const char *const always[] = {"feature", "part", NULL}, *const point[] = {"x", "y", "z",
                                                                                      NULL};
     return drape_names_have(always, name) || (d->table && drape_names_have(point, name)) ||
@@ -46,20 +47,8 @@ static bool drape_own_name(const drape *d, const char *name)
 
 bool drape_write_header(const drape *d, text *header, text *kinds)
 {
-    const feature_values *values = &d->lines->values;
     const char *const *own = d->polygons ? drape_polygon_names : drape_line_names;
-    text_string(header, "feature,part");
-    text_string(kinds, "ii");
-    for (size_t i = 0; i < values->count; i++) {
-        text name = {0};
-        text_printf(&name, "%s%s", drape_own_name(d, values->names[i]) ? "line_" : "",
-                    values->names[i]);
-        text_bytes(&name, "", 1);
-        if (!name.failed) csv_row_text(header, name.bytes);
-        header->failed = header->failed || name.failed;
-        text_release(&name);
-        text_bytes(kinds, &values->kinds[i], 1);
-    }
+    row_output_begin_header(header, kinds, &d->lines->values, drape_own_name, d);
     for (size_t i = 0; own[i]; i++) {
         text_printf(header, ",%s", own[i]);
         text_bytes(kinds, i == 0 && !d->polygons ? "i" : "r", 1);

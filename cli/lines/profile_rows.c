@@ -13,8 +13,9 @@ enum { SEGMENTS_AT_A_TIME = 1 << 16 };
 /* --- header --- */
 
 /* A name of an attribute that is also one of ours gets a prefix. */
-static bool header_has(const profile *p, const char *name)
+static bool header_has(const void *rows, const char *name)
 {
+    const profile *p = rows;
     const char *own[] = {"feature", "part", "chainage", "x", "y", "triangle", "at", p->name};
     for (size_t i = 0; i < sizeof own / sizeof *own; i++)
         if (strcasecmp(own[i], name) == 0) return true;
@@ -23,19 +24,7 @@ static bool header_has(const profile *p, const char *name)
 
 bool profile_write_header(const profile *p, text *header, text *kinds)
 {
-    const feature_values *values = &p->lines->values;
-    text_string(header, "feature,part");
-    text_string(kinds, "ii");
-    for (size_t i = 0; i < values->count; i++) {
-        text name = {0};
-        text_printf(&name, "%s%s", header_has(p, values->names[i]) ? "line_" : "",
-                    values->names[i]);
-        text_bytes(&name, "", 1);
-        if (!name.failed) csv_row_text(header, name.bytes);
-        header->failed = header->failed || name.failed;
-        text_release(&name);
-        text_bytes(kinds, &values->kinds[i], 1);
-    }
+    row_output_begin_header(header, kinds, &p->lines->values, header_has, p);
     text_string(header, ",chainage,x,y");
     csv_row_text(header, p->name);
     text_string(header, ",triangle,at\n");

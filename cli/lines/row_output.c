@@ -1,4 +1,5 @@
 #include "cli/lines/row_output.h"
+#include "cli/output/csv_row.h"
 #include "cli/frame/files.h"
 #include "cli/frame/message.h"
 #include "cli/frame/signals.h"
@@ -125,4 +126,20 @@ int row_output_close(row_output *o, bool commit)
     free(o->points);
     text_release(&o->text);
     return end;
+}
+
+void row_output_begin_header(text *header, text *kinds, const feature_values *values,
+                             row_output_own *is_own, const void *rows)
+{
+    text_string(header, "feature,part");
+    text_string(kinds, "ii");
+    for (size_t i = 0; i < values->count; i++) {
+        text name = {0};
+        text_printf(&name, "%s%s", is_own(rows, values->names[i]) ? "line_" : "", values->names[i]);
+        text_bytes(&name, "", 1);
+        if (!name.failed) csv_row_text(header, name.bytes);
+        header->failed = header->failed || name.failed;
+        text_release(&name);
+        text_bytes(kinds, &values->kinds[i], 1);
+    }
 }

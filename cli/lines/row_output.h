@@ -3,6 +3,7 @@
 #ifndef MW_CLI_LINES_ROW_OUTPUT_H
 #define MW_CLI_LINES_ROW_OUTPUT_H
 
+#include "cli/constraints/feature_values.h"
 #include "cli/frame/text.h"
 #include "cli/gdal/gdal_rows.h"
 
@@ -23,6 +24,12 @@ typedef struct row_output {
 
 /* Refuse an output that cannot be written, before anything is read. NULL: standard output. */
 int row_output_check(const char *path);
+
+/* Begin a header, and the kinds of its columns: the feature, its part, and its attributes. One that
+ * has a name of the command's own columns gets a prefix. A failure is in the texts. */
+typedef bool row_output_own(const void *rows, const char *name);
+void row_output_begin_header(text *header, text *kinds, const feature_values *values,
+                             row_output_own *is_own, const void *rows);
 
 /* Begin with the header, whose texts are not in quotes.
  *   kinds  of its columns: 't' text, 'i' integer, 'r' real

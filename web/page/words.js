@@ -21,10 +21,10 @@ const DEFECT_WORDS = {
     "this is a remark."],
   clashing: ["Neighbours face opposite ways", "Two neighbours have opposite orientation: one of " +
     "them shows its back."],
-  "through-centre": ["A facet seen edge-on", "Its plane passes through the centre, so no ray from " +
-    "there meets it in one point."],
-  turned: ["A facet that shows its back", "Seen from the centre it is turned the other way than its " +
-    "neighbour: the polyhedron is not star-shaped about this centre."],
+  "through-centre": ["A facet seen edge-on", "Its plane passes through the centre, so no ray " +
+    "from there meets it in one point."],
+  turned: ["A facet that shows its back", "Seen from the centre it is turned the other way than " +
+    "its neighbour: the polyhedron is not star-shaped about this centre."],
   covered: ["Covered", "A ray from the centre meets this facet and another one."],
   "open-edge": ["An open edge", "This edge has one triangle only, so the surface is not closed."],
 };
