@@ -8,6 +8,7 @@
 #include "bench/peers/bench_peers.h"
 #include "bench/peers/engine_list.h"
 #include "bench/segments/bench_segments.h"
+#include "bench/terrain/bench_terrain.h"
 #include "bench/worst/bench_worst.h"
 #include "cli/frame/message.h"
 #include "cli/frame/spelling.h"
@@ -24,6 +25,7 @@ static const struct {
     {"peers", bench_peers, true},       {"scale", bench_scale, true},
     {"edit", bench_edit, true},         {"worst", bench_worst, true},
     {"segments", bench_segments, true}, {"ocean", bench_ocean, true},
+    {"terrain", bench_terrain, true},
 };
 #define MEASUREMENTS (sizeof measurements / sizeof *measurements)
 

@@ -18,7 +18,8 @@ static const command *const commands[] = {
     &info_command,    &check_command, &triangulate_command, &locate_command,   &sample_command,
     &weights_command, &apply_command, &profile_command,     &contours_command, &raster_command,
     &visible_command, &drape_command, &volume_command,      &edit_command,     &star_command,
-    &probe_command,   &walk_command,  &bench_command,       &convert_command,  &view_command,
+    &probe_command,   &walk_command,  &bench_command,       &convert_command,  &prepare_command,
+    &view_command,
 };
 #define COMMAND_COUNT (sizeof commands / sizeof *commands)
 
@@ -41,9 +42,9 @@ static int main_print_help(void)
     help_wrap(
         &t,
         "Meshes: Triangle .node/.ele, OFF, OBJ, PLY, STL, fort.14, .gr3, .2dm, Selafin, Gmsh .msh, "
-        "VTK, VTU, SU2, .npz, netCDF (UGRID and ocean models). Points: text with columns, LAS. "
-        "Constraints: GeoJSON, "
-        "Triangle .poly. Each also gzipped; '-' is standard input or output.",
+        "VTK, VTU, SU2, .npz, netCDF (UGRID and ocean models), prepared .mwm. Points: text with "
+        "columns, LAS. Constraints: GeoJSON, Triangle .poly. Each also gzipped; '-' is standard "
+        "input or output.",
         0);
     help_wrap(
         &t,

@@ -24,7 +24,7 @@ _meshwalk_options() {
             echo "--driver --creation --crs --json $common"
             ;;
         visible)
-            echo "--from --height --target-height --to --raster --resolution --like --extent --driver --creation --field"
+            echo "--from --height --target-height --to --between --raster --resolution --like --extent --driver --creation --field"
             echo "--nodata --columns --crs --points-crs $stream $common"
             ;;
         edit)
@@ -33,10 +33,11 @@ _meshwalk_options() {
             ;;
         star) echo "--centre --lonlat --walk --start --finish --sample --cells --levels --columns $stream $common" ;;
         probe)
-            echo "--max-distance --certain --start --samples --iterations --race --weld --any --columns $stream $common"
+            echo "--max-distance --certain --extent --faces --min-distance --inside --start --samples --iterations --race --weld --any --columns $stream $common"
             ;;
         walk) echo "--from --to --walk --animate --max-distance --samples --iterations --as --centre --lonlat --weld $common" ;;
         convert) echo "--format --crs $common" ;;
+        prepare) echo "--border --fields --crs $common" ;;
         view) echo "--points --columns --as --centre --lonlat --weld $common" ;;
         bench) echo "--queries --sizes --enclose --data --engines --tasks --rounds --walk --seeds --no-times --format --plot $common" ;;
     esac
@@ -146,13 +147,13 @@ _meshwalk() {
         before=${COMP_WORDS[COMP_CWORD - 2]}
     fi
     if ((COMP_CWORD == 1)); then
-        names='info check triangulate locate sample weights apply profile contours raster visible drape volume edit star probe walk convert view bench --help --version'
+        names='info check triangulate locate sample weights apply profile contours raster visible drape volume edit star probe walk convert prepare view bench --help --version'
         mapfile -t COMPREPLY < <(compgen -W "$names" -- "$word")
         return
     fi
     names=$(_meshwalk_names "$command" "$before")
     [[ $command == bench && $COMP_CWORD -eq 2 && $word != -* ]] &&
-        names='paper near-vertices peers scale edit worst segments ocean'
+        names='paper near-vertices peers scale edit worst segments ocean terrain'
     [[ $command == bench && $before == paper ]] && names='A1 A2 B1 B2 C1 C2 D1 E1 E2 F1 F2 G1 G2 G3'
     [[ $command == bench && $before == @(peers|scale) ]] &&
         names='uniform grid gaussian clusters arcs rectangle rings slivers offset cadastre lidar'

@@ -1,7 +1,8 @@
-# Tests of the project as a whole: the examples in the documentation, the layout of the code, what is installed, where
-# the data came from.
+# Tests of the project as a whole: the examples in the documentation, the layout of the code, what
+# is installed, where the data came from.
 
-# Blocks of code in the documentation: C blocks become programs, the shell blocks of a page one test.
+# Blocks of code in the documentation: C blocks become programs, the shell blocks of a page one
+# test.
 file(GLOB pages CONFIGURE_DEPENDS README.md docs/*.md docs/proofs/*.md docs/measurements/*.md)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${pages} tools/doc_blocks.awk)
 set(blocks_dir ${PROJECT_BINARY_DIR}/documentation)
@@ -11,7 +12,8 @@ foreach(page IN LISTS pages)
   file(RELATIVE_PATH name ${PROJECT_SOURCE_DIR} ${page})
   string(REGEX REPLACE "^docs/|\\.md$" "" name ${name})
   string(REPLACE "/" "_" name ${name})
-  execute_process(COMMAND awk -f ${PROJECT_SOURCE_DIR}/tools/doc_blocks.awk -v prefix=${blocks_dir}/${name} ${page}
+  execute_process(COMMAND awk -f ${PROJECT_SOURCE_DIR}/tools/doc_blocks.awk -v
+    prefix=${blocks_dir}/${name} ${page}
     OUTPUT_VARIABLE blocks OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
   string(REPLACE "\n" ";" blocks "${blocks}")
   set(shell_blocks ${blocks})
@@ -39,7 +41,8 @@ endforeach()
 if(MW_SANITIZE)
   return()
 endif()
-# A test that cannot run here is skipped visibly; tools/left_out lists the reasons at the end of ./test.
+# A test that cannot run here is skipped visibly; tools/left_out lists the reasons at the end of
+# ./test.
 function(leave_out name reason)
   add_test(NAME ${name} COMMAND ${CMAKE_COMMAND} -E echo "left out: ${reason}")
   set_tests_properties(${name} PROPERTIES SKIP_REGULAR_EXPRESSION "left out: ")
@@ -53,20 +56,25 @@ endif()
 add_test(NAME arrows COMMAND ${PROJECT_SOURCE_DIR}/tools/check_arrows)
 add_test(NAME arrows_self_test COMMAND ${PROJECT_SOURCE_DIR}/tools/test_check_arrows)
 add_test(NAME calls COMMAND ${PROJECT_SOURCE_DIR}/tools/check_calls $<TARGET_FILE:meshwalk_static>)
-add_test(NAME man3 COMMAND ${PROJECT_SOURCE_DIR}/tools/check_man3 ${PROJECT_SOURCE_DIR}/include ${PROJECT_BINARY_DIR}/man3)
+add_test(NAME man3 COMMAND ${PROJECT_SOURCE_DIR}/tools/check_man3 ${PROJECT_SOURCE_DIR}/include
+  ${PROJECT_BINARY_DIR}/man3)
 add_test(NAME citations COMMAND ${PROJECT_SOURCE_DIR}/tools/check_citations)
 add_test(NAME links COMMAND ${PROJECT_SOURCE_DIR}/tools/check_links)
 add_test(NAME columns COMMAND ${PROJECT_SOURCE_DIR}/tools/check_columns)
 add_test(NAME names COMMAND ${PROJECT_SOURCE_DIR}/tools/check_names)
-add_test(NAME symbols COMMAND ${PROJECT_SOURCE_DIR}/tools/check_symbols ${PROJECT_SOURCE_DIR}/include
+add_test(NAME symbols COMMAND ${PROJECT_SOURCE_DIR}/tools/check_symbols
+  ${PROJECT_SOURCE_DIR}/include
   $<TARGET_FILE:meshwalk_shared> $<TARGET_FILE:meshwalk_static>)
 # Fast-math would make the predicates wrong: the sources refuse it.
-add_test(NAME fast_math COMMAND ${CMAKE_C_COMPILER} -ffast-math -fsyntax-only -I${PROJECT_SOURCE_DIR}/include
+add_test(NAME fast_math COMMAND ${CMAKE_C_COMPILER} -ffast-math -fsyntax-only
+  -I${PROJECT_SOURCE_DIR}/include
   -I${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/src/predicates/orient2d.c)
-set_tests_properties(fast_math PROPERTIES PASS_REGULAR_EXPRESSION "do not compile it with -ffast-math")
+set_tests_properties(fast_math PROPERTIES PASS_REGULAR_EXPRESSION
+  "do not compile it with -ffast-math")
 if(MW_BUILD_CLI)
   add_subdirectory(${PROJECT_SOURCE_DIR}/web/test ${PROJECT_BINARY_DIR}/web/test)
-  add_test(NAME install COMMAND ${PROJECT_SOURCE_DIR}/tools/check_install ${PROJECT_BINARY_DIR} ${CMAKE_C_COMPILER})
+  add_test(NAME install COMMAND ${PROJECT_SOURCE_DIR}/tools/check_install ${PROJECT_BINARY_DIR}
+    ${CMAKE_C_COMPILER})
   add_test(NAME strangers COMMAND ${PROJECT_SOURCE_DIR}/tools/check_strangers ${PROJECT_BINARY_DIR})
 endif()
 
@@ -74,7 +82,8 @@ endif()
 set(grid /usr/share/matplotlib/mpl-data/sample_data/jacksboro_fault_dem.npz)
 set(no_numpy TRUE)
 if(EXISTS ${grid} AND EXISTS /usr/bin/python3)
-  execute_process(COMMAND /usr/bin/python3 -c "import numpy" RESULT_VARIABLE no_numpy OUTPUT_QUIET ERROR_QUIET)
+  execute_process(COMMAND /usr/bin/python3 -c "import numpy" RESULT_VARIABLE no_numpy OUTPUT_QUIET
+    ERROR_QUIET)
 endif()
 if(no_numpy)
   leave_out(data "the source of the terrain: Debian's python-matplotlib-data and python3-numpy")

@@ -1,11 +1,12 @@
-# What `cmake --install` lays down: libraries, headers, package files for CMake and pkg-config. The program and its
-# manual pages are installed by cli/. Only a top-level build installs.
+# What `cmake --install` lays down: libraries, headers, package files for CMake and pkg-config. The
+# program and its manual pages are installed by cli/. Only a top-level build installs.
 include(CMakePackageConfigHelpers)
 
 set_target_properties(meshwalk_shared PROPERTIES EXPORT_NAME meshwalk)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/meshwalk)
 
-# Two export sets: users of the shared library need the development files of neither zlib nor Jansson.
+# Two export sets: users of the shared library need the development files of neither zlib nor
+# Jansson.
 install(TARGETS meshwalk_shared EXPORT meshwalkSharedTargets)
 install(TARGETS meshwalk_static EXPORT meshwalkStaticTargets)
 foreach(kind Shared Static)
@@ -27,14 +28,18 @@ set(needs_jansson OFF)
 if(TARGET PkgConfig::JANSSON)
   set(needs_jansson ON)
 endif()
-configure_package_config_file(cmake/meshwalkConfig.cmake.in ${PROJECT_BINARY_DIR}/meshwalkConfig.cmake
+configure_package_config_file(cmake/meshwalkConfig.cmake.in
+  ${PROJECT_BINARY_DIR}/meshwalkConfig.cmake
   INSTALL_DESTINATION ${package_dir})
 # Until 1.0 a new minor version may change the interface.
-write_basic_package_version_file(${PROJECT_BINARY_DIR}/meshwalkConfigVersion.cmake COMPATIBILITY SameMinorVersion)
-install(FILES ${PROJECT_BINARY_DIR}/meshwalkConfig.cmake ${PROJECT_BINARY_DIR}/meshwalkConfigVersion.cmake
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/meshwalkConfigVersion.cmake COMPATIBILITY
+  SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/meshwalkConfig.cmake
+  ${PROJECT_BINARY_DIR}/meshwalkConfigVersion.cmake
   DESTINATION ${package_dir})
 
-# pkg-config: the static library's own needs stand in Libs.private. The prefix is found from the place of the file.
+# pkg-config: the static library's own needs stand in Libs.private. The prefix is found from the
+# place of the file.
 file(RELATIVE_PATH pc_prefix ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
 set(pc_private "-lz -lm")
 foreach(library ${CMAKE_DL_LIBS})

@@ -52,7 +52,7 @@ static void compare(predicate_oracle *truth, long exponent, double filtered, dou
 
 static mw_line line_at(const double *p)
 {
-    return (mw_line){{p[0], p[1], p[2]}, {p[3], p[4], p[5]}};
+    return (mw_line){{p[0], p[1], p[2]}, {p[3], p[4], p[5]}, {0}};
 }
 
 static void check_hits(line_oracle *truth, const double p[COORDINATES])

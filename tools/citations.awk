@@ -1,5 +1,5 @@
-# tools/citations.awk - compares citations with the bibliography, for check_citations. The first file is
-# the bibliography, the second the errata; all but the first cite.
+# tools/citations.awk - compares citations with the bibliography, for check_citations. The first
+# file is the bibliography, the second the errata; all but the first cite.
 
 # An entry begins "- **Key**", and may have another one: "also **Key**".
 FILENAME == ARGV[1] {
@@ -21,7 +21,8 @@ FILENAME == ARGV[2] && /^[|] [0-9]+ [|]/ { slip[$2] = 1 }
     sub(/^[ \t]*(\*|\/\*|\/\/|#)?[ \t]*/, "", text)
     where = FILENAME ":" FNR
     body = (FNR == 1 ? "" : body " ") text
-    if (FILENAME != ARGV[2] && match(text, /[Ss]lip [0-9]+/) && !(substr(text, RSTART + 5, RLENGTH - 5) in slip)) {
+    if (FILENAME != ARGV[2] && match(text, /[Ss]lip [0-9]+/) &&
+        !(substr(text, RSTART + 5, RLENGTH - 5) in slip)) {
         print where ": docs/errata.md has no " substr(text, RSTART, RLENGTH)
         wrong = 1
     }

@@ -192,7 +192,8 @@ after_comment {
 in_item {
     declaration[++declarations] = $0
     braces += open_braces($0)
-    if (braces == 0 && ($0 ~ /;[^;]*$/ && $0 !~ /^ +\*/ || declaration[1] ~ /^#define/ && $0 !~ /\\$/)) {
+    if (braces == 0 && ($0 ~ /;[^;]*$/ && $0 !~ /^ +\*/ ||
+                        declaration[1] ~ /^#define/ && $0 !~ /\\$/)) {
         in_item = 0
         print_item()
     }

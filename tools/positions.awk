@@ -1,7 +1,9 @@
-# tools/positions.awk: irregular query positions over the Jacksboro model, some of them outside, as CSV x,y.
+# tools/positions.awk: irregular query positions over the Jacksboro model, some of them outside, as
+# CSV x,y.
 #   awk -f tools/positions.awk -v count=200000 data/jacksboro.csv > positions.csv
-# The positions are uniform over the extent of the points read, enlarged by 2 % on every side. The generator is
-# x = 16807 x mod (2^31 - 1) [Park, Miller 1988], so every awk writes the same positions.
+# The positions are uniform over the extent of the points read, enlarged by 2 % on every side. The
+# generator is x = 16807 x mod (2^31 - 1) [Park, Miller 1988], so every awk writes the same
+# positions.
 BEGIN { FS = ","; state = 20240607; if (!count) count = 200000 }
 function uniform() { state = (state * 16807) % 2147483647; return state / 2147483647 }
 FNR == 1 { next } # the header

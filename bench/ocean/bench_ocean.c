@@ -1,9 +1,12 @@
 /* bench ocean: what users of ocean models wait for, on a Delaunay triangulation of uniform points.
  *   open   a mesh of UGRID is read and gets a locator, beside one from arrays in memory
- *   apply  weights of as many points as vertices, applied to 240 steps, beside copying the results;
- *          values side by side, or steps one after the other, of points at random or in good order
  *   hints  10^5 particles that drift, each located from its last triangle
- * One row for each way; the first way of a task is what its others are compared with. */
+ *   apply  weights of as many points as vertices, applied to 240 steps, beside copying by one
+ *          thread; values side by side, or steps one after the other, of points at random or in
+ *          good order
+ * Prints one row for each way, as soon as its task is measured. The other ways of a task are
+ * compared with its first: by time; `apply` by the time for each byte that must be read or written.
+ */
 #include "bench/ocean/bench_ocean.h"
 #include "bench/core/rounds.h"
 #include "bench/core/word_list.h"
@@ -38,29 +41,45 @@ static size_t ocean_rounds(const ocean_run *r)
     return r->settings->rounds ? r->settings->rounds : ROUNDS;
 }
 
-/* A row for each way: seconds, nanoseconds of each of so many pieces of work, and the ratio to the
- * first way. */
-static void ocean_print(ocean_run *r, const char *task, const char *const *ways, size_t count,
-                        double pieces, const rounds_results *results)
+/* The ways of a task, and how many pieces of work and bytes each does. */
+typedef struct ocean_task {
+    const char *name;
+    const char *const *ways;
+    size_t count;
+    double pieces;
+    const double *bytes; /* of each way; NULL: alike */
+} ocean_task;
+
+/* Results for standard output are shown as they come, so that a long run can be watched. */
+static int ocean_show(ocean_run *r)
 {
-    const bool tsv = r->settings->format == FORMAT_TSV;
-    const double first = rounds_minimum(results, 0, 0);
-    for (size_t way = 0; way < count; way++) {
-        const double seconds = rounds_minimum(results, way, 0);
-        text_printf(&r->table,
-                    tsv ? "%s\t%s\t%.4g\t%.4g\t%.4g\n" : "%-8s %-20s %10.4g %10.4g %8.3g\n", task,
-                    ways[way], seconds, 1e9 * seconds / pieces, seconds / first);
-    }
+    if (!files_is_standard(r->settings->common.output)) return 0;
+    return files_write_text(NULL, &r->table);
 }
 
-static int ocean_measure(ocean_run *r, const char *task, const char *const *ways, size_t count,
-                         double pieces, rounds_run *run, void *self)
+/* One row for each way: seconds, nanoseconds per item, and the ratio to the first way. */
+static int ocean_print(ocean_run *r, const ocean_task *task, const rounds_results *results)
+{
+    const bool tsv = r->settings->format == FORMAT_TSV;
+    const double first = rounds_minimum(results, 0, 0) / (task->bytes ? task->bytes[0] : 1);
+    for (size_t way = 0; way < task->count; way++) {
+        const double seconds = rounds_minimum(results, way, 0),
+                     bytes = task->bytes ? task->bytes[way] : 1;
+        text_printf(&r->table,
+                    tsv ? "%s\t%s\t%.4g\t%.4g\t%.4g\n" : "%-8s %-20s %10.4g %10.4g %8.3g\n",
+                    task->name, task->ways[way], seconds, 1e9 * seconds / task->pieces,
+                    seconds / bytes / first);
+    }
+    return ocean_show(r);
+}
+
+static int ocean_measure(ocean_run *r, const ocean_task *task, rounds_run *run, void *self)
 {
     const rounds_plan plan = {
-        .entries = count, .figures = 1, .warmups = 1, .rounds = ocean_rounds(r)};
+        .entries = task->count, .figures = 1, .warmups = 1, .rounds = ocean_rounds(r)};
     rounds_results results = {0};
-    const int end = rounds_measure(&plan, run, self, &results);
-    if (end == 0) ocean_print(r, task, ways, count, pieces, &results);
+    int end = rounds_measure(&plan, run, self, &results);
+    if (end == 0) end = ocean_print(r, task, &results);
     rounds_release(&results);
     return end;
 }
@@ -139,7 +158,8 @@ static int ocean_measure_open(ocean_run *r, const mw_mesh *mesh)
     progress_phase("opening", "UGRID");
     int end = ocean_fill_file(r, mesh) ? ocean_write(r) : fail_memory();
     if (end == 0)
-        end = ocean_measure(r, "open", ways, 2, (double)r->file.triangle_count, ocean_open, r);
+        end = ocean_measure(r, &(ocean_task){"open", ways, 2, (double)r->file.triangle_count, NULL},
+                            ocean_open, r);
     if (*r->path) unlink(r->path);
     free(r->file.points);
     free(r->file.triangles);
@@ -193,7 +213,8 @@ static int ocean_measure_hints(ocean_run *r, const mw_mesh *mesh)
         r->places[i] = 0.2 + 0.6 * dataset_unit(&random);
     for (size_t i = 0; i < PARTICLES && end == 0; i++) r->hints[i] = MW_NONE;
     if (end == 0)
-        end = ocean_measure(r, "hints", ways, 2, (double)PARTICLES * DRIFTS, ocean_follow, r);
+        end = ocean_measure(r, &(ocean_task){"hints", ways, 2, (double)PARTICLES * DRIFTS, NULL},
+                            ocean_follow, r);
     mw_locator_destroy(r->locator);
     free(r->places);
     free(r->hints);
@@ -205,11 +226,17 @@ static int ocean_measure_hints(ocean_run *r, const mw_mesh *mesh)
 static int ocean_measure_apply(ocean_run *r, const mw_mesh *mesh)
 {
     ocean_weights w;
+    double bytes[OCEAN_WEIGHTS_WAYS];
     progress_phase("applying", "weights");
     int end = ocean_weights_make(&w, mesh, r->settings->common.seed);
-    if (end == 0)
-        end = ocean_measure(r, "apply", ocean_weights_ways, OCEAN_WEIGHTS_WAYS,
-                            (double)w.points * OCEAN_STEPS, ocean_weights_time, &w);
+    if (end == 0) {
+        for (size_t way = 0; way < OCEAN_WEIGHTS_WAYS; way++)
+            bytes[way] = ocean_weights_bytes(&w, way);
+        end = ocean_measure(r,
+                            &(ocean_task){"apply", ocean_weights_ways, OCEAN_WEIGHTS_WAYS,
+                                          (double)w.points * OCEAN_STEPS, bytes},
+                            ocean_weights_time, &w);
+    }
     ocean_weights_release(&w);
     return end;
 }
@@ -234,8 +261,8 @@ static int ocean_measure_size(ocean_run *r, size_t vertices)
     mw_mesh_destroy(mesh);
     if (end) return end;
     end = ocean_make_mesh(r, vertices, &mesh);
-    if (end == 0) end = ocean_measure_apply(r, mesh);
     if (end == 0) end = ocean_measure_hints(r, mesh);
+    if (end == 0) end = ocean_measure_apply(r, mesh);
     mw_mesh_destroy(mesh);
     return end;
 }
@@ -261,10 +288,12 @@ int bench_ocean(const bench_settings *s, const char *table)
     text_string(&r.table, s->format == FORMAT_TSV
                               ? "task\tway\tseconds\tns\tratio\n"
                               : "task     way                     seconds         ns    ratio\n");
+    if (end == 0) end = ocean_show(&r);
     for (size_t i = 0; i < sizes.count && end == 0; i++)
         end = ocean_measure_size(&r,
                                  sizes.size[i] < FEWEST_VERTICES ? FEWEST_VERTICES : sizes.size[i]);
-    if (end == 0) return files_write_text(s->common.output, &r.table);
+    if (end == 0 && !files_is_standard(s->common.output))
+        return files_write_text(s->common.output, &r.table);
     text_release(&r.table);
     return end;
 }

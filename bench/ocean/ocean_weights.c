@@ -88,6 +88,16 @@ static mw_status weights_apply(const ocean_weights *w, size_t way, mw_error *err
     return mw_operator_apply(weights, &table, &options, w->results, error);
 }
 
+double ocean_weights_bytes(const ocean_weights *w, size_t way)
+{
+    const double size = way == FLOATS ? sizeof(float) : sizeof(double),
+                 fields = 2 * size * (double)w->points * OCEAN_STEPS;
+    mw_operator_info info;
+    if (way == COPY) return fields;
+    mw_operator_describe(way == ORDERED || way == ORDERED_1 ? w->ordered : w->random, &info);
+    return fields + (double)info.bytes * (OCEAN_STEPS / BLOCK);
+}
+
 int ocean_weights_time(void *self, size_t way, size_t round, double *figures)
 {
     const ocean_weights *w = self;

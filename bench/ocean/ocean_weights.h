@@ -19,6 +19,10 @@ typedef struct ocean_weights {
 int ocean_weights_make(ocean_weights *w, const mw_mesh *mesh, uint64_t seed);
 void ocean_weights_release(ocean_weights *w);
 
+/* The bytes that all steps have to touch by a way: values once, results once, and the weights once
+ * for each block of steps. */
+double ocean_weights_bytes(const ocean_weights *w, size_t way);
+
 /* Figure 0: seconds of all steps, by the way of that number. `self` is an ocean_weights. */
 int ocean_weights_time(void *self, size_t way, size_t round, double *figures);
 

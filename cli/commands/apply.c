@@ -1,4 +1,4 @@
-/* apply - fields of a netCDF file, interpolated by a file of weights. */
+/* apply - interpolates the fields of a netCDF file by a file of weights. */
 #include "cli/commands/commands.h"
 #include "cli/frame/files.h"
 #include "cli/frame/message.h"
@@ -42,7 +42,7 @@ static const option apply_options[] = {
     {0},
 };
 
-/* Names from a list, cut in place. Returns how many; their array is the caller's. */
+/* Split a list of names in place. Returns how many there are; the caller frees their array. */
 static size_t apply_cut_names(char *list, const char ***names)
 {
     size_t count = 1;
@@ -69,7 +69,7 @@ static int apply_report(const apply_settings *s, const mw_apply_weights_info *in
     return files_write_error_text(&r.text);
 }
 
-/* An error of a file that is read, or of the one that is written. */
+/* Report an error of an input file or of the output. */
 static int apply_fail(const mw_error *error, const char *output)
 {
     const size_t length = strlen(output);

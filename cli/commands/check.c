@@ -141,7 +141,7 @@ static void check_json_begin(text *t, const char *path)
     report_quote(t, path);
 }
 
-/* A line for each defect; before each stands `prefix`. */
+/* Print a line for each defect, each after `prefix`. */
 static void check_as_text(text *t, const char *path, const char *prefix, const mw_check *check,
                           const check_outcome *o)
 {
@@ -208,7 +208,7 @@ static int check_fix_settings(const check_settings *s, const char *const *operan
     return end ? end : side_outputs_check(numbers, 1, output, operands, 1);
 }
 
-/* Tell the changes, in the numbers of the file, and what is wrong with the mended mesh. */
+/* Print the changes, in the numbers of the file, and the remaining defects of the mended mesh. */
 static void check_fix_tell(const check_settings *s, const char *path, const mended_mesh *m,
                            const mw_mesh_file *file, const mw_check *check, const check_outcome *o,
                            text *t)
@@ -230,7 +230,8 @@ static void check_fix_tell(const check_settings *s, const char *path, const mend
     check_as_text(t, output, prefix, check, o);
 }
 
-/* Check what was mended, write it, then tell about it. One of the files may take standard output.
+/* Check the mended mesh, write it, then print the report. One of the two files may be standard
+ * output.
  */
 static int check_fix_write(const check_settings *s, const char *path, const mended_mesh *m,
                            const mw_mesh_file *file, bool temporary)

@@ -10,6 +10,7 @@
 #include "cli/lines/contour_polygons.h"
 #include "cli/lines/row_output.h"
 #include "cli/output/csv_row.h"
+#include "cli/output/mended_mesh.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -64,7 +65,7 @@ static int levels_compare(const void *a, const void *b)
     return (*x > *y) - (*x < *y);
 }
 
-/* Take the list of --levels; each once, ascending. */
+/* Parse the list of --levels, sort it and drop duplicates. */
 static int levels_parse(contour_levels *l, const char *list)
 {
     size_t room = 1;
@@ -88,7 +89,8 @@ static int levels_parse(contour_levels *l, const char *list)
     return 0;
 }
 
-/* A number of an option, and how many decimals it is written with; -1: with an exponent. */
+/* Parse the number of an option; *decimals: the decimals that it is written with, or -1 with an
+ * exponent. */
 static int levels_number(const char *name, const char *given, double *value, int *decimals)
 {
     char *end;
@@ -233,33 +235,20 @@ static int contours_write(const contours_settings *s, const mw_mesh *mesh, const
     return end;
 }
 
-/* Polygons of triangles that overlap would overlap, and one without area has no side. */
+/* Polygons of triangles that overlap would overlap. */
 static int contours_check_mesh(const contours_settings *s, const mw_mesh *mesh, const char *path)
 {
     mw_locator *locator;
     mw_error error;
-    uint32_t v[3];
-    double p[3][2];
     const mw_locator_options options = {
         .fill = MW_FILL_NO, .threads = s->common.threads, .progress = progress_of_call()};
     mw_status status = mw_locator_create(mesh, &options, &locator, &error);
     mw_locator_destroy(locator);
-    if (status != MW_OK) {
-        int end = fail_mesh(path, &error);
-        if (end == END_INPUT)
-            complain("'meshwalk check %s' lists every defect, 'meshwalk view' shows it", path);
-        return end;
-    }
-    for (uint32_t t = 0; t < mw_mesh_triangle_count(mesh); t++) {
-        mw_mesh_triangle(mesh, t, v);
-        for (int k = 0; k < 3; k++) mw_mesh_vertex(mesh, v[k], p[k]);
-        if (mw_orient2d(p[0], p[1], p[2]) != 0) continue;
-        complain("%s: triangle %u has no area, which --polygons cannot have; 'meshwalk check "
-                 "--fix drop' takes such triangles away",
-                 path, t);
-        return END_INPUT;
-    }
-    return 0;
+    if (status == MW_OK) return 0;
+    int end = fail_mesh(path, &error);
+    if (end == END_INPUT)
+        complain("'meshwalk check %s' lists every defect, 'meshwalk view' shows it", path);
+    return end;
 }
 
 static int contours_of_mesh(const contours_settings *s, const mw_mesh *mesh, const char *path,
@@ -291,19 +280,60 @@ static int contours_check(const contours_settings *s, const char *const *operand
     return end ? end : crs_check_option("crs", s->crs);
 }
 
+static int contours_create_mesh(const contours_settings *s, const char *path,
+                                const mw_mesh_file *file, mw_mesh **mesh)
+{
+    mw_error error;
+    mw_arrays arrays = mw_mesh_file_arrays(file);
+    mw_mesh_options options = {.threads = s->common.threads, .progress = progress_of_call()};
+    progress_phase("preparing", path);
+    return mw_mesh_create(&arrays, &options, mesh, &error) == MW_OK ? 0 : fail_mesh(path, &error);
+}
+
+static bool contours_mesh_has_flat(const mw_mesh *mesh)
+{
+    uint32_t v[3];
+    double p[3][2];
+    for (uint32_t t = 0; t < mw_mesh_triangle_count(mesh); t++) {
+        mw_mesh_triangle(mesh, t, v);
+        for (int k = 0; k < 3; k++) mw_mesh_vertex(mesh, v[k], p[k]);
+        if (mw_orient2d(p[0], p[1], p[2]) == 0) return true;
+    }
+    return false;
+}
+
+/* A triangle without area has no sides for polygons to lie on. Take it away, and split what lies at
+ * its long edge at the vertex between. */
+static int contours_drop_flat(const contours_settings *s, const char *path, mw_mesh_file *file,
+                              mw_mesh **mesh)
+{
+    mended_mesh mended;
+    size_t flat = 0;
+    const mw_mend_options repairs = {.repairs = MW_REPAIR_DROP | MW_REPAIR_SPLIT,
+                                     .progress = progress_of_call()};
+    mw_mesh_destroy(*mesh);
+    *mesh = NULL;
+    int end = mended_mesh_create(&mended, path, file, &repairs);
+    for (size_t i = 0; end == 0 && i < mended.mended.change_count; i++)
+        flat += mended.mended.changes[i].kind == MW_MEND_DROPPED_FLAT;
+    mended_mesh_release(&mended);
+    if (end == 0 && !s->common.quiet)
+        complain("%s: remark: %zu triangles without area are left out, and those at their long "
+                 "edges split",
+                 path, flat);
+    return end ? end : contours_create_mesh(s, path, file, mesh);
+}
+
 static int contours_read(const contours_settings *s, const char *path, mesh_field_choice *field,
                          mw_mesh **mesh, char **crs)
 {
     mw_mesh_file file;
-    mw_error error;
     int end = files_read_mesh(path, &file);
     if (end) return end;
-    mw_arrays arrays = mw_mesh_file_arrays(&file);
-    mw_mesh_options options = {.threads = s->common.threads, .progress = progress_of_call()};
     end = mesh_crs_settle(path, s->crs, file.crs, s->common.quiet, crs);
-    progress_phase("preparing", path);
-    if (end == 0 && mw_mesh_create(&arrays, &options, mesh, &error) != MW_OK)
-        end = fail_mesh(path, &error);
+    if (end == 0) end = contours_create_mesh(s, path, &file, mesh);
+    if (end == 0 && s->polygons && contours_mesh_has_flat(*mesh))
+        end = contours_drop_flat(s, path, &file, mesh);
     if (end == 0) end = mesh_field_load(*mesh, path, &file, field);
     mw_mesh_file_release(&file);
     return end;

@@ -316,8 +316,8 @@ static int edit_print_statistics(const edit_settings *s, const edit_work *w)
 
 /* --- the command ------------------------------------------------------------------------------ */
 
-/* The outputs are open. The mesh is written before they are closed: if there is no room for it,
- * none of the others appears. */
+/* The outputs are open. The mesh is written before they are closed: if the disk is full, none of
+ * the others appears. */
 static int edit_work_run(const edit_settings *s, const char *const *operands, edit_work *w,
                          bool temporary)
 {

@@ -11,10 +11,11 @@
 
 typedef struct probe_settings {
     query_stream_settings stream;
-    double max_distance;
+    double max_distance, min_distance;
     uint32_t samples, iterations, race;
-    int start; /* mw_probe_start */
-    bool certain, weld, any;
+    int start;         /* mw_probe_start */
+    int extent, faces; /* mw_probe_extent, mw_probe_faces */
+    bool certain, inside, weld, any;
 } probe_settings;
 
 static const char *probe_start_name(int i)
@@ -35,6 +36,36 @@ static const char *probe_start_help(int i)
 }
 static const choices starts = {"start", probe_start_name, probe_start_help};
 
+static const char *probe_extent_name(int i)
+{
+    return mw_probe_extent_name((mw_probe_extent)i);
+}
+static const char *probe_extent_help(int i)
+{
+    static const char *const texts[MW_PROBE_EXTENT_COUNT] = {
+        [MW_PROBE_LINE] = "all of the line, on both sides of the point",
+        [MW_PROBE_RAY] = "the point, and what is ahead of it",
+        [MW_PROBE_SEGMENT] = "from the point x,y,z to the point mx,my,mz",
+    };
+    return texts[i];
+}
+static const choices extents = {"extent", probe_extent_name, probe_extent_help};
+
+static const char *probe_faces_name(int i)
+{
+    return mw_probe_faces_name((mw_probe_faces)i);
+}
+static const char *probe_faces_help(int i)
+{
+    static const char *const texts[MW_PROBE_FACES_COUNT] = {
+        [MW_PROBE_FRONT] = "triangles at whose front the motion points",
+        [MW_PROBE_BACK] = "triangles at whose back it points",
+        [MW_PROBE_BOTH] = "both",
+    };
+    return texts[i];
+}
+static const choices faces = {"faces", probe_faces_name, probe_faces_help};
+
 static const option probe_options[] = {
     {"max-distance", 0, OPTION_MAX_DISTANCE, offsetof(probe_settings, max_distance), "D",
      "touch nothing that is farther than D from the point, either way; 0: only what lies at the "
@@ -44,6 +75,16 @@ static const option probe_options[] = {
     {"certain", 0, OPTION_FLAG, offsetof(probe_settings, certain), NULL,
      "miss nothing: the nearest of all triangles on the line, or 'none'; builds boxes over the "
      "triangles",
+     NULL},
+    {"extent", 0, OPTION_CHOICE, offsetof(probe_settings, extent), "NAME",
+     "which part of the line counts (default: line); ray and segment need --certain:", &extents},
+    {"faces", 0, OPTION_CHOICE, offsetof(probe_settings, faces), "NAME",
+     "which triangles count (default: front); back and both need --certain:", &faces},
+    {"min-distance", 0, OPTION_LENGTH, offsetof(probe_settings, min_distance), "D",
+     "touch nothing that is nearer than D to the point; needs --certain (default: 0)", NULL},
+    {"inside", 0, OPTION_FLAG, offsetof(probe_settings, inside), NULL,
+     "QUERIES holds points x,y,z only: which are inside of the closed SURFACE? Writes the status "
+     "inside, outside, on or bad",
      NULL},
     {"start", 0, OPTION_CHOICE, offsetof(probe_settings, start), "NAME",
      "how to choose the first triangle (default: auto):", &starts},
@@ -69,14 +110,14 @@ static const option probe_options[] = {
     {"columns", 0, OPTION_TEXT, offsetof(probe_settings, stream.source.columns), "LIST",
      "columns of QUERIES that hold the point and the motion, six names or numbers from 1 (default: "
      "those that a header "
-     "calls x, y, z, mx, my, mz, or the only six)",
+     "calls x, y, z, mx, my, mz, or the only six; with --inside x, y, z)",
      NULL},
     {"strict", 0, OPTION_FLAG, offsetof(probe_settings, stream.strict), NULL,
      "exit with 1 if a row is 'limit' or 'bad'; 'none' is an answer", NULL},
     {0},
 };
 
-/* These overrule the common options: probes by walks cannot keep what those promise. */
+/* These replace the common options, whose help promises more than probes by walks can keep. */
 static const option random_options[] = {
     {"threads", 0, OPTION_COUNT, offsetof(probe_settings, stream.common.threads), "N",
      "use at most N threads, those of --race apart (default: 0, all); without --race results do "
@@ -97,6 +138,7 @@ typedef struct probed_surface {
     mw_surface *surface;
     mw_prober *prober;
     uint64_t states[MW_TOUCH_STATE_COUNT];
+    uint64_t sides[MW_SURFACE_SIDE_COUNT];
     mw_probe_counters counters;
 } probed_surface;
 
@@ -118,12 +160,16 @@ static int probed_surface_prepare(probed_surface *p, const char *path, const mw_
     mw_arrays arrays = mw_mesh_file_arrays(file);
     mw_surface_options surface = {
         .tolerant = s->any, .weld = s->weld, .progress = progress_of_call()};
-    mw_prober_options prober = {
-        .boxes = s->certain, .threads = s->stream.common.threads, .progress = progress_of_call()};
+    mw_prober_options prober = {.boxes = s->certain || s->inside,
+                                .threads = s->stream.common.threads,
+                                .progress = progress_of_call()};
     progress_phase("preparing", path);
     if (mw_surface_create(&arrays, &surface, &p->surface, &error) != MW_OK)
         return probed_surface_fail(p, path, &error);
     if (mw_prober_create(p->surface, &prober, &p->prober, &error) != MW_OK)
+        return fail_mesh(path, &error);
+    /* has the surface an inside? */
+    if (s->inside && mw_inside_surface(p->prober, NULL, 0, 0, 1, NULL, &error) != MW_OK)
         return fail_mesh(path, &error);
     return 0;
 }
@@ -156,6 +202,9 @@ static int probed_surface_answer(void *self, const query_block *block, void *ans
     mw_probe_options options = {
         .max_distance = s->max_distance,
         .certain = s->certain,
+        .min_distance = s->min_distance,
+        .faces = (mw_probe_faces)s->faces,
+        .extent = (mw_probe_extent)s->extent,
         .start = (mw_probe_start)s->start,
         .samples = s->samples,
         .iterations = s->iterations,
@@ -185,6 +234,27 @@ static bool probe_row(const void *self, const double *query, const void *answer,
     return touch->state == MW_TOUCH_HIT || touch->state == MW_TOUCH_NONE;
 }
 
+static int probed_surface_sides(void *self, const query_block *block, void *answers)
+{
+    probed_surface *p = self;
+    const uint8_t *sides = answers;
+    mw_error error;
+    if (mw_inside_surface(p->prober, block->values, block->count, block->stride,
+                          p->settings->stream.common.threads, answers, &error) != MW_OK)
+        return fail_query(&error);
+    for (size_t i = 0; i < block->count; i++) p->sides[sides[i]]++;
+    return 0;
+}
+
+static bool probe_side_row(const void *self, const double *query, const void *answer, text *out)
+{
+    (void)self;
+    (void)query;
+    mw_surface_side side = (mw_surface_side) * (const uint8_t *)answer;
+    csv_row_word(out, mw_surface_side_name(side));
+    return side != MW_SURFACE_BAD;
+}
+
 static void probe_report_counters(report *r, const mw_probe_counters *c)
 {
     statistics_report_mean(r, "samples", c->samples, c->queries);
@@ -204,8 +274,10 @@ static void probed_surface_report(const void *self, report *r)
     const probed_surface *p = self;
     mw_prober_info info;
     mw_prober_describe(p->prober, &info);
-    for (int i = 0; i < MW_TOUCH_STATE_COUNT; i++)
+    for (int i = 0; i < MW_TOUCH_STATE_COUNT && !p->settings->inside; i++)
         report_count(r, mw_touch_state_name((mw_touch_state)i), p->states[i]);
+    for (int i = 0; i < MW_SURFACE_SIDE_COUNT && p->settings->inside; i++)
+        report_count(r, mw_surface_side_name((mw_surface_side)i), p->sides[i]);
     report_string(r, "start", probe_start_name(p->settings->start));
     report_flag(r, "certain", p->settings->certain);
     statistics_report_settings(r, &p->settings->stream.common);
@@ -219,6 +291,7 @@ static void probed_surface_report(const void *self, report *r)
 static int probed_surface_run(probed_surface *p, const char *path)
 {
     static const char *const answers[] = {"status", "triangle", "distance", "w0", "w1", "w2", NULL};
+    static const char *const sides[] = {"status", NULL};
     query_stream s = {
         .settings = &p->settings->stream,
         .begin = p->begin,
@@ -233,10 +306,34 @@ static int probed_surface_run(probed_surface *p, const char *path)
         .report = probed_surface_report,
         .self = p,
     };
+    if (p->settings->inside) {
+        s.columns.count = 3;
+        s.answers = sides;
+        s.kinds = "t";
+        s.answer_size = 1;
+        s.answer = probed_surface_sides;
+        s.row = probe_side_row;
+    }
     return query_stream_run(&s, path);
 }
 
 #define MAX_RACERS 256 /* threads */
+
+/* What only certain probes have. */
+static int probe_check(const probe_settings *s)
+{
+    bool certain_only =
+        s->extent != MW_PROBE_LINE || s->faces != MW_PROBE_FRONT || s->min_distance > 0;
+    const char *why = NULL;
+    if (s->inside && (certain_only || s->certain || s->max_distance > 0))
+        why = "--inside takes no options of lines";
+    else if (certain_only && !s->certain)
+        why = "--extent, --faces and --min-distance need --certain";
+    else if (s->max_distance > 0 && s->min_distance > s->max_distance)
+        why = "--min-distance is above --max-distance";
+    if (why) complain("%s", why);
+    return why ? END_USAGE : 0;
+}
 
 static int probe_run(const void *settings, const char *const *operands)
 {
@@ -246,6 +343,7 @@ static int probe_run(const void *settings, const char *const *operands)
     if (end == 0) end = point_layers_check(operands, 2);
     if (end == 0) end = query_stream_check_output(&s->stream);
     if (end == 0) end = options_limit("race", s->race, MAX_RACERS, NULL);
+    if (end == 0) end = probe_check(s);
     if (end == 0) end = probed_surface_open(&p, operands[0]);
     if (end == 0) end = probed_surface_run(&p, operands[1]);
     probed_surface_release(&p);

@@ -162,6 +162,11 @@ static int raster_choose_bands(const raster_settings *s, raster_bands *b)
     b->bands[0] = BAND_VALUE;
     b->count = s->derive ? raster_bands_parse(s->derive, b->bands) : 1;
     if (b->count == 0) return END_USAGE;
+    for (uint32_t k = 0; s->mean && k < b->count; k++)
+        if (b->bands[k] == BAND_TRIANGLE)
+            return raster_refuse(
+                "--derive triangle cannot be used with --mean: the mean of numbers "
+                "of triangles means nothing");
     b->type = raster_type_of(s, b);
     return raster_choose_nodata(s, b);
 }
@@ -176,8 +181,8 @@ static int raster_check_settings(const raster_settings *s, const char *mesh, ras
     if (s->values && !s->time) return raster_refuse("--values is for values over time: --time");
     if (s->time && (s->derive || s->outside != OUTSIDE_EMPTY || s->vertex_nodata))
         return raster_refuse("--derive, --outside and --vertex-nodata are not for --time");
-    if (s->mean && (s->time || s->derive || s->outside != OUTSIDE_EMPTY))
-        return raster_refuse("--time, --derive and --outside cannot be used with --mean");
+    if (s->mean && s->outside != OUTSIDE_EMPTY)
+        return raster_refuse("--outside cannot be used with --mean");
     int end = s->time ? series_check_time(s->time) : 0;
     if (end == 0) end = raster_grid_check(&s->grid);
     if (end == 0) end = raster_choose_bands(s, &w->bands);
@@ -197,7 +202,7 @@ static int raster_make_grid(const raster_settings *s, const char *path, raster_w
         w->bands.nodata = nodata;
     if (s->like) return raster_like_grid(&w->like, &w->grid, path, w->mesh.crs, s->common.quiet);
     if (wish.resolution == 0)
-        wish.resolution = raster_grid_resolution(w->mesh.area, w->mesh.vertices);
+        wish.resolution = raster_grid_resolution(raster_mesh_area(&w->mesh), w->mesh.vertices);
     return raster_grid_make(&w->grid, &wish, w->mesh.extent);
 }
 
@@ -246,11 +251,14 @@ static int raster_write(const raster_settings *s, const char *path, raster_work 
     b->scan = w->scan;
     b->nearest = s->outside == OUTSIDE_NEAREST;
     b->threads = s->common.threads;
-    w->mean = (raster_mean){.bands = b, .degrees = w->mesh.crs && crs_is_lonlat(w->mesh.crs)};
+    w->mean = (raster_mean){.bands = b,
+                            .series = s->time ? &w->series : NULL,
+                            .mesh = &w->mesh,
+                            .degrees = w->mesh.crs && crs_is_lonlat(w->mesh.crs)};
     progress_phase("writing", s->common.output);
     if (end == 0)
-        end = s->time   ? raster_series_write(&w->series, b, &w->mesh, w->raster)
-              : s->mean ? raster_mean_write(&w->mean, w->raster)
+        end = s->mean   ? raster_mean_write(&w->mean, w->raster)
+              : s->time ? raster_series_write(&w->series, b, &w->mesh, w->raster)
                         : raster_bands_write(b, w->raster);
     int closed = gdal_raster_close(w->raster, end == 0);
     if (end == 0) end = closed;
@@ -277,7 +285,7 @@ static int raster_print_report(const raster_settings *s, const raster_work *w)
     report_count(&r, "with_value", w->bands.filled);
     report_count(&r, "empty", pixels - w->bands.filled);
     if (s->mean) report_number(&r, "area", w->mean.area);
-    if (s->mean) report_number(&r, "integral", w->mean.integral);
+    if (s->mean && !s->derive) report_number(&r, "integral", w->mean.integral);
     report_number(&r, "nodata", w->bands.nodata);
     report_rounded(&r, "seconds", monotonic_seconds() - w->begin);
     report_end(&r);

@@ -77,8 +77,8 @@ static const option sample_options[] = {
 
 /* What the rows are made from. */
 typedef struct sampled_field {
-    const double *values;    /* one for each vertex; NaN where it is missing */
-    const double *triangles; /* instead of these one for each triangle; or NULL */
+    const double *values;    /* one value for each vertex; NaN: missing */
+    const double *triangles; /* one value for each triangle instead; or NULL */
     point_query_values at_points;
     int outside, missing;
     bool status;

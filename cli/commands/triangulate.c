@@ -161,7 +161,7 @@ static void triangulate_work_release(triangulate_work *w)
     free(w->hidden);
 }
 
-/* Take all triangles of the mesh but those that --max-edge peels off, and destroy it. */
+/* Take the triangles of the mesh, except those that --max-edge removes, and destroy the mesh. */
 static int triangulate_take_mesh(const triangulate_settings *s, const char *path,
                                  triangulate_work *w, mw_mesh *mesh)
 {
@@ -174,7 +174,7 @@ static int triangulate_take_mesh(const triangulate_settings *s, const char *path
     return END_INPUT;
 }
 
-/* Warn of points that only peeled triangles had, and of polygons that leave out most points. */
+/* Warn of points that lost all their triangles, and of polygons that leave out most points. */
 static void triangulate_warn_of_points(const triangulate_settings *s, const char *points,
                                        const triangulate_work *w)
 {
@@ -197,7 +197,8 @@ static void triangulate_warn_of_points(const triangulate_settings *s, const char
                  s->boundary ? "" : "; --keep hull keeps their triangles");
 }
 
-/* The library chooses the part to keep; but segments of a .poly bound a domain, as for Triangle. */
+/* The library chooses the part to keep. Exception: the segments of a .poly bound a domain, as in
+ * Triangle. */
 static mw_keep triangulate_keep(const triangulate_settings *s, const triangulate_work *w)
 {
     if (s->keep == MW_KEEP_AUTO && constraint_file_is_poly(&w->constraints)) return MW_KEEP_INSIDE;
@@ -351,7 +352,7 @@ static void triangulate_report_kind(report *r, const triangulate_settings *s,
     report_count(r, "local_faces", kind->local_faces);
 }
 
-/* What became of the columns of POINTS: heights come from this one, and fields from these. */
+/* Report how the columns of POINTS were used: the height, and the fields. */
 static void triangulate_report_columns(report *r, const vertex_table *v)
 {
     if (v->height_name)
@@ -458,7 +459,7 @@ static int triangulate_check_settings(const triangulate_settings *s, const char 
     return end || !s->hidden ? end : files_try_output(s->hidden, NULL);
 }
 
-/* A boundary counts as constraints, of which the inside is kept, with a vertex where some cross. */
+/* A boundary counts as constraints whose inside is kept and whose crossings become vertices. */
 static triangulate_settings triangulate_settle(const triangulate_settings *given)
 {
     triangulate_settings s = *given;
@@ -469,7 +470,7 @@ static triangulate_settings triangulate_settle(const triangulate_settings *given
     return s;
 }
 
-/* Refuse a boundary without polygons; but alone, the segments of a .poly bound, too. */
+/* Refuse a boundary without polygons, except for a .poly alone, whose segments bound a domain. */
 static int triangulate_check_boundary(const triangulate_settings *s,
                                       const mw_constraint_file *boundary)
 {
@@ -480,7 +481,7 @@ static int triangulate_check_boundary(const triangulate_settings *s,
     return END_INPUT;
 }
 
-/* Read a boundary beside constraints, and put it to them. */
+/* Read a boundary and append it to the constraints. */
 static int triangulate_join_boundary(const triangulate_settings *s, const char *points,
                                      triangulate_work *w)
 {
@@ -530,7 +531,7 @@ static int triangulate_take_heights(const triangulate_settings *s, triangulate_w
     return 0;
 }
 
-/* Insert the pixels that are needed into the mesh that the vertices have. */
+/* Insert further pixels into the mesh of the vertices, as needed. */
 static int triangulate_refine(const triangulate_settings *s, triangulate_work *w)
 {
     mw_error error;

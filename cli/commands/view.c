@@ -1,4 +1,4 @@
-/* view - a page that shows a mesh in a browser, with all that it needs in itself. */
+/* view - writes a self-contained page that shows a mesh in a browser. */
 #include "cli/commands/commands.h"
 #include "cli/frame/files.h"
 #include "cli/frame/message.h"

@@ -1,4 +1,4 @@
-/* visible - what is seen from a point, over the terrain of a mesh. */
+/* visible - what is seen from points, over the terrain of a mesh. */
 #include "cli/commands/commands.h"
 #include "cli/frame/files.h"
 #include "cli/frame/message.h"
@@ -7,6 +7,8 @@
 #include "cli/frame/report.h"
 #include "cli/gdal/gdal_crs.h"
 #include "cli/input/mesh_field.h"
+#include "cli/lines/line_query.h"
+#include "cli/lines/sight_pairs.h"
 #include "cli/output/csv_row.h"
 #include "cli/raster/raster_like.h"
 #include "cli/raster/raster_mesh.h"
@@ -14,29 +16,35 @@
 #include "cli/stream/point_query.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 typedef struct visible_settings {
     point_query_settings query;
-    coordinates from;
     double height, target_height;
-    const char *to, *field, *nodata, *like, *driver, *creation;
+    const char *from, *to, *between, *field, *nodata, *like, *driver, *creation;
     raster_grid_wish grid;
     bool raster;
 } visible_settings;
 
 static const option visible_options[] = {
-    {"from", 0, OPTION_XY_OR_XYZ, offsetof(visible_settings, from), "X,Y[,Z]",
-     "the viewpoint, in the coordinates and heights of MESH; without Z it is above the ground",
+    {"from", 0, OPTION_TEXT, offsetof(visible_settings, from), "X,Y[,Z]",
+     "the viewpoint, in the coordinates and heights of MESH; without Z it is above the ground. "
+     "Several, separated by semicolons: how many of them see each point",
      NULL},
     {"height", 0, OPTION_LENGTH, offsetof(visible_settings, height), "H",
-     "height of a viewpoint without Z above the ground (default: 0)", NULL},
+     "height above the ground of viewpoints without Z, and of the first points of LINES (default: "
+     "0)",
+     NULL},
     {"target-height", 0, OPTION_LENGTH, offsetof(visible_settings, target_height), "H",
-     "height of what is looked at above the ground (default: 0)", NULL},
+     "height above the ground of what is looked at (default: 0)", NULL},
     {"to", 0, OPTION_TEXT, offsetof(visible_settings, to), "POINTS",
      "look at the points of this file, as 'sample' takes them: a row for each", NULL},
+    {"between", 0, OPTION_TEXT, offsetof(visible_settings, between), "LINES",
+     "instead, look from the first to the last point of each line of this vector file", NULL},
     {"raster", 0, OPTION_FLAG, offsetof(visible_settings, raster), NULL,
-     "look at the centres of pixels: write a raster, 1 visible, 0 hidden, 255 outside of MESH",
+     "look at the centres of pixels: write a raster, 1 visible, 0 hidden, 255 outside of MESH; of "
+     "several viewpoints the number that see it",
      NULL},
     {"resolution", 0, OPTION_LENGTH, offsetof(visible_settings, grid.resolution), "R",
      "with --raster: size of a pixel (default: about the distance of neighbours in MESH)", NULL},
@@ -67,33 +75,93 @@ static const option visible_options[] = {
     {0},
 };
 
-static mw_sight_end visible_from(const visible_settings *s)
+/* --- viewpoints ------------------------------------------------------------------------------- */
+
+typedef struct visible_views {
+    mw_sight_end *ends;
+    mw_viewpoint *views;
+    size_t count;
+} visible_views;
+
+static void views_release(visible_views *v)
 {
-    bool absolute = s->from.count == 3;
-    return (mw_sight_end){.x = s->from.at[0],
-                          .y = s->from.at[1],
-                          .height = absolute ? s->from.at[2] : s->height,
-                          .absolute = absolute};
+    free(v->ends);
+    free(v->views);
 }
 
-static int visible_view(const visible_settings *s, const mw_locator *locator, const double *heights,
-                        const char *path, const char *crs, mw_viewpoint *view)
+static int views_fail(const char *given)
 {
-    mw_error error;
-    mw_sight_end from = visible_from(s);
+    complain("option '--from' must be coordinates X,Y or X,Y,Z, or several separated by "
+             "semicolons, not '%.60s'",
+             given);
+    return END_USAGE;
+}
+
+/* Take one viewpoint. Returns what follows, or NULL. */
+static const char *views_take(mw_sight_end *end, const char *p, double height)
+{
+    double at[3];
+    int count = 0;
+    do {
+        char *stop;
+        at[count] = strtod(p, &stop);
+        if (stop == p || !isfinite(at[count++])) return NULL;
+        p = stop;
+    } while (count < 3 && *p == ',' && p++);
+    if (count < 2 || (*p && *p != ';')) return NULL;
+    *end = (mw_sight_end){
+        .x = at[0], .y = at[1], .height = count == 3 ? at[2] : height, .absolute = count == 3};
+    return p;
+}
+
+/* Take the list of --from. */
+static int views_parse(visible_views *v, const visible_settings *s)
+{
+    size_t room = 1;
+    bool above = false; /* the ground is one */
+    for (const char *c = s->from; *c; c++) room += *c == ';';
+    v->ends = malloc(room * sizeof *v->ends);
+    v->views = malloc(room * sizeof *v->views);
+    if (!v->ends || !v->views) return fail_memory();
+    for (const char *p = s->from;; p++) {
+        mw_sight_end *end = &v->ends[v->count++];
+        p = views_take(end, p, s->height);
+        if (!p) return views_fail(s->from);
+        above = above || !end->absolute;
+        if (!*p) break;
+    }
+    if (above || !(s->height > 0)) return 0;
+    complain("visible: --height is for a viewpoint without Z");
+    return END_USAGE;
+}
+
+static void visible_warn_of_degrees(const visible_settings *s, const char *path, const char *crs)
+{
     if (crs && crs_is_lonlat(crs) && !s->query.stream.common.quiet)
         complain("%s: warning: it is in longitudes and latitudes, and lines of sight are straight "
                  "in them: bring it to a plane first",
                  path);
-    if (mw_viewpoint_init(locator, heights, &from, view, &error) == MW_OK) return 0;
-    complain("%s: %s", path, error.message);
-    return END_INPUT;
+}
+
+static int views_prepare(visible_views *v, const visible_settings *s, const mw_locator *locator,
+                         const double *heights, const char *path, const char *crs)
+{
+    mw_error error;
+    visible_warn_of_degrees(s, path, crs);
+    for (size_t i = 0; i < v->count; i++) {
+        if (mw_viewpoint_init(locator, heights, &v->ends[i], &v->views[i], &error) == MW_OK)
+            continue;
+        complain("%s: the viewpoint %.17g,%.17g: %s", path, v->ends[i].x, v->ends[i].y,
+                 error.message);
+        return END_INPUT;
+    }
+    return 0;
 }
 
 /* --- points ----------------------------------------------------------------------------------- */
 
 typedef struct visible_rows {
-    const mw_viewpoint *view;
+    const visible_views *views;
     double height;
 } visible_rows;
 
@@ -101,7 +169,7 @@ static bool visible_row(const point_query *q, const void *self, const double poi
                         const mw_location *where, text *out)
 {
     const visible_rows *rows = self;
-    mw_viewpoint view = *rows->view; /* several threads write rows */
+    mw_viewpoint view = rows->views->views[0]; /* several threads write rows */
     mw_sight_end to = {.x = point[0], .y = point[1], .height = rows->height};
     mw_sight sight = mw_sight_to(&view, &to);
     bool known = sight.state != MW_SIGHT_UNKNOWN, hidden = sight.state == MW_SIGHT_HIDDEN;
@@ -113,25 +181,77 @@ static bool visible_row(const point_query *q, const void *self, const double poi
     return known;
 }
 
+/* How many of several viewpoints see the point. */
+static bool visible_count_row(const point_query *q, const void *self, const double point[2],
+                              const mw_location *where, text *out)
+{
+    const visible_rows *rows = self;
+    const mw_sight_end to = {.x = point[0], .y = point[1], .height = rows->height};
+    uint32_t seen = 0;
+    bool known = true;
+    (void)q;
+    (void)where;
+    for (size_t i = 0; i < rows->views->count && known; i++) {
+        mw_viewpoint view = rows->views->views[i];
+        mw_sight sight = mw_sight_to(&view, &to);
+        known = sight.state != MW_SIGHT_UNKNOWN;
+        seen += sight.state == MW_SIGHT_VISIBLE;
+    }
+    csv_row_count(out, known, seen);
+    return known;
+}
+
 static int visible_points(const visible_settings *s, const char *path)
 {
-    static const char *const answers[] = {"visible", "obstacle_x", "obstacle_y", NULL};
+    static const char *const answers[] = {"visible", "obstacle_x", "obstacle_y", NULL},
+                             *const counts[] = {"visible", NULL};
     const char *field = s->field ? s->field : "z", *operands[] = {path, s->to};
     mesh_field_choice choice = {.field = field, .quiet = s->query.stream.common.quiet};
     point_query_settings query = s->query;
     point_query q = {0};
-    mw_viewpoint view;
+    visible_views views = {0};
+    const visible_rows rows = {&views, s->target_height};
     query.lines = true;
     int end = nodata_parse("nodata", s->nodata, &choice.nodata);
-    if (end) return end;
-    end = point_query_open(&q, &query, operands, false, mesh_field_load, &choice);
+    if (end == 0) end = views_parse(&views, s);
+    if (end == 0) end = point_query_open(&q, &query, operands, false, mesh_field_load, &choice);
     if (end == 0)
-        end = visible_view(s, q.locator, mw_mesh_field(q.mesh, field), path, q.crs, &view);
+        end = views_prepare(&views, s, q.locator, mw_mesh_field(q.mesh, field), path, q.crs);
     if (end == 0)
-        end = point_query_run(&q, s->to, answers, "irr", visible_row,
-                              &(visible_rows){&view, s->target_height});
+        end = views.count == 1 ? point_query_run(&q, s->to, answers, "irr", visible_row, &rows)
+                               : point_query_run(&q, s->to, counts, "i", visible_count_row, &rows);
     point_query_release(&q);
+    views_release(&views);
     return end;
+}
+
+/* --- pairs ------------------------------------------------------------------------------------ */
+
+static int visible_between(const visible_settings *s, const char *path)
+{
+    const common_settings *common = &s->query.stream.common;
+    const line_query_settings query = {
+        .common = *common,
+        .lines = {.layer = s->query.stream.source.layer, .crs = s->query.stream.source.crs},
+        .field = s->field,
+        .nodata = s->nodata,
+        .crs = s->query.crs};
+    const char *operands[] = {path, s->between};
+    line_query q = {0};
+    int end = line_query_open(&q, &query, operands, "lines of sight are straight in them");
+    sight_pairs pairs = {.locator = q.mesh.locator,
+                         .heights = q.values,
+                         .lines = &q.lines,
+                         .height = s->height,
+                         .target_height = s->target_height};
+    progress_phase("looking", s->between);
+    if (end == 0) end = sight_pairs_write(&pairs, common->output, q.mesh.crs, common->quiet);
+    line_query_release(&q);
+    if (end == 0 && pairs.unknown > 0 && !common->quiet)
+        complain("%s: remark: %llu of its lines have an end outside of %s, or where it has no "
+                 "height",
+                 s->between, (unsigned long long)pairs.unknown, path);
+    return end ? end : s->query.stream.strict && pairs.unknown > 0 ? END_UNANSWERED : 0;
 }
 
 /* --- a raster --------------------------------------------------------------------------------- */
@@ -146,6 +266,7 @@ static int visible_print_report(const visible_settings *s, const sight_raster *r
     report_count(&out, "columns", g->columns);
     report_count(&out, "rows", g->rows);
     report_numbers(&out, "resolution", size, g->width == g->height ? 1 : 2);
+    if (r->count > 1) report_count(&out, "viewpoints", r->count);
     report_count(&out, "visible", r->visible);
     report_count(&out, "hidden", r->hidden);
     report_count(&out, "empty", (uint64_t)g->columns * g->rows - r->visible - r->hidden);
@@ -155,24 +276,27 @@ static int visible_print_report(const visible_settings *s, const sight_raster *r
 }
 
 static int visible_write(const visible_settings *s, const raster_mesh *mesh, const raster_grid *g,
-                         const char *like_crs, const mw_viewpoint *view, double begin)
+                         const char *like_crs, const visible_views *views, double begin)
 {
     static const char *const names[] = {"visible"};
     const common_settings *common = &s->query.stream.common;
     gdal_raster *raster;
+    sight_raster work = {.views = views->views,
+                         .count = views->count,
+                         .grid = g,
+                         .height = s->target_height,
+                         .threads = common->threads};
     gdal_raster_form form = {.columns = g->columns,
                              .rows = g->rows,
                              .bands = 1,
                              .corner = {g->west, g->north},
                              .size = {g->width, g->height},
-                             .type = RASTER_BYTE,
-                             .nodata = SIGHT_PIXEL_NONE,
+                             .type = sight_raster_type(&work),
+                             .nodata = sight_raster_none(&work),
                              .names = names,
                              .crs = mesh->crs ? mesh->crs : like_crs,
                              .driver = s->driver,
                              .creation = s->creation};
-    sight_raster work = {
-        .view = view, .grid = g, .height = s->target_height, .threads = common->threads};
     int end = gdal_raster_create(&raster, common->output, &form);
     progress_phase("looking", common->output);
     if (end == 0) end = sight_raster_write(&work, raster);
@@ -194,21 +318,23 @@ static int visible_raster(const visible_settings *s, const char *path)
     raster_like like = {0};
     raster_grid_wish size = s->grid;
     raster_grid grid = {0};
-    mw_viewpoint view;
+    visible_views views = {0};
     int end = raster_grid_check(&s->grid);
+    if (end == 0) end = views_parse(&views, s);
     if (end == 0) end = crs_check_option("crs", s->query.crs);
     if (end == 0) end = nodata_parse("nodata", s->nodata, &wish.field.nodata);
     if (end == 0) end = gdal_raster_check(common->output, s->driver);
     if (end == 0) end = files_check_output(common->output, inputs, s->like ? 2 : 1);
     if (end == 0) end = raster_like_read(&like, s->like);
     if (end == 0) end = raster_mesh_read(&mesh, path, &wish);
-    if (end == 0) end = visible_view(s, mesh.locator, mesh.values, path, mesh.crs, &view);
+    if (end == 0) end = views_prepare(&views, s, mesh.locator, mesh.values, path, mesh.crs);
     if (end == 0 && size.resolution == 0)
-        size.resolution = raster_grid_resolution(mesh.area, mesh.vertices);
+        size.resolution = raster_grid_resolution(raster_mesh_area(&mesh), mesh.vertices);
     if (end == 0)
         end = s->like ? raster_like_grid(&like, &grid, path, mesh.crs, common->quiet)
                       : raster_grid_make(&grid, &size, mesh.extent);
-    if (end == 0) end = visible_write(s, &mesh, &grid, like.crs, &view, begin);
+    if (end == 0) end = visible_write(s, &mesh, &grid, like.crs, &views, begin);
+    views_release(&views);
     raster_grid_release(&grid);
     raster_like_release(&like);
     raster_mesh_release(&mesh);
@@ -228,18 +354,24 @@ static int visible_run(const void *settings, const char *const *operands)
     const visible_settings *s = settings;
     const raster_grid_wish *grid = &s->grid;
     bool of_raster = s->like || s->driver || s->creation || grid->extent || grid->resolution > 0;
-    if (s->from.count == 0) return visible_refuse("where is the viewpoint? --from X,Y,Z tells");
-    if (s->from.count == 3 && s->height > 0)
-        return visible_refuse("--height is for a viewpoint without Z");
-    if (!s->to == !s->raster)
-        return visible_refuse("look at what? either --to POINTS or --raster tells");
+    if (!s->from == !s->between)
+        return visible_refuse(s->from ? "--from cannot be used with --between, whose lines have "
+                                        "the viewpoints"
+                                      : "where is the viewpoint? --from X,Y,Z tells");
+    if (s->between ? s->to || s->raster : !s->to == !s->raster)
+        return visible_refuse(
+            "look at what? either --to POINTS, --between LINES or --raster tells");
+    if (s->between && s->query.stream.source.columns)
+        return visible_refuse("--columns is for --to");
     if (of_raster && !s->raster)
         return visible_refuse("--resolution, --like, --extent, --driver and --creation are for "
                               "--raster");
     if (s->like && (grid->extent || grid->resolution > 0))
         return visible_refuse(
             "--resolution and --extent cannot be used with --like, which sets the pixels");
-    return s->raster ? visible_raster(s, operands[0]) : visible_points(s, operands[0]);
+    return s->raster    ? visible_raster(s, operands[0])
+           : s->between ? visible_between(s, operands[0])
+                        : visible_points(s, operands[0]);
 }
 
 static const option *const tables[] = {visible_options, query_stream_options, common_options, NULL};
@@ -248,14 +380,16 @@ const command visible_command = {
     .name = "visible",
     .operands = "MESH",
     .operand_count = 1,
-    .summary = "what is seen from a point, over the terrain",
+    .summary = "what is seen from points, over the terrain",
     .description =
         "Tells for each point of --to, or for each pixel of a raster, whether the straight line to "
         "it from the viewpoint is nowhere below the terrain. Lines that touch the terrain count as "
         "free. Writes every row of POINTS unchanged, followed by visible (1, 0, or empty outside "
-        "of MESH) and obstacle_x,obstacle_y, where the terrain is first in the way.",
+        "of MESH) and obstacle_x,obstacle_y, where the terrain is first in the way. Of several "
+        "viewpoints, visible is how many of them see the point. With --between, it writes a row or "
+        "a feature for each line.",
     .options = tables,
-    .essential = "from height target-height to output",
+    .essential = "from height to between output",
     .settings_size = sizeof(visible_settings),
     .run = visible_run,
 };

@@ -175,8 +175,8 @@ static void walk_remark(const walk_record *w, const char *name, const char *what
     if (!w->settings->mesh.common.quiet) complain("%s: %s %s", w->path, name, what);
 }
 
-/* Keep the number of triangles that a walk visited. Returns true if the arrays were too small for
- * them: now they are large enough, and the walk has to be repeated. */
+/* Store the number of triangles that a walk visited. Returns true if the arrays were too small:
+ * they are then enlarged, and the walk must be repeated. */
 static bool walk_record_lacks_room(walk_record *w, size_t count, int *end)
 {
     w->count = count;
@@ -230,7 +230,7 @@ static void walk_remark_outside(const walk_record *w, const char *name, const mw
     walk_remark(w, name, words);
 }
 
-/* Record the line that the walk follows; of one that follows none, the ends alone. */
+/* Record the line that the walk follows; if it follows none, only its ends. */
 static int walk_record_way(walk_record *w, const mw_walk_way *way)
 {
     const walk_settings *s = w->settings;
@@ -268,8 +268,8 @@ static int walk_in_plane(walk_record *w, const mw_locator *locator)
     return end ? end : walk_record_way(w, &way);
 }
 
-/* Only for the border walk pockets and holes stay open: it goes round them, the others cross
- * them. */
+/* Pockets and holes stay open for the border walk only: it goes round them; other walks cross them.
+ */
 static int walk_plane(walk_record *w)
 {
     mw_error error;
@@ -554,8 +554,7 @@ static int walk_write_all(const walk_settings *s, const drawing *d, size_t count
     return drawing_write_sheet(d, count, s->mesh.common.output);
 }
 
-/* Every walk in the plane, one picture beside the other. What is to be said of the points is said
- * once. */
+/* Draw every walk in the plane, side by side. Remarks about the points are printed once. */
 static int walk_all_and_write(const walk_record *common)
 {
     enum { WALKS = MW_WALK_COUNT - 1, TRIANGLES = 4000 /* of the mesh, in each picture */ };

@@ -32,9 +32,9 @@ int constraint_file_check_output(const char *path, const char *output);
 int constraint_file_fail_crossing(const char *path, const mw_constraint_file *file,
                                   const double *points, const uint32_t cross[2], bool split);
 
-/* --boundary: append the constraints of a boundary to others. The polygons are those of the
- * boundary then: the others' sides are edges only. Attributes of the boundary's points are left
- * out. `boundary` stays the caller's. Returns 0, or an exit code after a complaint. */
+/* --boundary: append the constraints of a boundary to others. Afterwards only the boundary has
+ * polygons; the sides of the other polygons are plain edges. Attributes of the boundary's points
+ * are dropped. `boundary` stays the caller's. Returns 0, or an exit code after a complaint. */
 int constraint_file_join(mw_constraint_file *constraints, const mw_constraint_file *boundary);
 
 #endif

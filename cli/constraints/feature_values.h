@@ -1,4 +1,4 @@
-/* feature_values.h - the attributes of features that were asked for, as text. */
+/* feature_values.h - the requested attributes of features, as text. */
 #ifndef MW_CLI_CONSTRAINTS_FEATURE_VALUES_H
 #define MW_CLI_CONSTRAINTS_FEATURE_VALUES_H
 
@@ -17,7 +17,7 @@ typedef struct feature_values {
     size_t cell_count, cell_room;
 } feature_values;
 
-/* Decide which of the `count` attributes of a file are meant. Returns 0, or an exit code after a
+/* Choose among the `count` attributes of a file by their names. Returns 0, or an exit code after a
  * complaint that lists them. */
 int feature_values_choose(feature_values *values, const char *path, const char *const *names,
                           const char *kinds, size_t count);

@@ -21,9 +21,10 @@ typedef struct polygon_file {
     char *crs; /* that the file tells; NULL: not known */
 } polygon_file;
 
-/* Read and prepare the polygons. Each polygon is by itself (even-odd rule), and a feature is all
- * that its polygons cover. A .poly is one feature, its domain. Warns of lines, and of features
- * that cross themselves. Returns 0, or an exit code after a complaint; release it in both cases. */
+/* Read and prepare the polygons. The even-odd rule is applied to each polygon separately, and a
+ * feature covers what any of its polygons covers. A .poly is one feature: its domain. Warns of
+ * lines, and of features that cross themselves. Returns 0, or an exit code after a complaint;
+ * release it in both cases. */
 int polygon_file_read(polygon_file *file, const polygon_file_settings *settings,
                       const common_settings *common);
 void polygon_file_release(polygon_file *file);
@@ -34,8 +35,9 @@ typedef struct feature_hit {
     bool border; /* of one of its polygons, and in none of them */
 } feature_hit;
 
-/* The features at a point, ascending. `room` may hold them; if they are more, *hits is memory that
- * the caller frees. Returns how many; SIZE_MAX if memory runs out. Several threads may call this.
+/* The features at a point, ascending. They are in `room` if they fit; otherwise in memory *hits
+ * that the caller frees. Returns how many; SIZE_MAX if memory runs out. Several threads may call
+ * this.
  */
 enum { FEATURE_ROOM = 64 };
 size_t polygon_file_at(const polygon_file *file, const double point[2], const mw_location *at,

@@ -26,7 +26,8 @@ static bool drape_add(drape_line *line, const drape_place *place)
     return true;
 }
 
-/* The last point, unless there is none. A later look at the same place knows more of it. */
+/* Replace the last point, if there is one at the same place: the later point has more information.
+ */
 static bool drape_add_once(drape_line *line, const drape_place *place)
 {
     double *last = line->count ? line->points + 3 * (line->count - 1) : NULL;
@@ -50,7 +51,7 @@ static drape_place drape_place_of(const mw_mesh *mesh, const double *values, con
     return place;
 }
 
-/* The segment from a to b, up to its end, which the next one writes again. */
+/* Lay the segment from a to b, without its end, which is the beginning of the next segment. */
 static bool drape_segment(drape_line *line, const mw_mesh *mesh, const double *values,
                           mw_segment *s, const double *a, const double *b)
 {

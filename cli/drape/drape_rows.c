@@ -35,7 +35,7 @@ static bool drape_names_have(const char *const *names, const char *name)
     return false;
 }
 
-/* A name of an attribute that is also one of ours gets a prefix. */
+/* An attribute whose name is that of one of our columns gets a prefix. */
 static bool drape_own_name(const void *rows, const char *name)
 {
     const drape *d = rows;
@@ -62,20 +62,11 @@ bool drape_write_header(const drape *d, text *header, text *kinds)
 
 static void drape_begin_row(const drape *d, size_t line)
 {
-    const feature_values *values = &d->lines->values;
-    text *out = &d->out->text;
-    uint32_t feature = d->lines->feature[line];
-    text_printf(out, "%u,%u", feature, d->lines->part[line]);
-    for (size_t i = 0; i < values->count; i++) {
-        const char *cell = feature_values_cell(values, feature, i);
-        if (values->kinds[i] == 't')
-            csv_row_text(out, cell);
-        else
-            csv_row_word(out, cell);
-    }
+    const line_file *lines = d->lines;
+    row_output_begin_row(&d->out->text, &lines->values, lines->feature[line], lines->part[line]);
 }
 
-/* Points from .. to of a line, which have heights: one piece. */
+/* Write one piece: points from .. to of a line, all with heights. */
 static int drape_write_piece(drape *d, size_t line, const drape_line *ring, size_t from, size_t to,
                              uint32_t piece)
 {
@@ -160,7 +151,7 @@ static mw_status drape_area(const drape *d, const drape_shape *shape, mw_surface
     return status;
 }
 
-/* All rings of a polygon behind each other. */
+/* Concatenate the rings of a polygon. */
 static int drape_put_polygon(drape *d, const drape_shape *shape)
 {
     size_t rings = shape->end - shape->first, count = 0;

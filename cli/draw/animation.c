@@ -1,10 +1,10 @@
 /* animation.c - writes animated PNG.
  *
  * Cairo writes each picture as a PNG of its own: IHDR, IDAT, ..., IEND. An animation has one IHDR,
- * acTL with the number of pictures, the IDAT of a picture for programs that show no animations,
- * and of each picture fcTL (its size and time) and its IDAT, renamed fdAT, with a number before
- * the data. A picture is painted over the one before, and what has not changed is transparent in
- * it: that takes next to no room. */
+ * acTL with the number of pictures, the IDAT of a picture for programs that show no animations, and
+ * of each picture fcTL (its size and time) and its IDAT, renamed fdAT, with a number before the
+ * data. Each picture is painted over the previous one; unchanged pixels are transparent, so they
+ * take almost no space. */
 #include "cli/draw/animation.h"
 
 #include <string.h>
@@ -107,7 +107,7 @@ static size_t page_pixels(cairo_surface_t *page)
            (size_t)cairo_image_surface_get_height(page);
 }
 
-/* Leave in `change` what is not as in `before`, and make `before` the page. */
+/* Store in `change` the pixels that differ from `before`, then copy the page to `before`. */
 static void page_take_change(cairo_surface_t *page, uint32_t *before, cairo_surface_t *change)
 {
     const uint32_t *now = page_data(page);
@@ -142,7 +142,7 @@ static const unsigned char *frame_png_chunk(const frame_png *png, size_t *at, co
 
 /* --- the file --------------------------------------------------------------------------------- */
 
-/* The head of the file, and a picture for those who show no animations. */
+/* Write the head of the file, and a picture for programs that do not show animations. */
 static void animation_write_head(const animation *a, const frame_png *png, mw_output *out)
 {
     unsigned char control[8];

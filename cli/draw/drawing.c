@@ -1,8 +1,9 @@
 /* drawing.c - a scene, painted from back to front with Cairo.
  *
- * Triangles of the walk are filled, from light to dark in their order. In space the mesh is a thin
- * veil: those of the walk that turn their back are painted first, and so shimmer through. Green
- * and vermilion are those of [Okabe, Ito 2008], which colour-blind people can tell apart. */
+ * Triangles of the walk are filled, from light to dark in their order. In space the mesh is drawn
+ * nearly transparent: triangles of the walk that face away are painted first, so they are faintly
+ * visible. Green and vermilion are those of [Okabe, Ito 2008], which colour-blind people can tell
+ * apart. */
 #include "cli/draw/drawing.h"
 #include "cli/draw/animation.h"
 #include "cli/frame/message.h"
@@ -47,14 +48,14 @@ static void colour_of_hue(uint32_t hue, double part, double rgb[3])
     colour_mix(light[hue], dark[hue], part, rgb);
 }
 
-/* The stages of a search have a colour each: the second, which is the walk, blue. */
+/* Each stage of a search has a colour; the second stage, the walk, is blue. */
 static uint32_t stage_hue(uint32_t stage)
 {
     static const uint32_t hues[HUES] = {2, 0, 1, 3};
     return hues[stage % HUES];
 }
 
-/* Each walk has a colour, or each stage of one; it grows dark on the way. */
+/* Each walk, or each stage of a walk, has a colour, which darkens along the way. */
 static void colour_of_visit(const scene *s, uint32_t visit, double rgb[3])
 {
     uint32_t hue = s->d->stage ? stage_hue(s->d->stage[visit]) : s->d->iteration[visit] % 3;
@@ -365,8 +366,8 @@ static void moving_scene_draw(cairo_t *c, uint32_t frame, void *self)
     drawing_draw(c, &m->scene);
 }
 
-/* All frames take about eight seconds, but none is shorter or longer than eyes can follow; the
- * last one stays a while. */
+/* All frames together take about eight seconds, within limits for each frame; the last one stays
+ * longer. */
 static uint16_t moving_scene_milliseconds(uint32_t frame, void *self)
 {
     const moving_scene *m = self;

@@ -15,7 +15,7 @@ int drawing_write_sheet(const drawing *d, size_t count, const char *path);
 int drawing_write_animation(const drawing *d, const char *path);
 
 /* Several side by side, step by step, with the numbers of triangles visited so far: small, as an
- * animated PNG. The walks end in it that take no more than three times as many steps as others. */
+ * animated PNG. It shows at most three times as many steps as the median walk takes. */
 int drawing_write_race(const drawing *d, size_t count, const char *path);
 
 #endif

@@ -1,4 +1,5 @@
-/* projection.c - where the eye is: in front of the walk, on the mean of what its triangles face. */
+/* projection.c - chooses the position of the eye: in front of the walk, along the mean normal of
+ * its triangles. */
 #include "cli/draw/projection.h"
 
 #include <math.h>
@@ -96,8 +97,8 @@ static void visit_look(const projection *p, size_t visit, double n[3])
         projected_normal(p, p->d->path[visit], n);
 }
 
-/* Where a walk goes all round a surface, the directions of its triangles cancel out: then that of
- * the last one counts. */
+/* If a walk goes all round a surface, the normals of its triangles cancel out: then the normal of
+ * the last one is used. */
 static void projection_mean_look(const projection *p, double eye[3])
 {
     double n[3], sum[3] = {0, 0, 0};
@@ -112,7 +113,7 @@ static void projection_mean_look(const projection *p, double eye[3])
     if (!direction_normalise(eye)) memcpy(eye, (const double[]){0, 0, 1}, sizeof sum);
 }
 
-/* What is up on the page: north on a globe; models have y up more often than z. */
+/* The upward direction on the page: north on a globe, else y, which is up in most models. */
 static void projection_choose_up(const projection *p, const double eye[3], double up[3])
 {
     double unit[3] = {0, 0, 0};
@@ -122,7 +123,7 @@ static void projection_choose_up(const projection *p, const double eye[3], doubl
     direction_normalise(up);
 }
 
-/* A probe's line should be seen as a line: where the eye looks along it, step aside. */
+/* A probe's line should be visible as a line: if the eye looks along it, move the eye aside. */
 static void projection_step_aside(const projection *p, double eye[3])
 {
     double from[3], to[3], line[3], up[3], side[3];

@@ -129,8 +129,8 @@ static double scene_depth_of(const scene *s, uint32_t triangle)
            3;
 }
 
-/* In the plane the walk lies on the mesh; in space what is nearer hides what is farther away.
- * Depths are within 2. */
+/* Order of painting: in the plane the walk lies on the mesh; in space nearer triangles hide farther
+ * ones. Depths are at most 2. */
 static void scene_add_triangle(scene *s, uint32_t triangle)
 {
     page_box b = scene_box(s, triangle);
@@ -182,7 +182,7 @@ static uint16_t nearness_closer(uint16_t here, uint16_t there)
     return there + 1 < here ? (uint16_t)(there + 1) : here;
 }
 
-/* Steps of a king, in two sweeps. */
+/* Distances in king's moves, computed in two sweeps. */
 static void nearness_sweep(nearness *near)
 {
     for (int y = 1; y <= CELLS; y++)
@@ -219,7 +219,7 @@ static void scene_veil_triangle(scene *s, uint32_t triangle)
             s->veil[(y - 1) * CELLS + x - 1] = true;
 }
 
-/* Keep those near the walk, as many as are to be painted. False: out of memory. */
+/* Keep the triangles nearest to the walk, up to the number to be painted. False: out of memory. */
 static bool scene_keep_near(scene *s)
 {
     size_t counts[CELLS + 1] = {0}, sum = 0, kept = 0;

@@ -182,6 +182,8 @@ int files_read_mesh(const char *path, mw_mesh_file *file)
     mw_status status = mw_read_mesh(
         path, &(mw_file_options){.progress = progress_of_call(), .layout = files_layout}, file,
         &error);
+    if (status == MW_OK && file->repeat)
+        message_note_place(path, file->repeat_triangle, file->repeat);
     if (status == MW_OK) return 0;
     int end = fail_reading(&error);
     if (status == MW_ERROR_INPUT && !files_is_standard(path) && file_holds_points(path))

@@ -14,7 +14,7 @@ bool files_is_standard(const char *path);
  * after a complaint. */
 int files_check_output(const char *output, const char *const *inputs, int count);
 
-/* Refuse an output of text whose name says that it is something else, as .gpkg and .gz do. Returns
+/* Refuse a text output whose name has the ending of another format, such as .gpkg or .gz. Returns
  * 0, or END_USAGE after a complaint. */
 int files_check_text_output(const char *output);
 
@@ -30,9 +30,9 @@ int files_read_mesh(const char *path, mw_mesh_file *file);
 /* Does a triangle have an area? In a mesh without one no point can be located. */
 bool files_has_area(const mw_mesh_file *file);
 
-/* Find out before long work whether an output can be written. If `temporary` is not NULL,
- * *temporary tells whether the system writes the file under a temporary name. Returns 0, or an exit
- * code after a complaint. */
+/* Check before long work that an output can be written. If `temporary` is not NULL, *temporary says
+ * whether the file is written under a temporary name. Returns 0, or an exit code after a complaint.
+ */
 int files_try_output(const char *output, bool *temporary);
 
 /* Write a text as one file, or to standard output if the path is NULL; or write it to standard

@@ -18,7 +18,8 @@ void complain(const char *format, ...)
     fprintf(stderr, "meshwalk: %s\n", line);
 }
 
-/* The message of an error. What a signal has cancelled needs none: the signal ends the program. */
+/* The message of an error. A call cancelled by a signal needs no message: the signal ends the
+ * program. */
 static const char *message_of(const mw_error *error)
 {
     if (error->status == MW_CANCELLED) signals_await_end();
@@ -41,9 +42,24 @@ int fail_reading(const mw_error *error)
     return exit_code_of(error->status);
 }
 
+/* The last place that was noted. */
+static struct {
+    char path[512], sentence[512];
+    int64_t triangle;
+} noted = {.triangle = -1};
+
+void message_note_place(const char *path, size_t triangle, const char *sentence)
+{
+    snprintf(noted.path, sizeof noted.path, "%s", path);
+    snprintf(noted.sentence, sizeof noted.sentence, "%s", sentence);
+    noted.triangle = (int64_t)triangle;
+}
+
 int fail_mesh(const char *path, const mw_error *error)
 {
     complain("%s: %s", path, message_of(error));
+    if (noted.triangle >= 0 && error->triangle == noted.triangle && strcmp(path, noted.path) == 0)
+        complain("%s", noted.sentence);
     return exit_code_of(error->status);
 }
 
@@ -53,7 +69,7 @@ int fail_query(const mw_error *error)
     return error->status == MW_ERROR_ARGUMENT ? END_USAGE : END_RESOURCE;
 }
 
-/* A closed pipe is no failure that a person should read about: its reader has seen enough. */
+/* A closed pipe needs no message: its reader has chosen to stop. */
 static int is_closed_pipe(const mw_error *error)
 {
     const char *text = strerror(EPIPE);

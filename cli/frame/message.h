@@ -19,10 +19,14 @@ void complain(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
 /* Complain of an error of the library and return its exit code.
  *   fail_reading  an error of a reader: its message names the file
- *   fail_mesh     an error about the mesh that was read from `path`
+ *   fail_mesh     an error about the mesh that was read from `path`; where the file has the
+ *                 triangle follows, if message_note_place has told it
  *   fail_query    the library refuses an option, or a limit is reached
  *   fail_writing  an error of an output; a closed pipe gives no message
  *   fail_memory   out of memory */
+/* Where the file `path` has a triangle, as a sentence; kept until the next call. */
+void message_note_place(const char *path, size_t triangle, const char *sentence);
+
 int fail_reading(const mw_error *error);
 int fail_mesh(const char *path, const mw_error *error);
 int fail_query(const mw_error *error);

@@ -1,6 +1,5 @@
-/* The library calls back only where it can be stopped, and not on time. So a thread shows the
- * progress. It sleeps for a second, then paints the line a few times a second until it is told to
- * stop. */
+/* The library does not call back at regular times. So a thread shows the progress: it sleeps for a
+ * second, then repaints the line a few times a second until it is told to stop. */
 #include "cli/frame/progress.h"
 #include "cli/frame/signals.h"
 
@@ -20,7 +19,7 @@ static struct {
     cnd_t wake;
     const char *doing, *what, *unit;
     uint64_t done;
-    double rate;    /* done a second, when they were counted */
+    double rate;    /* points or lines per second */
     char stage[64]; /* of a call of the library; "": none */
     /* of the phase, that the calls of the library are */
     double part[2];

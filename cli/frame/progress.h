@@ -1,4 +1,5 @@
-/* progress.h - one line on standard error that tells how far long work is. The program has one. */
+/* progress.h - a line on standard error that shows how far long work has come. There is one for the
+ * program. */
 #ifndef MW_CLI_FRAME_PROGRESS_H
 #define MW_CLI_FRAME_PROGRESS_H
 
@@ -19,8 +20,8 @@ void progress_phase(const char *doing, const char *what);
 void progress_points(uint64_t done, double fraction);
 void progress_lines(uint64_t done, double fraction);
 
-/* The calls of the library that follow do the part from..to of this phase, as fractions; -1: not
- * known. A phase begins with 0..1, of each call. */
+/* The next calls of the library do the part from..to of this phase, as fractions; -1: unknown. By
+ * default each call counts as a whole phase, 0..1. */
 void progress_part(double from, double to);
 
 /* For calls of the library: shows their stage and their fraction, and cancels them when a signal

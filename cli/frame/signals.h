@@ -23,11 +23,11 @@ void signals_add_temporary(const char *temporary);
 /* Remove the files now: the program ends without closing its outputs. */
 void signals_remove_temporaries(void);
 
-/* Hold signals back until released, while the library writes an output of its own, which it cancels
- * when signals_have_come. */
+/* Hold signals back until released, while the library writes an output of its own;
+ * signals_have_come() then cancels that call. */
 void signals_hold(bool hold);
 
-/* Has a signal asked the program to end? It will end as soon as signals are not held. */
+/* Has a signal asked the program to end? It ends when signals are released. */
 bool signals_have_come(void);
 
 /* Wait for that end, after a call of the library was cancelled for it. */

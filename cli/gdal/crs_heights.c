@@ -50,7 +50,7 @@ static crs_heights heights_of(const char *crs)
     return h;
 }
 
-/* Units as far apart as the two feet of America count as one. */
+/* Units that differ as little as the two American feet count as equal. */
 static bool units_differ(const crs_heights *a, const crs_heights *b)
 {
     return fabs(a->metres - b->metres) > 1e-5 * a->metres;

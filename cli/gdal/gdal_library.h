@@ -97,6 +97,7 @@ bool gdal_library_built(void);
     F(OGR_G_AddGeometryDirectly)                                                                   \
     F(OGR_G_SetPoint)                                                                              \
     F(OGR_G_SetPoint_2D)                                                                           \
+    F(OGR_G_SetPoints)                                                                             \
     F(GDALClose)                                                                                   \
     F(GDALDatasetGetLayerCount)                                                                    \
     F(GDALDatasetGetLayer)                                                                         \

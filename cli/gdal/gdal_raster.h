@@ -1,4 +1,5 @@
-/* gdal_raster.h - rasters that GDAL writes, block by block, and the grid of one that is there. */
+/* gdal_raster.h - writes rasters with GDAL, block by block, and reads the grid of an existing one.
+ */
 #ifndef MW_CLI_GDAL_GDAL_RASTER_H
 #define MW_CLI_GDAL_GDAL_RASTER_H
 

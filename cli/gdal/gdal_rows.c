@@ -427,12 +427,9 @@ static OGRGeometryH line_create(const gdal_functions *gdal, OGRwkbGeometryType t
                                 const double *points, size_t count, size_t dimensions)
 {
     OGRGeometryH line = gdal->OGR_G_CreateGeometry(type);
-    /* from the end, so that it grows once */
-    for (size_t i = count; i-- > 0;)
-        if (dimensions == 3)
-            gdal->OGR_G_SetPoint(line, (int)i, points[3 * i], points[3 * i + 1], points[3 * i + 2]);
-        else
-            gdal->OGR_G_SetPoint_2D(line, (int)i, points[2 * i], points[2 * i + 1]);
+    const int stride = (int)(dimensions * sizeof *points);
+    gdal->OGR_G_SetPoints(line, (int)count, points, stride, points + 1, stride,
+                          dimensions == 3 ? points + 2 : NULL, stride);
     return line;
 }
 

@@ -8,8 +8,8 @@
 
 typedef struct gdal_transform gdal_transform;
 
-/* Find out before long work whether points can be transformed at all, which `what` asks for.
- * Returns 0, or an exit code after a complaint. */
+/* Check before long work that points can be transformed, as `what` requires. Returns 0, or an exit
+ * code after a complaint. */
 int gdal_transform_check(const char *what);
 
 /* What points are transformed from and to: two systems that are not the same, and the files that
@@ -19,9 +19,9 @@ typedef struct gdal_transform_ends {
     const char *in, *to;   /* "mesh.ply", its system */
 } gdal_transform_ends;
 
-/* Prepare a transformation, of x and y: heights do not count. `*rough` is set if no other than a
- * rough one is known, without a shift between the datums. Returns 0, or an exit code after a
- * complaint; close it in both cases. */
+/* Prepare a transformation, of x and y: heights do not count. Sets `*rough` if only a rough
+ * transformation is known, one without a datum shift. Returns 0, or an exit code after a complaint;
+ * close it in both cases. */
 int gdal_transform_open(gdal_transform **transform, const gdal_transform_ends *ends, bool *rough);
 void gdal_transform_close(gdal_transform *transform); /* NULL is allowed */
 

@@ -4,9 +4,9 @@
 
 #include <stdbool.h>
 
-/* Decide on the system of the file `path`: that of the option --crs, or else that which the file
- * tells. A warning says if they differ, or if the file's is not understood, which counts as not
- * known. *crs is NULL or freed by the caller. Returns 0, or an exit code after a complaint. */
+/* Choose the system of the file `path`: that of the option --crs, or else the one that the file
+ * names. Warns if they differ, or if the file's system is not understood and so counts as unknown.
+ * *crs is NULL or freed by the caller. Returns 0, or an exit code after a complaint. */
 int mesh_crs_settle(const char *path, const char *option, const char *of_file, bool quiet,
                     char **crs);
 

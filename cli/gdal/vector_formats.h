@@ -13,9 +13,9 @@ typedef struct vector_format {
     const char *options[3];      /* options of its layer, ended by NULL */
     const char *points, *lines;  /* the name of the layer; NULL: that of the file */
     bool shapefile;
-    bool geometry_needed; /* it holds no rows without one */
+    bool geometry_needed; /* every row needs a geometry */
     bool lonlat_meant;    /* without a system, it means longitudes and latitudes */
-    bool lonlat_only;     /* and GDAL does not bring it to these */
+    bool lonlat_only;     /* and GDAL does not transform coordinates to these */
 } vector_format;
 
 /* The format of a name; NULL: it is none of them. */

@@ -1,4 +1,4 @@
-/* nodata.h - vertices that have no value, though their file has a number there. */
+/* nodata.h - numbers that stand for missing values of vertices. */
 #ifndef MW_CLI_INPUT_NODATA_H
 #define MW_CLI_INPUT_NODATA_H
 

@@ -23,8 +23,8 @@ static bool set_is_wanted(const query_columns *wanted, const mw_axis_names *set)
     return wanted->axes == QUERY_LONLAT ? set->lonlat : wanted->axes == QUERY_PLANE || !set->lonlat;
 }
 
-/* Decide whether the first columns of a table without any others can be taken in their order: they
- * are the coordinates of a set, or no name of theirs is known at all. */
+/* Can the columns of a table that has exactly the columns needed be taken in their order? Yes if
+ * they are the coordinates of a set, or if none of their names is known. */
 static bool columns_are_in_order(const query_columns *wanted, const mw_point_table *table)
 {
     const mw_axis_names *set;
@@ -85,7 +85,7 @@ static size_t columns_find_sets(const query_columns *wanted, const mw_point_tabl
     return count;
 }
 
-/* What is preferred counts only where several sets fit. */
+/* The preference matters only if several sets fit. */
 static size_t columns_find_clear(const query_columns *wanted, const mw_point_table *table,
                                  found_columns found[2])
 {

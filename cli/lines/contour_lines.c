@@ -1,9 +1,9 @@
 #include "cli/lines/contour_lines.h"
 #include "cli/frame/message.h"
 #include "cli/frame/progress.h"
+#include "cli/lines/contour_bands.h"
 #include "cli/lines/contour_point.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -11,10 +11,11 @@ typedef struct contour_tracer {
     const mw_mesh *mesh;
     const double *values, *levels;
     size_t level_count;
+    uint32_t *band;     /* [vertex]: how many levels are at most as high; see contour_bands.h */
     size_t *first;      /* [level + 1]: of the triangles below */
     uint32_t *triangle; /* those that each level crosses */
     uint8_t *pending;   /* [triangle]: crossed by the present level, and not passed yet */
-    double level;       /* the present one */
+    size_t number;      /* of the present level */
     double *points;     /* of the present line */
     size_t count, room;
     int turn; /* > 0: higher values lie to the left of the line; 0: not known yet */
@@ -22,57 +23,38 @@ typedef struct contour_tracer {
     void *self;
 } contour_tracer;
 
-/* How many levels are at most so high. */
-static size_t tracer_levels_up_to(const contour_tracer *c, double value)
-{
-    size_t low = 0, high = c->level_count;
-    while (low < high) {
-        size_t middle = low + (high - low) / 2;
-        if (c->levels[middle] <= value)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low;
-}
-
-/* The levels that cross a triangle: from *from up to, not including, the result. */
-static size_t tracer_range(const contour_tracer *c, uint32_t t, size_t *from)
-{
-    uint32_t v[3];
-    mw_mesh_triangle(c->mesh, t, v);
-    double z[3] = {c->values[v[0]], c->values[v[1]], c->values[v[2]]};
-    *from = 0;
-    if (isnan(z[0]) || isnan(z[1]) || isnan(z[2])) return 0;
-    *from = tracer_levels_up_to(c, fmin(fmin(z[0], z[1]), z[2]));
-    return tracer_levels_up_to(c, fmax(fmax(z[0], z[1]), z[2]));
-}
-
 /* Sort the triangles by the levels that cross them. */
 static int tracer_collect(contour_tracer *c)
 {
-    uint32_t count = mw_mesh_triangle_count(c->mesh);
-    size_t from, all = 0;
+    uint32_t count = mw_mesh_triangle_count(c->mesh), crossed = 0;
+    contour_bands *bands = malloc(((size_t)count + 1) * sizeof *bands);
+    uint32_t *which = malloc(((size_t)count + 1) * sizeof *which);
+    c->band = contour_bands_of_vertices(c->mesh, c->values, c->levels, c->level_count);
     c->first = calloc(c->level_count + 2, sizeof *c->first);
     c->pending = calloc((size_t)count + 1, 1);
-    if (!c->first || !c->pending) return fail_memory();
-    for (uint32_t t = 0; t < count; t++)
-        for (size_t to = tracer_range(c, t, &from); from < to; from++) c->first[from + 2]++;
-    for (size_t i = 2; i < c->level_count + 2; i++) c->first[i] += c->first[i - 1];
-    all = c->first[c->level_count + 1];
-    c->triangle = malloc((all + 1) * sizeof *c->triangle);
-    if (!c->triangle) return fail_memory();
-    for (uint32_t t = 0; t < count; t++)
-        for (size_t to = tracer_range(c, t, &from); from < to; from++)
-            c->triangle[c->first[from + 1]++] = t;
-    return 0;
+    bool made = bands && which && c->band && c->first && c->pending;
+    for (uint32_t t = 0; made && t < count; t++) {
+        contour_bands b = bands[crossed] = contour_bands_of_triangle(c->mesh, c->band, t);
+        which[crossed] = t;
+        crossed += b.low < b.high;
+        for (uint32_t i = b.low; i < b.high; i++) c->first[i + 2]++;
+    }
+    for (size_t i = 2; made && i < c->level_count + 2; i++) c->first[i] += c->first[i - 1];
+    if (made) c->triangle = malloc((c->first[c->level_count + 1] + 1) * sizeof *c->triangle);
+    made = made && c->triangle;
+    for (uint32_t k = 0; made && k < crossed; k++)
+        for (uint32_t i = bands[k].low; i < bands[k].high; i++)
+            c->triangle[c->first[i + 1]++] = which[k];
+    free(bands);
+    free(which);
+    return made ? 0 : fail_memory();
 }
 
 /* --- one line --- */
 
 static bool tracer_is_above(const contour_tracer *c, uint32_t vertex)
 {
-    return c->values[vertex] >= c->level;
+    return c->band[vertex] > c->number;
 }
 
 /* Does the level cross local edge k? */
@@ -81,14 +63,12 @@ static bool tracer_crosses(const contour_tracer *c, const uint32_t v[3], unsigne
     return tracer_is_above(c, v[k]) != tracer_is_above(c, v[(k + 1) % 3]);
 }
 
-/* The triangle beyond an edge; MW_NONE on a border, and where a value is missing. */
-static uint32_t tracer_beyond(const contour_tracer *c, uint32_t t, unsigned k, unsigned *edge)
+/* Does no triangle that is still to be passed lie beyond an edge that the level crosses? Then the
+ * edge is on a border, or a value is missing beyond it: a line that passed there had come here. */
+static bool tracer_ends_at(const contour_tracer *c, uint32_t t, unsigned k)
 {
-    uint32_t beyond = mw_mesh_neighbour(c->mesh, t, k, edge), v[3];
-    if (beyond == MW_NONE) return MW_NONE;
-    mw_mesh_triangle(c->mesh, beyond, v);
-    bool missing = isnan(c->values[v[0]]) || isnan(c->values[v[1]]) || isnan(c->values[v[2]]);
-    return missing ? MW_NONE : beyond;
+    uint32_t beyond = mw_mesh_neighbour(c->mesh, t, k, NULL);
+    return beyond == MW_NONE || !c->pending[beyond];
 }
 
 static bool tracer_add_point(contour_tracer *c, const double p[2])
@@ -110,12 +90,12 @@ static bool tracer_add_point(contour_tracer *c, const double p[2])
 static bool tracer_add_crossing(contour_tracer *c, const uint32_t v[3], unsigned k)
 {
     double p[2];
-    contour_point(c->mesh, c->values, c->level, v[k], v[(k + 1) % 3], p);
+    contour_point(c->mesh, c->values, c->levels[c->number], v[k], v[(k + 1) % 3], p);
     return tracer_add_point(c, p);
 }
 
-/* On which side the higher values are, as far as this triangle tells. The level cuts off the vertex
- * between the edge of entry and that of exit. */
+/* The side with the higher values, if this triangle shows it. The level cuts off the vertex between
+ * the edges of entry and exit. */
 static void tracer_note_side(contour_tracer *c, const uint32_t v[3], unsigned entry, unsigned exit)
 {
     double p[3][2];
@@ -144,7 +124,7 @@ static int tracer_finish_line(contour_tracer *c, bool closed)
     if (closed && c->count > 1 && !tracer_add_point(c, begin)) return fail_memory();
     if (c->count < 2) return 0;
     if (c->turn < 0) tracer_reverse(c);
-    return c->sink(c->self, &(contour_line){c->level, closed, c->points, c->count});
+    return c->sink(c->self, &(contour_line){c->levels[c->number], closed, c->points, c->count});
 }
 
 /* Follow the line that enters triangle t over edge `entry`, to the border or back to t. */
@@ -161,7 +141,7 @@ static int tracer_follow(contour_tracer *c, uint32_t t, unsigned entry, bool clo
         unsigned exit = tracer_crosses(c, v, (entry + 1) % 3) ? (entry + 1) % 3 : (entry + 2) % 3;
         tracer_note_side(c, v, entry, exit);
         if (!tracer_add_crossing(c, v, exit)) return fail_memory();
-        t = tracer_beyond(c, t, exit, &entry);
+        t = mw_mesh_neighbour(c->mesh, t, exit, &entry);
     }
     return tracer_finish_line(c, closed);
 }
@@ -173,14 +153,14 @@ static int tracer_trace_level(contour_tracer *c, const uint32_t *triangles, size
 {
     int end = 0;
     uint32_t v[3];
-    unsigned edge;
     for (size_t i = 0; i < count; i++) c->pending[triangles[i]] = 1;
     for (int closed = 0; closed < 2; closed++)
         for (size_t i = 0; end == 0 && i < count; i++) {
             uint32_t t = triangles[i];
+            if (!c->pending[t]) continue;
             mw_mesh_triangle(c->mesh, t, v);
             for (unsigned k = 0; end == 0 && k < 3 && c->pending[t]; k++)
-                if (tracer_crosses(c, v, k) && (closed || tracer_beyond(c, t, k, &edge) == MW_NONE))
+                if (tracer_crosses(c, v, k) && (closed || tracer_ends_at(c, t, k)))
                     end = tracer_follow(c, t, k, closed);
         }
     return end;
@@ -197,10 +177,11 @@ int contour_lines_trace(const mw_mesh *mesh, const double *values, const double 
                         .self = self};
     int end = tracer_collect(&c);
     for (size_t i = 0; end == 0 && i < level_count; i++) {
-        c.level = levels[i];
+        c.number = i;
         end = tracer_trace_level(&c, c.triangle + c.first[i], c.first[i + 1] - c.first[i]);
         progress_lines(i + 1, (double)(i + 1) / (double)level_count);
     }
+    free(c.band);
     free(c.first);
     free(c.triangle);
     free(c.pending);

@@ -1,6 +1,7 @@
 #include "cli/lines/contour_polygons.h"
 #include "cli/frame/message.h"
 #include "cli/frame/progress.h"
+#include "cli/lines/contour_bands.h"
 #include "cli/lines/contour_point.h"
 #include "cli/lines/part_sets.h"
 #include "cli/lines/ring_links.h"
@@ -9,11 +10,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Band i lies below level i and not below the one before it. */
+/* What the polygons of one mesh are made with. */
 typedef struct band_maker {
     const mw_mesh *mesh;
     const double *values, *levels;
     size_t level_count;
+    uint32_t *band;     /* [vertex]: see contour_bands.h */
     size_t *first;      /* [band + 1]: of its triangles below */
     uint32_t *triangle; /* those that have a part of each band */
     uint32_t *parent;   /* [triangle]: another one of the same part of the band, see part_sets.h */
@@ -29,66 +31,43 @@ typedef struct band_maker {
 
 /* --- which triangles have which bands --------------------------------------------------------- */
 
-static size_t band_of(const band_maker *b, double value)
-{
-    size_t low = 0, high = b->level_count;
-    while (low < high) {
-        size_t middle = low + (high - low) / 2;
-        if (b->levels[middle] <= value)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low;
-}
-
-/* The bands of a triangle, *from .. the result - 1. */
-static size_t bands_of_triangle(const band_maker *b, uint32_t t, size_t *from)
-{
-    uint32_t v[3];
-    mw_mesh_triangle(b->mesh, t, v);
-    double z[3] = {b->values[v[0]], b->values[v[1]], b->values[v[2]]};
-    *from = 0;
-    if (isnan(z[0]) || isnan(z[1]) || isnan(z[2])) return 0;
-    *from = band_of(b, fmin(fmin(z[0], z[1]), z[2]));
-    return band_of(b, fmax(fmax(z[0], z[1]), z[2])) + 1;
-}
-
 static int bands_collect(band_maker *b)
 {
     uint32_t count = mw_mesh_triangle_count(b->mesh), v[3];
-    size_t bands = b->level_count + 1, from;
+    size_t bands = b->level_count + 1;
     b->first = calloc(bands + 2, sizeof *b->first);
     b->parent = malloc(((size_t)count + 1) * sizeof *b->parent);
-    if (!b->first || !b->parent) return fail_memory();
+    contour_bands *range = malloc(((size_t)count + 1) * sizeof *range);
+    bool made = b->first && b->parent && range;
     b->least = INFINITY;
     b->greatest = -INFINITY;
-    for (uint32_t t = 0; t < count; t++) {
-        size_t to = bands_of_triangle(b, t, &from);
-        for (size_t i = from; i < to; i++) b->first[i + 2]++;
+    for (uint32_t t = 0; made && t < count; t++) {
+        range[t] = contour_bands_of_triangle(b->mesh, b->band, t);
+        if (range[t].low == CONTOUR_NO_BAND) continue;
+        for (uint32_t i = range[t].low; i <= range[t].high; i++) b->first[i + 2]++;
         mw_mesh_triangle(b->mesh, t, v);
-        for (int k = 0; to > 0 && k < 3; k++) {
+        for (int k = 0; k < 3; k++) {
             b->least = fmin(b->least, b->values[v[k]]);
             b->greatest = fmax(b->greatest, b->values[v[k]]);
         }
     }
-    for (size_t i = 2; i < bands + 2; i++) b->first[i] += b->first[i - 1];
-    b->triangle = malloc((b->first[bands + 1] + 1) * sizeof *b->triangle);
-    if (!b->triangle) return fail_memory();
-    for (uint32_t t = 0; t < count; t++)
-        for (size_t to = bands_of_triangle(b, t, &from); from < to; from++)
-            b->triangle[b->first[from + 1]++] = t;
-    return 0;
+    for (size_t i = 2; made && i < bands + 2; i++) b->first[i] += b->first[i - 1];
+    if (made) b->triangle = malloc((b->first[bands + 1] + 1) * sizeof *b->triangle);
+    made = made && b->triangle;
+    for (uint32_t t = 0; made && t < count; t++)
+        for (uint32_t i = range[t].low; i != CONTOUR_NO_BAND && i <= range[t].high; i++)
+            b->triangle[b->first[i + 1]++] = t;
+    free(range);
+    return made ? 0 : fail_memory();
 }
 
 /* The triangle beyond an edge; MW_NONE on a border, and where a value is missing. */
 static uint32_t band_beyond(const band_maker *b, uint32_t t, unsigned k)
 {
-    uint32_t beyond = mw_mesh_neighbour(b->mesh, t, k, NULL), v[3];
+    uint32_t beyond = mw_mesh_neighbour(b->mesh, t, k, NULL);
     if (beyond == MW_NONE) return MW_NONE;
-    mw_mesh_triangle(b->mesh, beyond, v);
-    bool missing = isnan(b->values[v[0]]) || isnan(b->values[v[1]]) || isnan(b->values[v[2]]);
-    return missing ? MW_NONE : beyond;
+    contour_bands range = contour_bands_of_triangle(b->mesh, b->band, beyond);
+    return range.low == CONTOUR_NO_BAND ? MW_NONE : beyond;
 }
 
 /* --- what hangs together ---------------------------------------------------------------------- */
@@ -177,7 +156,7 @@ static int band_compare_rings(const void *x, const void *y)
     return (a->first > b->first) - (a->first < b->first);
 }
 
-/* Whose hole is it? A part has several outlines only where rounding has cut it. */
+/* The outline that contains a hole. A part has several outlines only if rounding has cut it. */
 static const linked_ring *band_find_outline(const band_maker *b, const linked_ring *outlines,
                                             size_t count, const linked_ring *hole)
 {
@@ -263,12 +242,14 @@ int contour_polygons_make(const mw_mesh *mesh, const double *values, const doubl
                     .level_count = level_count,
                     .sink = sink,
                     .self = self};
-    int end = bands_collect(&b);
+    b.band = contour_bands_of_vertices(mesh, values, levels, level_count);
+    int end = b.band ? bands_collect(&b) : fail_memory();
     for (size_t i = 0; end == 0 && i <= level_count; i++) {
         if (b.first[i + 1] > b.first[i]) end = band_make(&b, i);
         progress_lines(i + 1, (double)(i + 1) / (double)(level_count + 1));
     }
     ring_set_release(&b.rings);
+    free(b.band);
     free(b.first);
     free(b.triangle);
     free(b.parent);

@@ -8,8 +8,8 @@
 
 #include <meshwalk/meshwalk.h>
 
-/* A part of a band that hangs together. Its rings are simple, end with their first points, and
- * meet one another in points at most: the outline, counter-clockwise, then the holes. */
+/* A connected part of a band. Its rings are simple, end with their first points, and meet one
+ * another in points at most: the outline, counter-clockwise, then the holes. */
 typedef struct contour_polygon {
     double low, high;     /* of the band: levels, or the least and the greatest value of the mesh */
     const double *points; /* x, y of the points of all rings */

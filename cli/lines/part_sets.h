@@ -1,4 +1,5 @@
-/* part_sets.h - which parts hang together: sets that are joined, known by their lowest member. */
+/* part_sets.h - connected parts: disjoint sets (union-find), each represented by its lowest member.
+ */
 #ifndef MW_CLI_LINES_PART_SETS_H
 #define MW_CLI_LINES_PART_SETS_H
 

@@ -43,17 +43,8 @@ typedef struct profile_point {
 
 static int profile_write_point(profile *p, size_t line, const profile_point *point)
 {
-    const feature_values *values = &p->lines->values;
     text *out = &p->out->text;
-    uint32_t feature = p->lines->feature[line];
-    text_printf(out, "%u,%u", feature, p->lines->part[line]);
-    for (size_t i = 0; i < values->count; i++) {
-        const char *cell = feature_values_cell(values, feature, i);
-        if (values->kinds[i] == 't')
-            csv_row_text(out, cell);
-        else
-            csv_row_word(out, cell);
-    }
+    row_output_begin_row(out, &p->lines->values, p->lines->feature[line], p->lines->part[line]);
     csv_row_double(out, true, point->chainage);
     csv_row_double(out, true, point->xy[0]);
     csv_row_double(out, true, point->xy[1]);

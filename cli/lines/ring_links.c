@@ -18,7 +18,7 @@ bool ring_segments_add(ring_segments *s, const double from[2], const double to[2
         s->all = all;
         s->room = room;
     }
-    /* 0 is added because a zero has two signs, and a point one name. */
+    /* Adding 0 turns -0 into 0, so that equal points have equal bits. */
     s->all[s->count++] =
         (ring_segment){{from[0] + 0.0, from[1] + 0.0}, {to[0] + 0.0, to[1] + 0.0}, part};
     return true;
@@ -121,7 +121,7 @@ static int spoke_compare(const void *a, const void *b)
     return (s->end > t->end) - (s->end < t->end);
 }
 
-/* Of spokes with equal tips, as many go out as come in, except for the rest that is kept. */
+/* Cancel pairs of spokes with equal tips, one out and one in; keep the rest. */
 static size_t spokes_cancel(link_work *w, ring_spoke *spokes, size_t count)
 {
     size_t kept = 0;
@@ -141,8 +141,7 @@ static size_t spokes_cancel(link_work *w, ring_spoke *spokes, size_t count)
     return kept;
 }
 
-/* Each segment that comes in goes on by the one that goes out next to it, clockwise: between them
- * lies the region. */
+/* Link each incoming segment to the next outgoing one clockwise: the region lies between them. */
 static void spokes_link(link_work *w, const ring_spoke *spokes, size_t count, size_t *open)
 {
     size_t waiting = 0;

@@ -42,9 +42,9 @@ typedef struct ring_set {
     size_t count;
 } ring_set;
 
-/* Link segments, whose number at each point is the same of those that begin and of those that end.
- * Parts between which segments cancel hang together: they are joined in `parents` (part_sets.h).
- * False: memory ran out. Release the rings in both cases. Time: O(n log n), whatever meets where.
+/* Link segments to rings. At each point as many segments must begin as end. Parts are connected if
+ * segments between them cancel: they are joined in `parents` (part_sets.h). False: memory ran out.
+ * Release the rings in both cases. Time: O(n log n), whatever meets where.
  */
 bool ring_links_make(const ring_segments *segments, uint32_t *parents, ring_set *set);
 void ring_set_release(ring_set *set);

@@ -143,3 +143,15 @@ void row_output_begin_header(text *header, text *kinds, const feature_values *va
         text_bytes(kinds, &values->kinds[i], 1);
     }
 }
+
+void row_output_begin_row(text *out, const feature_values *values, uint32_t feature, uint32_t part)
+{
+    text_printf(out, "%u,%u", feature, part);
+    for (size_t i = 0; i < values->count; i++) {
+        const char *cell = feature_values_cell(values, feature, i);
+        if (values->kinds[i] == 't')
+            csv_row_text(out, cell);
+        else
+            csv_row_word(out, cell);
+    }
+}

@@ -31,6 +31,9 @@ typedef bool row_output_own(const void *rows, const char *name);
 void row_output_begin_header(text *header, text *kinds, const feature_values *values,
                              row_output_own *is_own, const void *rows);
 
+/* Begin a row: feature, part, and the values of the feature. */
+void row_output_begin_row(text *out, const feature_values *values, uint32_t feature, uint32_t part);
+
 /* Begin with the header, whose texts are not in quotes.
  *   kinds  of its columns: 't' text, 'i' integer, 'r' real
  *   crs    of the points; NULL: not known

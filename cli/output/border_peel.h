@@ -10,10 +10,10 @@ typedef struct border_peel {
     size_t points; /* that belonged to a triangle before, and belong to none now */
 } border_peel;
 
-/* A triangle goes if it has a border edge longer than `longest`, rounded; what it bares is border
- * then, and so on. A constrained edge keeps its triangles, however long it is. So no hole is
- * opened inside, and the result depends on no order. `file` has the triangles of the mesh, and
- * loses those. Returns 0, or an exit code after a complaint. */
+/* Removes triangles with a border edge longer than `longest` (rounded), repeatedly: the other edges
+ * of a removed triangle become border. A triangle is not removed over a constrained edge. So no
+ * hole is opened inside, and the result does not depend on the order. `file` has the triangles of
+ * the mesh, and loses those. Returns 0, or an exit code after a complaint. */
 int border_peel_off(const mw_mesh *mesh, double longest, const mw_constrained_edges *edges,
                     mw_mesh_file *file, border_peel *peel);
 

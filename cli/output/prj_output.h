@@ -4,11 +4,11 @@
 
 #include <stdbool.h>
 
-/* Find out before an output is written whether its system can stand beside it. A .prj file there
- * that names another system is replaced if the output is, too; else it belongs to another file of
- * the same stem, and that is an error. A system that is not known gets a warning then.
+/* Check before an output is written whether a .prj file with its system can be written. An existing
+ * .prj file with another system is replaced if it belongs to an older output of the same name. If
+ * it belongs to another file, that is an error; if our system is unknown, a warning.
  *   output  standard output, or a device, has nothing beside it
- *   crs     NULL: not known
+ *   crs     NULL: unknown
  * Returns 0, or an exit code after a complaint. */
 int prj_output_check(const char *output, const char *crs, bool quiet);
 

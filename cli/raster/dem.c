@@ -75,7 +75,7 @@ static bool pixel_is_at_edge(const dem *d, int64_t column, int64_t row)
     return false;
 }
 
-/* Does the way a, b, c turn to the left, as seen with rows downwards? */
+/* Does the path a, b, c turn left, with rows counted downwards? */
 static bool pixels_turn(dem_pixel a, dem_pixel b, dem_pixel c)
 {
     return (b.column - a.column) * (c.row - a.row) - (b.row - a.row) * (c.column - a.column) > 0;

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The pixel that a triangle misses by most. */
+/* The pixel of a triangle with the largest error. */
 typedef struct greedy_candidate {
     double error; /* at most the tolerance: it is not in the heap */
     size_t pixel;
@@ -41,7 +41,7 @@ static void greedy_put(greedy_tin *g, size_t position, uint32_t triangle)
     g->candidates[triangle].position = (uint32_t)position;
 }
 
-/* Move what stands at a position to where it belongs. */
+/* Restore the order of the heap after the entry at a position has changed. */
 static void greedy_settle(greedy_tin *g, size_t position)
 {
     uint32_t t = g->heap[position];
@@ -110,8 +110,8 @@ static void greedy_load(const greedy_tin *g, uint32_t triangle, greedy_triangle 
     t->origin[2] = g->z[v[0]];
 }
 
-/* A position in columns or rows as a number of one, within limits. Those hardly outside a triangle
- * count as inside: verified is with the exact ones. */
+/* A position in columns or rows, rounded to an integer within limits. Pixels just outside a
+ * triangle may count as inside: the final verification uses exact tests. */
 #define SLACK 1e-9
 static int64_t clamp(double value, int64_t most)
 {
@@ -210,7 +210,7 @@ static int greedy_run(greedy_tin *g)
         uint32_t t = g->heap[0];
         size_t pixel = g->candidates[t].pixel;
         end = greedy_insert(g, pixel);
-        /* It lies in a triangle beside, or hardly outside of all. */
+        /* It lies in a neighbouring triangle, or just outside the mesh. */
         bool same = g->candidates[t].position != MW_NONE && g->candidates[t].pixel == pixel;
         if (end == 0 && same) greedy_scan(g, t);
     }
@@ -246,7 +246,7 @@ static int greedy_result_of(greedy_result *r, const mw_mesh *given, const dem *d
     return raster_scan_create(&r->scan, r->locator, mesh, &d->grid);
 }
 
-/* What a verification does with pixels that are missed. */
+/* State of a verification: the pixels whose error is too large. */
 typedef enum greedy_remedy {
     REMEDY_NONE = 0,
     REMEDY_INSERT,         /* insert them */
@@ -289,9 +289,10 @@ static int greedy_verify(greedy_tin *g, greedy_result *r, const mw_mesh *mesh, g
     int end = 0;
     report->pixels = report->left_out = 0;
     report->largest = 0;
+    raster_scan_take_values(r->scan, mw_mesh_field(mesh, "z"));
     for (uint32_t s = 0; end == 0 && s < raster_scan_strips(r->scan); s++) {
         size_t begin = s * strip, count = pixels - begin < strip ? pixels - begin : strip;
-        raster_scan_strip(r->scan, s, &cursor, mw_mesh_field(mesh, "z"), values, NULL);
+        raster_scan_strip(r->scan, s, &cursor, values, NULL);
         end = greedy_compare(g, begin, count, values, remedy, report);
     }
     free(values);
@@ -374,7 +375,7 @@ static int greedy_begin(greedy_tin *g, const mw_mesh *mesh, const mw_constrained
     return greedy_run(g);
 }
 
-/* Verify, and insert what is missed, which rounding may have hidden, until nothing is. */
+/* Verify, and insert pixels whose error rounding has hidden, until none exceeds the tolerance. */
 static int greedy_complete(greedy_tin *g, greedy_result *r, uint32_t threads, greedy_remedy remedy,
                            greedy_tin_report *report)
 {

@@ -1,6 +1,6 @@
 /* greedy_tin.h - a TIN that keeps to a raster of heights, by greedy insertion [Garland, Heckbert
- * 1997]: the pixel that the triangles miss by most becomes a vertex, until none is missed by more
- * than the tolerance. Of several, the first in the raster. */
+ * 1997]: the pixel with the largest error becomes a vertex, until no error exceeds the tolerance.
+ * Of equal errors, the first in the raster. */
 #ifndef MW_CLI_RASTER_GREEDY_TIN_H
 #define MW_CLI_RASTER_GREEDY_TIN_H
 
@@ -12,7 +12,7 @@
 typedef struct greedy_tin_report {
     size_t pixels;   /* with a height, that the triangles have */
     size_t left_out; /* with a height, in no triangle */
-    double largest;  /* how far the triangles miss one of the former at most */
+    double largest;  /* the largest error at a pixel in the mesh */
     size_t inserted; /* vertices */
 } greedy_tin_report;
 

@@ -80,7 +80,7 @@ static double gradient_hillshade(const double g[2])
     return isnan(cosine) ? (double)NAN : cosine <= 0 ? 1 : 1 + 254 * cosine;
 }
 
-static double triangle_property(const raster_mesh *m, raster_band band, uint32_t triangle)
+double raster_bands_property(const raster_mesh *m, raster_band band, uint32_t triangle)
 {
     double g[2];
     if (triangle == MW_NONE) return NAN;
@@ -94,13 +94,15 @@ static double triangle_property(const raster_mesh *m, raster_band band, uint32_t
 
 /* --- strips ----------------------------------------------------------------------------------- */
 
-/* Strips that are computed together, then written. */
+/* Strips that are computed together. Meanwhile those before them are written. */
 typedef struct band_block {
     const raster_bands *bands;
-    char *pixels[BAND_COUNT]; /* of each band */
-    uint32_t first, end;      /* strips */
-    uint32_t team;
-    atomic_uint next; /* the strip to go on with */
+    char *pixels[2][BAND_COUNT]; /* of each band: of these strips, and of those before them */
+    uint32_t first, end;         /* strips */
+    uint32_t before;             /* the first of those before them; the same as `first`: none */
+    gdal_raster *raster;
+    int end_of_writing; /* 0, or an exit code */
+    atomic_uint next;   /* the strip to go on with */
     atomic_uint_fast64_t filled, mistakable;
     atomic_bool failed; /* memory ran out */
 } band_block;
@@ -114,7 +116,7 @@ typedef struct strip_worker {
     uint64_t found[2];   /* as filled and mistakable of raster_bands */
 } strip_worker;
 
-/* Store a value as the type of the raster has it, and tell what it is there. */
+/* Store a value in the type of the raster, and return the stored value. */
 static RASTER_INLINE double pixel_store(raster_type type, double value, void *pixels, size_t i)
 {
     switch (type) {
@@ -153,7 +155,7 @@ void raster_bands_store(const raster_bands *b, const double *values, size_t coun
     }
 }
 
-/* Pixels outside get what the nearest point of the border has. */
+/* Pixels outside get the value of the nearest point of the border. */
 static void worker_fill_outside(strip_worker *w, uint32_t row, uint32_t rows)
 {
     const raster_bands *b = w->bands;
@@ -180,7 +182,7 @@ static void worker_derive(strip_worker *w, raster_band band, size_t count)
     for (size_t i = 0; i < count; i++) {
         if (w->triangles[i] != last) {
             last = w->triangles[i];
-            value = triangle_property(w->bands->mesh, band, last);
+            value = raster_bands_property(w->bands->mesh, band, last);
         }
         w->values[i] = value;
     }
@@ -194,16 +196,30 @@ static void worker_do_strip(strip_worker *w, const band_block *block, uint32_t s
     size_t count = (size_t)rows * b->grid->columns;
     size_t before = (size_t)(strip - block->first) * height * b->grid->columns;
     bool valued = b->bands[0] == BAND_VALUE;
-    raster_scan_strip(b->scan, strip, &w->cursor, valued ? b->mesh->values : NULL,
-                      valued ? w->values : NULL, w->triangles);
+    raster_scan_strip(b->scan, strip, &w->cursor, valued ? w->values : NULL, w->triangles);
     if (b->nearest) worker_fill_outside(w, row, rows);
     for (uint32_t k = 0; k < b->count; k++) {
         if (b->bands[k] != BAND_VALUE) worker_derive(w, b->bands[k], count);
         uint64_t none[2] = {0};
         raster_bands_store(b, w->values, count,
-                           block->pixels[k] + before * gdal_raster_size(b->type),
+                           block->pixels[0][k] + before * gdal_raster_size(b->type),
                            k == 0 ? w->found : none);
     }
+}
+
+/* Write the strips before those of the block. */
+static int block_write(const band_block *block)
+{
+    const raster_bands *b = block->bands;
+    uint32_t height = raster_scan_height(b->scan), row = block->before * height;
+    uint32_t rows = (block->first - block->before) * height;
+    if (rows > b->grid->rows - row) rows = b->grid->rows - row;
+    int end = 0;
+    for (uint32_t k = 0; rows > 0 && end == 0 && k < b->count; k++)
+        end = gdal_raster_write(block->raster, b->offset + k, row, rows, block->pixels[1][k]);
+    progress_points((uint64_t)(row + rows) * b->grid->columns,
+                    (double)(row + rows) / b->grid->rows);
+    return end;
 }
 
 static void block_work(void *work, uint32_t member)
@@ -212,7 +228,8 @@ static void block_work(void *work, uint32_t member)
     const raster_bands *b = block->bands;
     strip_worker w = {.bands = b};
     size_t count = (size_t)raster_scan_height(b->scan) * b->grid->columns;
-    (void)member;
+    /* GDAL is called by the thread that the program began with: member 0. */
+    if (member == 0) block->end_of_writing = block_write(block);
     w.values = malloc(count * sizeof *w.values);
     bool wanted = b->bands[0] != BAND_VALUE || b->nearest;
     if (wanted) w.triangles = malloc(count * sizeof *w.triangles);
@@ -231,22 +248,30 @@ static void block_work(void *work, uint32_t member)
 
 /* --- blocks ----------------------------------------------------------------------------------- */
 
-static int block_write(band_block *block, gdal_raster *raster)
-{
-    const raster_bands *b = block->bands;
-    uint32_t height = raster_scan_height(b->scan), row = block->first * height;
-    uint32_t rows = (block->end - block->first) * height;
-    if (rows > b->grid->rows - row) rows = b->grid->rows - row;
-    int end = 0;
-    for (uint32_t k = 0; end == 0 && k < b->count; k++)
-        end = gdal_raster_write(raster, b->offset + k, row, rows, block->pixels[k]);
-    progress_points((uint64_t)(row + rows) * b->grid->columns,
-                    (double)(row + rows) / b->grid->rows);
-    return end;
-}
-
 /* About this many bytes of pixels wait to be written. */
 #define BLOCK_BYTES ((size_t)1 << 25)
+
+static bool block_make_pixels(band_block *block, size_t bytes)
+{
+    for (int i = 0; i < 2; i++)
+        for (uint32_t k = 0; k < block->bands->count; k++)
+            if (!(block->pixels[i][k] = malloc(bytes))) return false;
+    return true;
+}
+
+/* Go on with the strips from `first` up to, not including, `end`. */
+static void block_move(band_block *block, uint32_t first, uint32_t end)
+{
+    block->before = block->first;
+    block->first = first;
+    block->end = end;
+    atomic_store(&block->next, first);
+    for (int k = 0; k < BAND_COUNT; k++) {
+        char *pixels = block->pixels[0][k];
+        block->pixels[0][k] = block->pixels[1][k];
+        block->pixels[1][k] = pixels;
+    }
+}
 
 int raster_bands_write(raster_bands *b, gdal_raster *raster)
 {
@@ -254,20 +279,20 @@ int raster_bands_write(raster_bands *b, gdal_raster *raster)
     size_t strip_bytes = (size_t)height * b->grid->columns * gdal_raster_size(b->type);
     size_t at_once = BLOCK_BYTES / strip_bytes / b->count, most = 8 * mw__team(b->threads, strips);
     uint32_t step = (uint32_t)(at_once < 1 ? 1 : at_once > most ? most : at_once);
-    band_block block = {.bands = b};
-    int end = 0;
-    for (uint32_t k = 0; k < b->count; k++) {
-        block.pixels[k] = malloc(step * strip_bytes);
-        if (!block.pixels[k]) end = fail_memory();
-    }
+    band_block block = {.bands = b, .raster = raster};
+    int end = block_make_pixels(&block, step * strip_bytes) ? 0 : fail_memory();
+    if (b->bands[0] == BAND_VALUE) raster_scan_take_values(b->scan, b->mesh->values);
     for (uint32_t strip = 0; end == 0 && strip < strips; strip += step) {
-        block.first = strip;
-        block.end = strips - strip < step ? strips : strip + step;
-        atomic_store(&block.next, strip);
+        block_move(&block, strip, strips - strip < step ? strips : strip + step);
         mw__team_run(mw__team(b->threads, block.end - strip), block_work, &block);
-        end = atomic_load(&block.failed) ? fail_memory() : block_write(&block, raster);
+        end = atomic_load(&block.failed) ? fail_memory() : block.end_of_writing;
     }
-    for (uint32_t k = 0; k < b->count; k++) free(block.pixels[k]);
+    block_move(&block, strips, strips);
+    if (end == 0) end = block_write(&block);
+    for (uint32_t k = 0; k < b->count; k++) {
+        free(block.pixels[0][k]);
+        free(block.pixels[1][k]);
+    }
     b->filled = atomic_load(&block.filled);
     b->mistakable = atomic_load(&block.mistakable);
     return end;

@@ -24,7 +24,7 @@ uint32_t raster_bands_parse(const char *list, raster_band bands[BAND_COUNT]);
 typedef struct raster_bands {
     const raster_mesh *mesh;
     const raster_grid *grid;
-    const raster_scan *scan;
+    raster_scan *scan;
     raster_band bands[BAND_COUNT];
     uint32_t count;
     uint32_t offset; /* so many bands of the raster come before these */
@@ -36,6 +36,9 @@ typedef struct raster_bands {
     uint64_t filled;     /* pixels that have a value in the first band */
     uint64_t mistakable; /* of these, those whose value is that of nodata */
 } raster_bands;
+
+/* What a band has in a triangle: of BAND_CELL and those that are derived; NaN: nothing. */
+double raster_bands_property(const raster_mesh *m, raster_band band, uint32_t triangle);
 
 /* Store values in the type of the raster, NaN as nodata, and count as `filled` and `mistakable`. */
 void raster_bands_store(const raster_bands *b, const double *values, size_t count, void *pixels,

@@ -28,8 +28,8 @@ int raster_grid_check(const raster_grid_wish *wish);
  * rounded down to 1, 2 or 5 times a power of ten. */
 double raster_grid_resolution(double area, uint64_t vertices);
 
-/* Lay out the grid that is wished for over a mesh with this xmin, ymin, xmax, ymax. Without
- * an extent it is that of the mesh, grown to multiples of the resolution. Release it in any case.
+/* Lay out the requested grid over a mesh with this xmin, ymin, xmax, ymax. Without an extent it is
+ * that of the mesh, enlarged to multiples of the resolution. Release it in any case.
  */
 int raster_grid_make(raster_grid *g, const raster_grid_wish *wish, const double mesh[4]);
 

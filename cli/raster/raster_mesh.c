@@ -77,29 +77,41 @@ static int raster_mesh_locate(raster_mesh *m, const char *path, const raster_mes
     return end;
 }
 
-/* The extent and the area of the triangles. */
+/* The extent of the vertices that triangles have, and their number. */
 static int raster_mesh_measure(raster_mesh *m)
 {
-    uint32_t v[3];
-    double p[3][2];
-    uint8_t *used = calloc((size_t)mw_mesh_vertex_count(m->mesh) + 1, 1);
+    uint32_t v[3], n = mw_mesh_vertex_count(m->mesh);
+    double p[2];
+    uint8_t *used = calloc((size_t)n + 1, 1);
     if (!used) return fail_memory();
-    for (int k = 0; k < 4; k++) m->extent[k] = k < 2 ? (double)INFINITY : -(double)INFINITY;
     for (uint32_t t = 0; t < mw_mesh_triangle_count(m->mesh); t++) {
         mw_mesh_triangle(m->mesh, t, v);
-        for (int k = 0; k < 3; k++) {
-            mw_mesh_vertex(m->mesh, v[k], p[k]);
-            m->extent[0] = fmin(m->extent[0], p[k][0]);
-            m->extent[1] = fmin(m->extent[1], p[k][1]);
-            m->extent[2] = fmax(m->extent[2], p[k][0]);
-            m->extent[3] = fmax(m->extent[3], p[k][1]);
-            if (!used[v[k]]) m->vertices++;
-            used[v[k]] = 1;
+        for (int k = 0; k < 3; k++) used[v[k]] = 1;
+    }
+    for (int k = 0; k < 4; k++) m->extent[k] = k < 2 ? (double)INFINITY : -(double)INFINITY;
+    for (uint32_t i = 0; i < n; i++) {
+        if (!used[i]) continue;
+        mw_mesh_vertex(m->mesh, i, p);
+        for (int k = 0; k < 2; k++) {
+            m->extent[k] = fmin(m->extent[k], p[k]);
+            m->extent[k + 2] = fmax(m->extent[k + 2], p[k]);
         }
-        m->area += fabs(mw_orient2d(p[0], p[1], p[2])) / 2;
+        m->vertices++;
     }
     free(used);
     return 0;
+}
+
+double raster_mesh_area(const raster_mesh *m)
+{
+    uint32_t v[3];
+    double p[3][2], area = 0;
+    for (uint32_t t = 0; t < mw_mesh_triangle_count(m->mesh); t++) {
+        mw_mesh_triangle(m->mesh, t, v);
+        for (int k = 0; k < 3; k++) mw_mesh_vertex(m->mesh, v[k], p[k]);
+        area += fabs(mw_orient2d(p[0], p[1], p[2])) / 2;
+    }
+    return area;
 }
 
 /* Room for values that come later. */

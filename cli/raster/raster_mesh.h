@@ -24,7 +24,6 @@ typedef struct raster_mesh {
     size_t face_count; /* of the file */
     size_t peeled;     /* triangles that --max-edge took away */
     double extent[4];  /* xmin, ymin, xmax, ymax of the vertices that triangles have */
-    double area;       /* of the triangles */
     uint64_t vertices; /* that triangles have */
     char *crs;         /* NULL: not known */
 } raster_mesh;
@@ -39,5 +38,8 @@ static inline uint32_t raster_mesh_face(const raster_mesh *m, uint32_t triangle)
 /* Returns 0, or an exit code after a complaint; release it in both cases. */
 int raster_mesh_read(raster_mesh *m, const char *path, const raster_mesh_settings *settings);
 void raster_mesh_release(raster_mesh *m);
+
+/* The area of the triangles. */
+double raster_mesh_area(const raster_mesh *m);
 
 #endif

@@ -11,10 +11,22 @@ enum { MOST_STRIPS = 4 };
 /* A strip has at most so many rows, and about as many pixels at most as stay in a cache. */
 enum { MOST_ROWS = 32, STRIP_PIXELS = 1 << 19 };
 
+/* A vertex as the scan has it. */
+typedef struct scan_vertex {
+    double x, y, value;
+    uint32_t number; /* of the mesh */
+} scan_vertex;
+
+/* Its vertices are those of the mesh in the order in which triangles have them first: so triangles
+ * that follow each other find theirs near each other, whatever the order in the file. */
 struct raster_scan {
     const mw_locator *locator;
     const mw_mesh *mesh;
     const raster_grid *grid;
+    const double *values; /* those that the vertices have; NULL: none */
+    scan_vertex *vertices;
+    uint32_t *corners; /* three of each triangle, in `vertices` */
+    uint32_t vertex_count;
     uint32_t height, strips, tall_count;
     size_t *begin;       /* of each strip's triangles in `triangles`, and the end of the last */
     uint32_t *triangles; /* those that reach into a strip, and few others */
@@ -45,17 +57,57 @@ static row_range rows_between(const raster_grid *g, double south, double north)
     return r;
 }
 
+static double scan_least(double a, double b, double c)
+{
+    double low = a < b ? a : b;
+    return low < c ? low : c;
+}
+
+static double scan_greatest(double a, double b, double c)
+{
+    double high = a > b ? a : b;
+    return high > c ? high : c;
+}
+
 static row_range rows_of_triangle(const raster_scan *s, uint32_t t)
 {
-    uint32_t v[3];
-    double p[2], south = INFINITY, north = -INFINITY;
-    mw_mesh_triangle(s->mesh, t, v);
-    for (int k = 0; k < 3; k++) {
-        mw_mesh_vertex(s->mesh, v[k], p);
-        south = fmin(south, p[1]);
-        north = fmax(north, p[1]);
+    const uint32_t *v = s->corners + 3 * (size_t)t;
+    double a = s->vertices[v[0]].y, b = s->vertices[v[1]].y, c = s->vertices[v[2]].y;
+    return rows_between(s->grid, scan_least(a, b, c), scan_greatest(a, b, c));
+}
+
+/* Copy the triangles and their vertices. */
+static bool scan_copy(raster_scan *s)
+{
+    uint32_t count = mw_mesh_triangle_count(s->mesh), n = mw_mesh_vertex_count(s->mesh);
+    uint32_t *index = malloc(((size_t)n + 1) * sizeof *index); /* in `vertices`, of each number */
+    double p[2];
+    s->corners = malloc((3 * (size_t)count + 1) * sizeof *s->corners);
+    s->vertices = malloc(((size_t)n + 1) * sizeof *s->vertices);
+    bool done = index && s->corners && s->vertices;
+    for (uint32_t v = 0; done && v < n; v++) index[v] = MW_NONE;
+    for (uint32_t t = 0; done && t < count; t++) {
+        uint32_t *corner = s->corners + 3 * (size_t)t;
+        mw_mesh_triangle(s->mesh, t, corner);
+        for (int k = 0; k < 3; k++) {
+            uint32_t v = corner[k];
+            if (index[v] == MW_NONE) {
+                index[v] = s->vertex_count++;
+                mw_mesh_vertex(s->mesh, v, p);
+                s->vertices[index[v]] = (scan_vertex){p[0], p[1], 0, v};
+            }
+            corner[k] = index[v];
+        }
     }
-    return rows_between(s->grid, south, north);
+    free(index);
+    return done;
+}
+
+void raster_scan_take_values(raster_scan *s, const double *values)
+{
+    s->values = values;
+    for (uint32_t v = 0; values && v < s->vertex_count; v++)
+        s->vertices[v].value = values[s->vertices[v].number];
 }
 
 /* Sort the triangles into strips: count, then fill. */
@@ -96,12 +148,14 @@ int raster_scan_create(raster_scan **scan, const mw_locator *locator, const mw_m
                 : grid->columns <= STRIP_PIXELS           ? STRIP_PIXELS / grid->columns
                                                           : 1;
     s->strips = (uint32_t)(((uint64_t)grid->rows + s->height - 1) / s->height);
-    return scan_sort(s) ? 0 : fail_memory();
+    return scan_copy(s) && scan_sort(s) ? 0 : fail_memory();
 }
 
 void raster_scan_release(raster_scan *s)
 {
     if (!s) return;
+    free(s->vertices);
+    free(s->corners);
     free(s->begin);
     free(s->triangles);
     free(s->tall);
@@ -123,6 +177,7 @@ uint32_t raster_scan_height(const raster_scan *s)
 /* A side from corner p on, which is not horizontal. */
 typedef struct scan_side {
     double from[2], to[2];
+    double south, north;
     double start;  /* the column, between centres, of its corner */
     double slope;  /* how many columns it goes east for each unit north */
     double unsure; /* bound for the error of a column where it crosses a row */
@@ -145,19 +200,18 @@ typedef struct scan_triangle {
 typedef struct strip_scan {
     const raster_scan *scan;
     mw_cursor *cursor;
-    const double *values;
     double *result;
     uint32_t *triangles;
     int64_t first, last; /* rows */
 } strip_scan;
 
-/* The area of the triangle bounds which others can be trusted. The library takes areas in doubles
- * if each exceeds its bound of at most 7e-16 * width * height, and their bounds' sum is below 2^-42
- * of the areas' sum: twice and more is left for the rounding of these tests. */
+/* Set `least`. The library uses areas in doubles if each exceeds its error bound, at most 7e-16 *
+ * width * height, and the sum of the bounds is below 2^-42 of the sum of the areas. The limit here
+ * is more than twice as large, which covers the rounding of these tests. */
 static void triangle_find_limits(scan_triangle *t, double area)
 {
-    double west = fmin(t->x[0], fmin(t->x[1], t->x[2])),
-           east = fmax(t->x[0], fmax(t->x[1], t->x[2]));
+    double west = scan_least(t->x[0], t->x[1], t->x[2]),
+           east = scan_greatest(t->x[0], t->x[1], t->x[2]);
     double box = (east - west) * (t->north - t->south);
     t->least = 4e-15 * box;
     t->plain = area > 0x1p-800 && area < 0x1p800 && 6e-15 * box < 0x1p-43 * area;
@@ -173,6 +227,8 @@ static void triangle_find_sides(scan_triangle *t, const raster_grid *g)
         scan_side *side = &t->sides[t->side_count++];
         *side = (scan_side){.from = {t->x[k], t->y[k]},
                             .to = {t->x[n], t->y[n]},
+                            .south = dy > 0 ? t->y[k] : t->y[n],
+                            .north = dy > 0 ? t->y[n] : t->y[k],
                             .start = (t->x[k] - g->west) / g->width - 0.5,
                             .slope = (t->x[n] - t->x[k]) / dy / g->width,
                             .is_left = t->y[n] < t->y[k]};
@@ -186,11 +242,14 @@ static void triangle_find_sides(scan_triangle *t, const raster_grid *g)
 /* False: it has no area, so no point is its own. */
 static bool triangle_load(scan_triangle *t, const strip_scan *s, uint32_t number)
 {
-    const mw_mesh *mesh = s->scan->mesh;
-    uint32_t v[3];
+    const uint32_t *corner = s->scan->corners + 3 * (size_t)number;
+    const scan_vertex *v[3];
     double p[3][2];
-    mw_mesh_triangle(mesh, number, v);
-    for (int k = 0; k < 3; k++) mw_mesh_vertex(mesh, v[k], p[k]);
+    for (int k = 0; k < 3; k++) {
+        v[k] = &s->scan->vertices[corner[k]];
+        p[k][0] = v[k]->x;
+        p[k][1] = v[k]->y;
+    }
     double area = mw_orient2d(p[0], p[1], p[2]);
     if (area == 0) return false;
     *t = (scan_triangle){.number = number, .reversed = area < 0};
@@ -198,10 +257,10 @@ static bool triangle_load(scan_triangle *t, const strip_scan *s, uint32_t number
         int from = t->reversed && k > 0 ? 3 - k : k;
         t->x[k] = p[from][0];
         t->y[k] = p[from][1];
-        t->value[k] = s->values ? s->values[v[from]] : 0;
+        t->value[k] = v[from]->value;
     }
-    t->south = fmin(t->y[0], fmin(t->y[1], t->y[2]));
-    t->north = fmax(t->y[0], fmax(t->y[1], t->y[2]));
+    t->south = scan_least(t->y[0], t->y[1], t->y[2]);
+    t->north = scan_greatest(t->y[0], t->y[1], t->y[2]);
     triangle_find_limits(t, fabs(area));
     triangle_find_sides(t, s->scan->grid);
     return true;
@@ -209,7 +268,7 @@ static bool triangle_load(scan_triangle *t, const strip_scan *s, uint32_t number
 
 /* --- one row of a triangle -------------------------------------------------------------------- */
 
-/* Does the closed half-plane of a side hold the centre of a column? */
+/* Does the closed half-plane of a side contain the centre of a column? */
 static bool side_holds(const scan_side *side, const raster_grid *g, int64_t column, double y)
 {
     const double at[2] = {g->x[column], y};
@@ -237,8 +296,7 @@ static int64_t column_above(double value, uint32_t columns)
     return whole + ((double)whole < value);
 }
 
-/* The first column that a left side leaves to the triangle; or the first that a right side does
- * not. */
+/* The first column inside a left side, or the first column beyond a right side. */
 static int64_t side_first(const scan_side *side, const raster_grid *g, double y)
 {
     double low, high;
@@ -261,10 +319,10 @@ static void pixel_ask(const strip_scan *s, int64_t column, double y, double *res
 {
     mw_location at = mw_locate(s->scan->locator, s->cursor, s->scan->grid->x[column], y);
     if (triangle) *triangle = at.triangle;
-    if (result) mw_interpolate(s->scan->mesh, s->values, &at, 1, result);
+    if (result) mw_interpolate(s->scan->mesh, s->scan->values, &at, 1, result);
 }
 
-/* Are the areas that the centre of a column makes with the sides large enough to be trusted? */
+/* Are the areas between the centre of a column and the sides large enough for doubles? */
 static bool triangle_is_sure(const scan_triangle *t, double px, double py)
 {
     double x[3], y[3];
@@ -300,8 +358,8 @@ static void triangle_fill_values(const scan_triangle *t, double py, const double
     }
 }
 
-/* Pixels first .. last of a row are the triangle's; those near its sides are asked for, and those
- * between them, which are no nearer to any side, need not be. */
+/* Pixels first .. last of a row belong to the triangle. Only pixels near its sides need the test;
+ * all pixels between two safe ones are safe. */
 static void triangle_fill(const scan_triangle *t, const strip_scan *s, int64_t row, int64_t first,
                           int64_t last)
 {
@@ -329,6 +387,8 @@ static void triangle_scan(const scan_triangle *t, const strip_scan *s)
     for (int64_t row = rows.first; row <= rows.last; row++) {
         int64_t first = 0, end = g->columns;
         for (int k = 0; k < t->side_count; k++) {
+            /* A triangle is convex: in a row, the sides that cross it bound the triangle. */
+            if (g->y[row] < t->sides[k].south || g->y[row] > t->sides[k].north) continue;
             int64_t column = side_first(&t->sides[k], g, g->y[row]);
             if (t->sides[k].is_left && column > first) first = column;
             if (!t->sides[k].is_left && column < end) end = column;
@@ -337,11 +397,11 @@ static void triangle_scan(const scan_triangle *t, const strip_scan *s)
     }
 }
 
-void raster_scan_strip(const raster_scan *scan, uint32_t strip, mw_cursor *cursor,
-                       const double *values, double *result, uint32_t *triangles)
+void raster_scan_strip(const raster_scan *scan, uint32_t strip, mw_cursor *cursor, double *result,
+                       uint32_t *triangles)
 {
     const raster_grid *g = scan->grid;
-    strip_scan s = {scan, cursor, values, result, triangles, (int64_t)strip * scan->height, 0};
+    strip_scan s = {scan, cursor, result, triangles, (int64_t)strip * scan->height, 0};
     scan_triangle t;
     s.last = s.first + scan->height - 1;
     if (s.last >= g->rows) s.last = (int64_t)g->rows - 1;

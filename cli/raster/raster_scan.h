@@ -15,23 +15,26 @@
 
 typedef struct raster_scan raster_scan;
 
-/* Prepare a mesh with a locator of its own, which outlive the scan. Memory: 4 bytes for each
- * triangle and strip that it reaches into, up to five times as many as triangles. Returns 0, or an
- * exit code after a complaint; release it in both cases. */
+/* Prepare a mesh with a locator of its own, which outlive the scan. Memory: 32 bytes for each
+ * vertex, 12 for each triangle, and 4 for each strip that it reaches into, at most five. Returns 0,
+ * or an exit code after a complaint; release it in both cases. */
 int raster_scan_create(raster_scan **scan, const mw_locator *locator, const mw_mesh *mesh,
                        const raster_grid *grid);
 void raster_scan_release(raster_scan *s); /* NULL is allowed */
+
+/* Take the values that strips get from now on: one for each vertex of the mesh, which stay. NULL:
+ * none. */
+void raster_scan_take_values(raster_scan *s, const double *values);
 
 /* How many strips of how many rows the raster has; the last may have fewer. */
 uint32_t raster_scan_strips(const raster_scan *s);
 uint32_t raster_scan_height(const raster_scan *s);
 
 /* Rows of a strip, which one thread works on at a time: grid.columns pixels for each row.
- *   values     one for each vertex; NULL: none are wanted
- *   result     receives the value of each pixel, NaN where there is none; NULL if `values` is
+ *   result     receives the value of each pixel, NaN where there is none; NULL: not wanted
  *   triangles  receives the triangle of each pixel, MW_NONE where there is none; NULL: not wanted
  * Several threads may scan at a time, each with a cursor of its own of the locator. */
-void raster_scan_strip(const raster_scan *s, uint32_t strip, mw_cursor *cursor,
-                       const double *values, double *result, uint32_t *triangles);
+void raster_scan_strip(const raster_scan *s, uint32_t strip, mw_cursor *cursor, double *result,
+                       uint32_t *triangles);
 
 #endif

@@ -63,28 +63,43 @@ void raster_series_close(raster_series *s)
     *s = (raster_series){0};
 }
 
-int raster_series_write(raster_series *s, raster_bands *b, raster_mesh *mesh, gdal_raster *raster)
+int raster_series_begin(raster_mesh *mesh)
+{
+    mesh->cells = malloc(mesh->face_count * sizeof *mesh->cells + 1);
+    return mesh->cells ? 0 : fail_memory();
+}
+
+void raster_series_end(raster_mesh *mesh)
+{
+    free(mesh->cells);
+    mesh->cells = NULL;
+}
+
+int raster_series_read(raster_series *s, raster_mesh *mesh, uint32_t band, bool *cells)
 {
     mw_error error;
+    size_t fields = s->choice.field_count, k = band % fields,
+           step = s->choice.first + band / fields;
+    *cells = series_field(&s->choice, k)->location == MW_SERIES_FACE;
+    mw_status status = mw_series_read(s->choice.series, s->choice.field[k], step,
+                                      *cells ? mesh->cells : mesh->values, &error);
+    return status == MW_OK ? 0 : fail_reading(&error);
+}
+
+int raster_series_write(raster_series *s, raster_bands *b, raster_mesh *mesh, gdal_raster *raster)
+{
     uint64_t filled = 0, mistakable = 0;
-    size_t fields = s->choice.field_count;
-    int end = 0;
-    mesh->cells = malloc(mesh->face_count * sizeof *mesh->cells + 1);
-    if (!mesh->cells) end = fail_memory();
+    int end = raster_series_begin(mesh);
     for (b->offset = 0; end == 0 && b->offset < s->bands; b->offset++) {
-        size_t k = b->offset % fields, step = s->choice.first + b->offset / fields;
-        bool cells = series_field(&s->choice, k)->location == MW_SERIES_FACE;
+        bool cells;
+        end = raster_series_read(s, mesh, b->offset, &cells);
         b->bands[0] = cells ? BAND_CELL : BAND_VALUE;
-        if (mw_series_read(s->choice.series, s->choice.field[k], step,
-                           cells ? mesh->cells : mesh->values, &error) != MW_OK)
-            end = fail_reading(&error);
         if (end == 0) end = raster_bands_write(b, raster);
         if (b->offset == 0) filled = b->filled;
         mistakable += b->mistakable;
     }
     b->filled = filled;
     b->mistakable = mistakable;
-    free(mesh->cells);
-    mesh->cells = NULL;
+    raster_series_end(mesh);
     return end;
 }

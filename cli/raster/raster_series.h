@@ -18,6 +18,14 @@ int raster_series_open(raster_series *s, const series_request *request, const ra
                        bool quiet);
 void raster_series_close(raster_series *s);
 
+/* Room in the mesh for the values of cells, and its end. */
+int raster_series_begin(raster_mesh *mesh);
+void raster_series_end(raster_mesh *mesh);
+
+/* Read the values of a band into the mesh: into its `cells` if *cells becomes true, else into
+ * `values`. */
+int raster_series_read(raster_series *s, raster_mesh *mesh, uint32_t band, bool *cells);
+
 /* Read, compute and write band after band: step by step, and of each the fields. `b` is as for
  * raster_bands_write, for the bands of one step; its mesh is `mesh`, whose values change. It counts
  * the pixels that have a value in the first band. */

@@ -1,4 +1,4 @@
-/* remap_cells.h - the cells of a mesh or of a raster, between which values are remapped. */
+/* remap_cells.h - the cells of a mesh or a raster, for remapping values. */
 #ifndef MW_CLI_REMAP_REMAP_CELLS_H
 #define MW_CLI_REMAP_REMAP_CELLS_H
 
@@ -21,7 +21,7 @@ int remap_cells_read(remap_cells *c, const char *path, const char *crs,
                      const common_settings *common, bool grid);
 void remap_cells_release(remap_cells *c);
 
-/* As the library takes them; without a locator for pixels. */
+/* The same for the library's calls; pixels have no locator. */
 mw_remap_mesh remap_cells_mesh(const remap_cells *c);
 
 /* x and y of the centroid of each cell, packed, or of each vertex. For free(); NULL without

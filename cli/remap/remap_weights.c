@@ -12,7 +12,7 @@
 #include <string.h>
 #include <strings.h>
 
-/* Less than this part of an area is rounding. */
+/* A fraction of an area below this counts as rounding error. */
 #define REMAP_NOTHING 1e-9
 
 typedef struct remap_run {
@@ -23,7 +23,7 @@ typedef struct remap_run {
     mw_remap remap;
 } remap_run;
 
-/* Coordinates have to be those of one system; degrees have areas on the sphere. */
+/* Both must have the same coordinate system; with degrees, areas are those of the sphere. */
 static int remap_check_systems(remap_run *r)
 {
     char names[2][CRS_NAME];

@@ -65,7 +65,7 @@ int series_values_read(series_values *v, size_t k, size_t step, double *result)
 
 /* --- points with times of their own ----------------------------------------------------------- */
 
-/* Points whose times lie between step and step + 1 get their values. */
+/* Set the values of the points whose times lie between step and step + 1. */
 static void values_between(const series_values *v, size_t step, const double *before,
                            const double *after, const double *times, size_t stride, double *result)
 {
@@ -74,7 +74,8 @@ static void values_between(const series_values *v, size_t step, const double *be
         const double at = times[i * stride];
         if (!(at >= t[step] && at <= t[step + 1])) continue;
         const double share = (at - t[step]) / (t[step + 1] - t[step]);
-        /* At a step itself the other one does not matter, not even if it is missing. */
+        /* At the time of a step only this step counts, even if a value of the other step is
+         * missing. */
         result[i] = share == 0   ? before[i]
                     : share == 1 ? after[i]
                                  : before[i] + share * (after[i] - before[i]);

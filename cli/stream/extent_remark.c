@@ -8,7 +8,7 @@
 #include <stdio.h>
 
 #define FOOT 0.3048
-#define FEW 10 /* so many points tell that something is wrong, if no reason is in sight */
+#define FEW 10 /* with at least so many points the remark is made even without a likely reason */
 
 void extent_add(extent_box *e, const double *points, size_t count, size_t stride)
 {
@@ -61,7 +61,7 @@ static bool extent_is_lonlat(const extent_box *e)
     return e->low[0] >= -360 && e->high[0] <= 360 && e->low[1] >= -90 && e->high[1] <= 90;
 }
 
-/* What may be wrong; NULL if nothing is in sight. */
+/* A likely reason; NULL if none is found. */
 static const char *extent_suspicion(const extent_box *mesh, const extent_box *points)
 {
     extent_box exchanged = extent_exchanged(points);
@@ -72,7 +72,7 @@ static const char *extent_suspicion(const extent_box *mesh, const extent_box *po
     if (degrees && !mesh_degrees) return "the points look like degrees, the mesh does not";
     if (mesh_degrees && !degrees && !extent_is_lonlat(&exchanged))
         return "the mesh looks like degrees, the points do not";
-    /* small numbers meet by chance */
+    /* ranges of small numbers overlap by chance */
     if (degrees && mesh_degrees && points->count < FEW) return NULL;
     if (extents_meet(&exchanged, mesh))
         return "with x and y exchanged they would meet: --columns says which is which";

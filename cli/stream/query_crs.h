@@ -1,5 +1,4 @@
-/* query_crs.h - the coordinate systems of queries and of what they ask: told, compared,
- * transformed. */
+/* query_crs.h - coordinate systems of queries and meshes: chosen, compared, transformed. */
 #ifndef MW_CLI_STREAM_QUERY_CRS_H
 #define MW_CLI_STREAM_QUERY_CRS_H
 
@@ -24,8 +23,9 @@ typedef struct query_crs_settings {
 typedef struct query_crs {
     gdal_transform *transform; /* NULL: the queries are taken as they stand */
     const char *of_rows;       /* the system of the queries as they stand; NULL: not known */
-    bool told;                 /* that system is told by a file or an option, not supposed */
-    uint64_t lost;             /* queries without a position in the system of the mesh */
+    /* that system comes from a file or an option; it is not an assumption */
+    bool told;
+    uint64_t lost; /* queries without a position in the system of the mesh */
 } query_crs;
 
 /* Refuse options before anything is read. Returns 0, or an exit code after a complaint. */
@@ -34,9 +34,9 @@ int query_crs_check(const char *mesh_option, const char *points_option);
 /* Which columns the options and the mesh's system mean, if several fit. */
 query_preference query_crs_prefers(const query_crs_settings *settings);
 
-/* Decide how the queries of `source` come into the system of the mesh. What is supposed and what is
- * not known is told on standard error. Returns 0, or an exit code after a complaint; close it in
- * both cases. The texts of `settings` and of the source last until then. */
+/* Decide how the queries of `source` are transformed to the system of the mesh. Assumptions and
+ * unknown systems are reported on standard error. Returns 0, or an exit code after a complaint;
+ * close it in both cases. The texts of `settings` and of the source last until then. */
 int query_crs_open(query_crs *c, const query_crs_settings *settings, const char *points,
                    const query_source *source);
 void query_crs_close(query_crs *c);

@@ -14,9 +14,10 @@ typedef struct vertex_crs_settings {
 int vertex_crs_check(const vertex_crs_settings *settings);
 
 /* Decide on the system of the mesh: that of --crs, or else of the points, or else of the
- * constraints. What is in another system is transformed; heights are not. The system goes to
- * v->file.crs; NULL: not known. What is supposed and what is not known is told on standard error.
- * `points` and `constraints` are paths, or NULL. Returns 0, or an exit code after a complaint. */
+ * constraints. Points and constraints in other systems are transformed; heights are not. Stores the
+ * system in v->file.crs; NULL: unknown. Assumptions and unknown systems are reported on standard
+ * error. `points` and `constraints` are paths, or NULL. Returns 0, or an exit code after a
+ * complaint. */
 int vertex_crs_join(const vertex_crs_settings *settings, const common_settings *common,
                     const char *points, vertex_table *v, const char *constraints,
                     mw_constraint_file *c);

@@ -82,7 +82,7 @@ typedef struct point_columns {
     bool quiet;
 } point_columns;
 
-/* Tell which columns become no fields since they hold texts, and where the first of these stands.
+/* Report which columns do not become fields because they contain text, and where the first text is.
  */
 static void columns_tell_texts(const point_columns *c)
 {
@@ -119,8 +119,8 @@ static int columns_fail_height(const point_columns *c)
     return END_INPUT;
 }
 
-/* Are the heights of features all zero, as those that some programs make up? Then tell the user
- * what else may be the height. */
+/* Are the heights of all features zero, as some programs write them by default? Then suggest
+ * another column for the height. */
 static void columns_tell_zero_heights(const point_columns *c, const point_rows *r)
 {
     size_t other = vertex_source_named_height(c->source);

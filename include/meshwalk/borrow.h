@@ -2,25 +2,26 @@
  * @file borrow.h
  * Point location in arrays that stay the caller's.
  *
- * A walk needs points, triangles and the neighbours of triangles, and many libraries have all
- * three already: SciPy's Delaunay, Triangle, matplotlib, most mesh generators. A borrowed mesh is
- * a view of such arrays: nothing is copied and nothing is built, so it is made in no time and
- * takes a hundred bytes. The arrays are only read. They must not change or move while the view is
- * used; after a change make a new view.
+ * A walk needs points, triangles and the neighbours of triangles. Many libraries already have all
+ * three: SciPy's Delaunay, Triangle, matplotlib, most mesh generators. A borrowed mesh is a view of
+ * such arrays. Nothing is copied or built, so without a check a view costs no time, and it takes a
+ * hundred bytes. The arrays are only read. They must not change or move while the view is used;
+ * after a change make a new view.
  *
- * The answers are those of mw_locate in a mesh of the same arrays, bit for bit: the
- * lowest-numbered triangle that contains the point, decided exactly. Triangles are walked through
- * as they are: clockwise ones are not turned. Only holes are not told apart: a point in one is
- * MW_OUTSIDE. What an ordinary mesh has and a borrowed one has not costs time: its layout in
- * memory, its guide to the first triangle, and the ghost triangles that fill pockets and holes.
- * Where the triangles do not fill their convex hull (mw_borrowed_info.convex is 0), a query that
- * meets the border looks at all triangles: O(n). Choose mw_mesh_create for many queries in such a
+ * The answers are those of mw_locate in a mesh of the same arrays, bit for bit: the lowest-numbered
+ * triangle that contains the point, decided exactly. Only holes differ: a point in a hole is
+ * MW_OUTSIDE.
+ *
+ * Queries are slower than in an ordinary mesh, because a borrowed mesh lacks three things: a layout
+ * along a curve in memory, a guide to the first triangle, and ghost triangles that fill pockets and
+ * holes. If the triangles do not fill their convex hull (mw_borrowed_info.convex is 0), a query
+ * that meets the border tests all triangles: O(n). Use mw_mesh_create() for many queries in such a
  * mesh.
  *
- * Arrays that break a promise below never make a query crash or run for ever: numbers out of range
- * are noticed, and walks have a limit. A triangle that is reported contains the point in any case.
- * But where unchecked arrays are wrong, it may not be the lowest one, and with options.convex a
- * point may be taken to be outside.
+ * Wrong arrays never make a query crash or run for ever: numbers out of range are noticed, and
+ * walks have a limit. A reported triangle always contains the point. But if unchecked arrays are
+ * wrong, it may not be the lowest such triangle, and with options.convex a point inside may be
+ * reported as outside.
  */
 #ifndef MESHWALK_BORROW_H
 #define MESHWALK_BORROW_H
@@ -31,7 +32,7 @@
 extern "C" {
 #endif
 
-/** How neighbour k of a triangle lies to it. */
+/** Which neighbour of a triangle has the index k. */
 typedef enum mw_neighbour_layout {
     MW_NEIGHBOUR_OPPOSITE = 0, /**< opposite to vertex k: SciPy, Qhull, Triangle, CGAL */
     MW_NEIGHBOUR_ACROSS_EDGE   /**< across edge k, from vertex k to vertex k + 1: matplotlib */
@@ -40,8 +41,8 @@ typedef enum mw_neighbour_layout {
 /** The caller's arrays. */
 typedef struct mw_borrowed_arrays {
     mw_arrays mesh; /**< points and triangles, as for mw_mesh_create() */
-    /** 3 triangles per triangle, of mesh.integer_type, from 0, packed. A number of no triangle,
-     * such as -1, means that there is no neighbour. */
+    /** 3 triangles per triangle, of mesh.integer_type, from 0, packed. A number that is no
+     * triangle's, such as -1, means that there is no neighbour. */
     const void *neighbours;
     mw_neighbour_layout layout;
 } mw_borrowed_arrays;
@@ -49,11 +50,11 @@ typedef struct mw_borrowed_arrays {
 /** A view of a caller's mesh. Opaque; any number of threads may query one view. */
 typedef struct mw_borrowed mw_borrowed;
 
-/** How arrays are borrowed. Zero-initialised options check them. */
+/** Options of mw_mesh_borrow(). Zero-initialised options check the arrays. */
 typedef struct mw_borrow_options {
     int unchecked; /**< 1: trust the arrays, O(1) */
-    /** 1, with `unchecked`: the triangles fill their convex hull without overlap. A point beyond
-     * an edge without a neighbour is then outside. 0: unknown. */
+    /** With `unchecked`: 1: the caller promises that the triangles fill their convex hull without
+     * overlap, so a point beyond an edge without a neighbour is outside. 0: unknown. */
     int convex;
     uint32_t threads; /**< of the check; 0: one per processor */
     const mw_progress
@@ -64,16 +65,16 @@ typedef struct mw_borrow_options {
 /**
  * Borrow a caller's mesh.
  *
- * The check finds out whether every number names something, every used vertex is finite,
- * neighbours share the two vertices that they must, name each other, and lie on different sides of
- * their edge; and whether the triangles fill their convex hull, in which case they surely are an
- * embedding. In other meshes it does not look for borders that cross (mw_check_arrays does): where
- * triangles overlap, any of those that contain a point may be reported.
+ * The check decides whether all numbers are in range, used vertices are finite, and neighbours
+ * share their two vertices, name each other and lie on different sides of their edge. It also
+ * decides whether the triangles fill their convex hull; if so, they are an embedding. In other
+ * meshes it does not look for crossing borders, as mw_check_arrays() does. If triangles overlap
+ * there, any triangle that contains a point may be reported.
  *
- * @param arrays   the caller's; they must outlive *out, except for the structure itself
+ * @param arrays   the caller's arrays, which must outlive *out; the structure itself need not
  * @param options  NULL = all zero: checked
  * @param out      the view, owned by the caller (mw_borrowed_release); NULL on failure
- * @return MW_OK; MW_ERROR_ARGUMENT; MW_ERROR_INPUT, of which the error names the triangle;
+ * @return MW_OK; MW_ERROR_ARGUMENT; MW_ERROR_INPUT for wrong arrays (the error names the triangle);
  *         MW_ERROR_LIMIT for more than MW_MAX_TRIANGLES; MW_ERROR_MEMORY; MW_CANCELLED
  *
  * Cost: O(n) time for the check, else O(1); O(1) memory in either case.
@@ -88,7 +89,7 @@ MW_API void mw_borrowed_release(mw_borrowed *mesh);
 typedef struct mw_borrowed_info {
     size_t bytes; /**< memory of the view, without the caller's arrays */
     int checked;
-    int convex; /**< 1: the triangles fill their convex hull, by the check or the caller's word */
+    int convex; /**< 1: the triangles fill their convex hull: checked, or promised by the caller */
     uint32_t flat_triangles;      /**< triangles without area; 0 if unchecked */
     uint32_t clockwise_triangles; /**< 0 if unchecked */
 } mw_borrowed_info;
@@ -98,8 +99,8 @@ MW_API void mw_borrowed_describe(const mw_borrowed *mesh, mw_borrowed_info *info
 
 /** How to answer queries. Zero-initialised options select the defaults. */
 typedef struct mw_borrowed_query_options {
-    /** MW_WALK_REMEMBERING; or MW_WALK_BARYCENTRIC or MW_WALK_DIRECT, as published for mixed
-     * orientation and ended by the remembering walk; 0: remembering. */
+    /** MW_WALK_REMEMBERING (also 0), MW_WALK_BARYCENTRIC or MW_WALK_DIRECT. The last two are the
+     * published forms for mixed orientation; the remembering walk ends them. */
     mw_walk_kind walk;
     int in_order;     /**< batches, 1: each query is near the previous one; do not sort */
     uint64_t seed;    /**< seed of samples; answers do not depend on it */
@@ -108,12 +109,12 @@ typedef struct mw_borrowed_query_options {
     uint32_t reserved[4];        /**< must be zero */
 } mw_borrowed_query_options;
 
-/** The state of a series of queries: one per thread, a plain value that may be copied.
- * Zero-initialised it has the default options. Members other than `counters` are private. */
+/** The state of a series of queries: one per thread, a plain value that may be copied. A
+ * zero-initialised cursor has the default options. Members other than `counters` are private. */
 typedef struct mw_borrowed_cursor {
-    /** queries, triangles_visited, triangles_max; triangles and orient of the walk;
-     * triangles_final and orient_final of what ends the barycentric and direct walks; handovers:
-     * queries that looked at all triangles. */
+    /** queries, triangles_visited, triangles_max; triangles and orient: of the walk;
+     * triangles_final and orient_final: of the walk that ends barycentric and direct walks;
+     * handovers: queries that tested all triangles. */
     mw_counters counters;
     uint64_t random;
     uint32_t last; /* triangle of the last query */
@@ -125,14 +126,14 @@ typedef struct mw_borrowed_cursor {
  * Initialise a cursor.
  *
  * @param options  NULL = all zero
- * @return MW_OK; MW_ERROR_ARGUMENT for another walk than those of mw_borrowed_query_options
+ * @return MW_OK; MW_ERROR_ARGUMENT for a walk that mw_borrowed_query_options does not list
  */
 MW_API mw_status mw_borrowed_cursor_init(const mw_borrowed_query_options *options,
                                          mw_borrowed_cursor *cursor, mw_error *error);
 
 /**
- * Locate one point. The walk begins at the triangle found last if the point is near, else at the
- * nearest of a random sample, as large as the cube root of the number of vertices.
+ * Locate one point. The walk begins at the triangle found last if the point is near it, else at the
+ * nearest of a random sample. The size of the sample is the cube root of the number of vertices.
  *
  * @return as mw_locate, but MW_OUTSIDE for a point in a hole; MW_BAD for a point that is not finite
  *
@@ -142,18 +143,19 @@ MW_API mw_location mw_borrowed_locate(const mw_borrowed *mesh, mw_borrowed_curso
                                       double y);
 
 /**
- * Locate n points. Queries are sorted along a Hilbert curve first, so that each walk begins where
- * the one before ended.
+ * Locate n points. Queries are sorted along a Hilbert curve, and each walk begins where the
+ * previous one ended.
  *
  * @param points     x, y of point i at points[i * stride] and the double after it
  * @param stride     in doubles; 0 = 2
  * @param options    NULL = all zero
  * @param locations  n results, in input order, the same for any number of threads
- * @param counters   NULL, or filled with the sum over the batch
+ * @param counters   NULL, or receives the sum over the batch
  * @return MW_OK; MW_ERROR_ARGUMENT as mw_borrowed_cursor_init; MW_ERROR_MEMORY, MW_CANCELLED: then
  *         locations is unspecified
  *
- * Thread-safe. Takes 32 bytes a query for the sort, of 4 million queries at most.
+ * Thread-safe. Takes 32 bytes a query for the sort, which handles at most 4 million queries at a
+ * time.
  */
 MW_API mw_status mw_borrowed_locate_batch(const mw_borrowed *mesh, const double *points, size_t n,
                                           size_t stride, const mw_borrowed_query_options *options,

@@ -27,18 +27,17 @@ typedef struct mw_marked_edge {
 } mw_marked_edge;
 
 /**
- * Tell the version of libnetcdf, which reads and writes netCDF files and is loaded when it is
- * needed.
+ * The version of libnetcdf, which reads and writes netCDF files. It is loaded at the first use.
  *
  * libnetcdf serves one thread at a time: calls of this library that read or write netCDF wait for
  * one another, whatever the files. A program that calls libnetcdf itself must not do so while
  * another thread is in such a call.
  *
- * HDF5, on which netCDF-4 is built, may bring its process down over a damaged file. So a netCDF-4
- * file is opened in a child of fork() first, and refused if that does not come to an end: the
- * process gets a SIGCHLD, or more.
+ * HDF5, the library below netCDF-4, can crash on a damaged file. So a netCDF-4 file is first opened
+ * in a child made by fork(), and refused if the child crashes or does not end. The process receives
+ * SIGCHLD, possibly several.
  *
- * @param text  receives the version, ended by NUL, empty if there is none; NULL is allowed
+ * @param text  receives the version, ended by NUL; empty if libnetcdf is not found; NULL is allowed
  * @param size  bytes of `text`
  * @return the length of the whole version; 0: libnetcdf is not found, and netCDF files are refused
  *
@@ -48,13 +47,13 @@ MW_API size_t mw_netcdf_version(char *text, size_t size);
 
 /** A mesh as read. The structure owns its arrays; release with mw_mesh_file_release().
  *
- * Faces with more than three corners are cut into triangles: a quadrilateral along its shorter
- * diagonal, of two equal ones along that with the lowest vertex number; a convex face with more
- * corners as a fan from its lowest-numbered vertex (corners on a straight line between their
- * neighbours may shift this, so that no triangle is flat). A face that is not convex is an error.
- * Faces are looked at in the plane x, y; a face that is not convex there, as that of a wall, in
- * the plane of two coordinates where its area is largest. Only a quadrilateral in space, whose
- * corners have different z, need not be convex: it is cut where it folds less. */
+ * Faces with more than three corners are cut into triangles. A quadrilateral is cut along its
+ * shorter diagonal; if both are equal, along the one with the lowest vertex number. A convex face
+ * with more corners becomes a fan from its lowest-numbered vertex, or from another one if corners
+ * on a straight line would make triangles flat. A face that is not convex is an error. Convexity is
+ * decided in the plane x, y. A face that is not convex there, such as a wall, is projected to the
+ * coordinate plane where its area is largest. Exception: a quadrilateral whose corners have
+ * different z need not be convex. It is cut where it folds less. */
 typedef struct mw_mesh_file {
     double *points;      /**< 3 per vertex: x, y, z; z is 0 if the file has none */
     uint32_t *triangles; /**< 3 vertices per triangle */
@@ -72,10 +71,11 @@ typedef struct mw_mesh_file {
     uint32_t *faces;
     size_t face_count;
     int first_number; /**< what the file counts its vertices and faces from: 0 or 1 */
-    /** If not 0: the fields are values at the first of so many times that the file has. */
+    /** Not 0: the file holds this many times, and the fields are the values at the first. */
     size_t step_count;
-    char **triangle_field_names; /**< values per triangle, that of its face: "physical" of Gmsh */
-    double **triangle_fields;    /**< triangle_field_count arrays of triangle_count values */
+    /** values per triangle, copied from its face: "physical" of Gmsh */
+    char **triangle_field_names;
+    double **triangle_fields; /**< triangle_field_count arrays of triangle_count values */
     size_t triangle_field_count;
     /** Edges that the file marks as parts of a boundary, in its order, and the names of the marks:
      * "open 1", "land 1 type 20" in fort.14 and .gr3, names of markers and physical groups. */
@@ -83,6 +83,11 @@ typedef struct mw_mesh_file {
     size_t edge_count;
     char **mark_names;
     size_t mark_count;
+    /** The first face that has a vertex twice, as a sentence with file and line, byte or variable:
+     * "run.nc: variable nv: face 7 has vertex 3 twice"; NULL: there is none. Such faces are read,
+     * so that they can be listed and mended, but are no part of an embedding. */
+    char *repeat;
+    size_t repeat_triangle; /**< the triangle of that face */
 } mw_mesh_file;
 
 /** Options of reading or writing a whole file. Zero-initialised options select the defaults. */
@@ -124,8 +129,9 @@ typedef struct mw_file_options {
  *   zlib or without. Values of points become fields, those of cells triangle fields
  * - SU2 in the plane; markers mark edges
  * - NPZ of NumPy: arrays "points" and "triangles"; others of the length of one of these are values
+ * - MWM, prepared meshes (prepared.h): checked as by mw_mesh_map(), also packed or from a pipe
  *
- * Volumes, lines and vertices among the cells are passed over; cells of higher order are refused.
+ * Cells that are volumes, lines or vertices are skipped; cells of higher order are refused.
  *
  * @param path     the file; "-": standard input
  * @param options  NULL selects the defaults
@@ -219,26 +225,25 @@ MW_API int mw_constraints_known(const char *path);
  * - "obj", "stl": STL as text with all digits; without fields
  * - "netcdf": UGRID 1.0 in netCDF-4, with fields, heights and the coordinate system; only into a
  *   file
- * - "vtk": legacy VTK as text, an unstructured grid with the fields as point data, for ParaView;
- * not read - "csv": a table for other programs, one row per corner of a triangle, with the columns
+ * - "vtk": legacy VTK as text, an unstructured grid with the fields as point data, for ParaView
+ * - "csv": a table for other programs, one row per corner of a triangle, with the columns
  *   triangle,corner,vertex,x,y,z and the fields; not read as a mesh
- *
  * - "vtu": VTK in XML, with appended doubles; fields as point data, triangle fields as cell data
- * - "fort.14", "gr3": ADCIRC, SCHISM. The depth is the field "depth", else the height turned round,
- *   else 0; marked edges become boundaries: open ones if the mark begins with "open", else land of
- *   the type behind "type" in the mark, or 0. Barriers, whose vertices have further values, are
- *   left out
- * - "2dm": SMS. The height is z, else the field "depth" turned round; the material is the triangle
+ * - "fort.14", "gr3": ADCIRC, SCHISM. The depth is the field "depth"; without it the negative
+ *   height, or 0. Marked edges become boundaries: open ones if the mark begins with "open", else
+ *   land boundaries of the type that follows "type" in the mark, or 0. Barriers are left out
+ *   because their vertices have further values
+ * - "2dm": SMS. The height is z; without z the negative field "depth". The material is the triangle
  *   field "material", else "physical", else 1
  * - "msh": Gmsh 2.2 as text. Physical groups as above, else 0; marked edges are lines in groups
  *
- * gr3, 2dm and msh write quadrilaterals, and vtu all polygons, that were cut into triangles as they
- * were (`faces`).
+ * Faces that were cut into triangles (`faces`) are written as they were: quadrilaterals in gr3, 2dm
+ * and msh, all polygons in vtu.
  *
- * PLY and netCDF keep the coordinate system, others ignore it. Values per triangle go into netCDF
- * and vtu, in part into 2dm and msh, edges and their marks into fort.14, gr3 and msh. Vertices,
- * triangles, z and fields keep their order and every bit, except the sign of a NaN and the
- * vertices of STL and csv, which have corners only. Names of fields become single words.
+ * PLY and netCDF keep the coordinate system; other formats do not. netCDF and vtu keep values per
+ * triangle; 2dm and msh keep some of them. fort.14, gr3 and msh keep marked edges. Vertices,
+ * triangles, z and fields keep their order and every bit, except the sign of a NaN and the vertices
+ * of STL and csv, which have corners only. Names of fields become single words.
  *
  * The two files of "node" are complete before .ele and then .node get their names. A program that
  * is stopped between these two steps leaves a new .ele without a .node, or with an old one.
@@ -259,7 +264,7 @@ MW_API mw_status mw_write_mesh(const char *path, const mw_mesh_file *file, const
                                const mw_file_options *options, mw_error *error);
 /** The name of format i of mw_write_mesh(), i from 0; NULL beyond the last. */
 MW_API const char *mw_mesh_format_name(size_t i);
-/** Tell the format that mw_write_mesh() chooses by the ending of a name.
+/** The format that mw_write_mesh() chooses by the ending of a name.
  * @param path  name of the file, which need not exist
  * @return name of the format, a constant; NULL if the ending tells none. Thread-safe. */
 MW_API const char *mw_mesh_format_of_path(const char *path);
@@ -308,8 +313,8 @@ typedef struct mw_axis_names {
  * @return the set, a constant; NULL beyond the last. Thread-safe. */
 MW_API const mw_axis_names *mw_axis_names_at(size_t i);
 
-/** Decide whether a column's name means a coordinate: letters of any case, without regard to
- * blanks, '_', '-', '.' and a unit in brackets behind it, as "Point X (m)" does mean "point_x".
+/** Decide whether a column's name means a coordinate. Case, blanks, '_', '-', '.' and a unit in
+ * brackets at the end are ignored: "Point X (m)" means "point_x".
  * @param column  name of the column
  * @param name    one of a set of mw_axis_names_at
  * @return 1 or 0. Thread-safe. */
@@ -326,10 +331,9 @@ typedef struct mw_point_reader mw_point_reader;
  * them name coordinates (mw_axis_names_at()). Empty lines and lines that begin with # are skipped
  * (but see mw_point_reader_table()). All rows have the same number of columns. A cell that begins
  * with a double quote ends with one and may hold separators, line ends, and "" for a quote. "inf"
- * is a number; NaN, NA, N/A and NULL in any case, "-" and an empty cell are missing values, read
- * as NaN. Decimal commas are accepted if semicolons or tabs separate columns; they are refused
- * elsewhere, and beside decimal points. Triangle's .node is read too, without its numbers and
- * markers.
+ * is a number. NaN, NA, N/A and NULL in any case, "-" and an empty cell are missing values, read as
+ * NaN. Decimal commas are accepted if semicolons or tabs separate columns, unless the file also has
+ * decimal points. Triangle's .node is read too, without its numbers and markers.
  *
  * Columns. Selected columns come in the order of the selection. Without a selection: all columns
  * that hold numbers in the first row; if a header names x and y as mw_axis_names_at() does, these
@@ -371,70 +375,70 @@ MW_API const char *mw_point_reader_column(const mw_point_reader *reader, size_t 
 MW_API mw_status mw_point_reader_read(mw_point_reader *reader, double *values, size_t capacity,
                                       size_t *count, mw_error *error);
 
-/** Tell the coordinate system of the points: that of the records of LAS (WKT, or the EPSG code of
- * its GeoTIFF keys), or else of a .prj file beside the points.
+/** The coordinate system of the points: from the records of LAS (WKT, or the EPSG code of its
+ * GeoTIFF keys), else from a .prj file beside the points.
  * @param reader  not NULL
  * @return WKT or "EPSG:n", owned by the reader; NULL = not known. Thread-safe on different
  *         readers. */
 MW_API const char *mw_point_reader_crs(const mw_point_reader *reader);
 /**
- * How much of the file has been read, to show to people: from 0 to 1, or -1 where the size is not
- * known, as of a pipe. Not safe while another thread reads by the same reader.
+ * How much of the file has been read, for display: from 0 to 1, or -1 if the size is unknown, as
+ * for a pipe. Not safe while another thread uses the same reader.
  */
 MW_API double mw_point_reader_fraction(const mw_point_reader *reader);
 
 /** Close a reader. NULL is allowed. */
 MW_API void mw_point_reader_close(mw_point_reader *reader);
 
-/** The columns of a file, whether they are read as numbers or not. Texts belong to the reader. */
+/** All columns of a file, also those that are not read as numbers. Texts belong to the reader. */
 typedef struct mw_point_table {
     /* of the columns, "" for one without a name; NULL = the file has no header */
     const char *const *names;
     const char *header; /* the header as it stands in the file; NULL = it has none */
     size_t column_count;
-    /* of the rows' texts: ',', ';' or a tab. White space in the file becomes commas */
+    /* separator in the texts of rows: ',', ';' or a tab. Blanks in the file become commas */
     char separator;
-    char decimal; /* '.', or ',' as soon as a number with a decimal comma was read */
+    char decimal; /* '.'; ',' once a number with a decimal comma was read */
     uint32_t reserved[4];
 } mw_point_table;
 
-/** Describe the table that a reader reads. A line that begins with # is a row of it, not a
- * comment, if it has as many columns as the header, a column that is not read begins it, and
- * blanks do not separate them: #12 is an id. LAS is a table with commas of all the values that its
- * points have.
- * @param table  is filled in; its texts last until mw_point_reader_close
+/** Describe the table that a reader reads. A line that begins with # is a row, not a comment, if
+ * three things hold: it has as many columns as the header, its first column is not read as a
+ * number, and columns are not separated by blanks. Then #12 is an id. LAS is a table of all values
+ * of its points, separated by commas.
+ * @param table  receives the description; its texts are valid until mw_point_reader_close()
  * @return MW_OK; MW_ERROR_ARGUMENT: NULL. Thread-safe on different readers. */
 MW_API mw_status mw_point_reader_table(const mw_point_reader *reader, mw_point_table *table,
                                        mw_error *error);
 
-/** Choose the columns to read as numbers, in place of those chosen so far. A reader that was
- * opened with `table` and without `columns` reads none before this call.
+/** Choose the columns to read as numbers. Replaces an earlier choice. A reader opened with `table`
+ * and without `columns` reads no column before this call.
  * @param columns  numbers of columns, from 0, at least two, each once
  * @return MW_OK; MW_ERROR_ARGUMENT: NULL, no such column, one twice, a reader without `table`, or
  * after the first mw_point_reader_read; MW_ERROR_MEMORY. Thread-safe on different readers. */
 MW_API mw_status mw_point_reader_select(mw_point_reader *reader, const size_t *columns,
                                         size_t count, mw_error *error);
 
-/** Tell which column of the file a value comes from.
+/** The column of the file that a value comes from.
  * @param column  number of the value within a point, from 0
  * @return the number of the column in mw_point_table, from 0; SIZE_MAX = no such value.
  *         Thread-safe. */
 MW_API size_t mw_point_reader_column_number(const mw_point_reader *reader, size_t column);
 
-/** Tell how many cells that were read held a text where a number belongs. Such a cell is a missing
- * value, NaN, in columns beyond x, y and z of a reader that was opened with `texts`; elsewhere it
- * ends the reading with an error.
+/** How many cells read so far held a text instead of a number. With mw_point_reader_options.texts
+ * such a cell in a column other than x, y and z is a missing value, NaN; elsewhere it is an error,
+ * and reading ends.
  * @param column  number of the value within a point, from 0
  * @param line    line of the first of these cells, from 1; unchanged if there is none. NULL is
  *                allowed
  * @return how many; 0 also if there is no such value. Thread-safe on different readers. */
 MW_API uint64_t mw_point_reader_texts(const mw_point_reader *reader, size_t column, int64_t *line);
 
-/** Give the text of a row: as it stands in the file, without its line end, whatever its cells hold.
+/** The text of a row as it stands in the file, without its line end.
  * @param row     number of the row in the block that mw_point_reader_read gave last, from 0
  * @param length  bytes of the text, which no NUL ends; 0 on failure
- * @return the text, until the next read or close; NULL = no such row, or a reader without `table`.
- * Several threads may call this at a time. */
+ * @return the text, valid until the next read or close; NULL = no such row, or a reader without
+ * `table`. Several threads may call this at a time. */
 MW_API const char *mw_point_reader_row(const mw_point_reader *reader, size_t row, size_t *length);
 
 /** What a line of a stream of edits requests. */
@@ -549,10 +553,10 @@ MW_API void mw_edit_reader_close(mw_edit_reader *reader);
 /**
  * An output file that appears under its name only when it is complete. Opaque.
  *
- * It is written without a name, or under a temporary one beside its final name, and then renamed
- * in one step. An existing file keeps its permissions; a symbolic link to it stays, whether the
- * file existed or not. Pipes, terminals and devices are written directly. Writing into a closed
- * pipe raises SIGPIPE; a program that wants the error instead ignores that signal.
+ * It is written without a name, or under a temporary name in the same directory, and then gets its
+ * name in one step. An existing file keeps its permissions. A symbolic link stays a link: the file
+ * that it leads to is written. Pipes, terminals and devices are written directly. Writing into a
+ * closed pipe raises SIGPIPE; a program that wants the error instead ignores that signal.
  */
 typedef struct mw_output mw_output;
 
@@ -560,8 +564,8 @@ typedef struct mw_output mw_output;
 MW_API mw_status mw_output_open(const char *path, mw_output **out, mw_error *error);
 
 /**
- * Find the name under which the output of a path appears: the end of its symbolic links, whether
- * that file exists or not.
+ * Find the name under which the output of a path appears: its symbolic links are followed to the
+ * end. The file need not exist.
  *
  * @param path   the path
  * @param name   receives the name, released by the caller with free(); NULL on failure

@@ -146,18 +146,18 @@ typedef struct mw_locator_info {
     size_t area_bytes;        /**< of these, for stored areas */
     uint32_t ghost_triangles; /**< triangles that fill pockets and holes */
     uint32_t holes;
-    /** 1: walks run on a copy of the mesh, with ghosts or without flat triangles. */
+    /** 1: walks run on a copy of the mesh that has ghosts or lacks flat triangles. */
     int copied;
     int embedding;       /**< 0: the mesh is not an embedding (mw_locator_options.any) */
     int unfilled;        /**< 1: the mesh is not convex, and pockets and holes are open */
     uint32_t components; /**< if unfilled: connected components, equal coordinates joined; else 1 */
     /** Of the bytes, for ghosts and their copy of the mesh; 0 without ghosts. */
     size_t fill_bytes;
-    /** What leads queries to their first triangle where nothing is said: MW_START_GRID,
-     * MW_START_CURVE, MW_START_TWO_LEVEL_GRID, or MW_START_CHAINS where walks from these would be
-     * long; MW_START_AUTO: nothing is built. */
+    /** The guide that leads queries to their first triangle by default: MW_START_GRID,
+     * MW_START_CURVE, MW_START_TWO_LEVEL_GRID, or MW_START_CHAINS if walks from these would be
+     * long. MW_START_AUTO: no guide is built. */
     mw_start_kind guide;
-    size_t guide_bytes; /**< of the bytes, for that */
+    size_t guide_bytes; /**< of the bytes, for the guide */
 } mw_locator_info;
 
 /** Fill `info` with the sizes of a locator. O(1). */
@@ -168,15 +168,15 @@ MW_API void mw_locator_describe(const mw_locator *locator, mw_locator_info *info
 MW_API const char *mw_locator_void_promise(const mw_locator *locator);
 
 /**
- * What some starts build beside a mesh: a grid, buckets, layers, a tree, or a sample along a curve.
- * Opaque; any number of threads may use one index.
+ * The index of a start: a grid, buckets, layers, a tree, or a sample along a curve. Opaque; any
+ * number of threads may use one index.
  *
- * An index is only a guide to the first triangle. It may serve any locator, also of another mesh
- * or of a mesh that was edited; answers stay exact, walks get longer.
+ * An index is only a guide to the first triangle. It may serve any locator, also that of another
+ * mesh or of an edited mesh: answers stay exact, but walks get longer.
  */
 typedef struct mw_index mw_index;
 
-/** At which vertex of a triangle a search goes from one layer down to the next. */
+/** The vertex of a triangle at which a search descends to the next layer. */
 typedef enum mw_descent {
     MW_DESCENT_AUTO = 0, /**< the nearest */
     MW_DESCENT_NEAREST,  /**< the vertex nearest to the point */
@@ -201,8 +201,9 @@ typedef struct mw_index_options {
     uint64_t seed;               /**< MW_START_LAYERS: seed of the random vertices */
     const mw_progress *progress; /**< progress and cancelling, see base.h; NULL: none */
     /** MW_START_GRID: 1 keeps the corners of each cell's triangle, 12 bytes a cell more. A single
-     * query then asks memory for them and for the triangle at once: in a large mesh it takes about
-     * an eighth less time, and a batch as long as before. An editor ignores it. */
+     * query then loads the corners and the triangle from memory at the same time. In a large mesh
+     * it takes about an eighth less time; the time of a batch does not change. An editor ignores
+     * this option. */
     uint32_t corners;
     uint32_t reserved[3]; /**< must be zero */
 } mw_index_options;
@@ -289,7 +290,7 @@ typedef struct mw_query_options {
  * location (the exact walk that ends a cheap one). The border walk alternates between walk and
  * border. Each stage except the border counts the triangle that it starts in; triangles_visited
  * counts each entry once. Layers (MW_START_LAYERS) count like the mesh; the distances that choose
- * the vertex at which a search goes down are not counted. Tests in a bucket
+ * the vertex at which a search goes down are not counted. Tests of the triangles in a bucket
  * (MW_START_TRIANGLE_BUCKETS) and of chains (MW_START_CHAINS) count as orient_init. Counts do not
  * depend on threads. If queries start at the previous one (last, sorted, auto), counts depend on
  * lanes.
@@ -354,9 +355,9 @@ typedef struct mw_cursor {
 /**
  * Initialise a cursor.
  *
- * With an index and MW_START_AUTO the start is the index's. Without one it is, in single queries,
- * the triangle found last if that is near, else the locator's guide. MW_START_SORTED acts as
- * MW_START_LAST in single queries.
+ * With an index, MW_START_AUTO means the start of the index. Without an index, a single query
+ * starts at the triangle found last if that is near, else where the locator's guide leads.
+ * MW_START_SORTED acts as MW_START_LAST in single queries.
  *
  * @param locator  the locator that the cursor will serve
  * @param options  NULL selects the defaults

@@ -25,7 +25,7 @@ typedef enum mw_integer_type { MW_UINT32 = 0, MW_INT32, MW_INT64 } mw_integer_ty
 
 /** The caller's arrays. A call reads them and keeps no reference to them, unless it says so. */
 typedef struct mw_arrays {
-    /** X, y of vertex i at points[i * point_stride] and the double after it. */
+    /** x, y of vertex i at points[i * point_stride] and the double after it. */
     const double *points;
     size_t point_count;  /**< number of vertices */
     size_t point_stride; /**< in doubles; 0 means 2 (packed x, y); 3 skips the z of x, y, z */
@@ -109,10 +109,10 @@ typedef struct mw_check_options {
 /**
  * Find every defect of a planar mesh, and decide whether it is an embedding.
  *
- * Of two border edges that cross, or run along each other on the same side, at least one is listed,
- * with one edge in its way, so the list stays linear in the mesh. Where thousands of long edges
- * cross, some are not listed. Where borders cross, other defects of the parts that they bound may
- * show only after the crossing is mended. Equal arrays give equal lists.
+ * If two border edges cross, or run along each other on the same side, at least one of them is
+ * listed, with one edge that it crosses. So the length of the list is linear in the mesh. If
+ * thousands of long edges cross, some are not listed. If borders cross, other defects of these
+ * parts may be found only after the crossing is mended. Equal arrays give equal lists.
  *
  * @param arrays   the mesh
  * @param options  NULL selects the defaults

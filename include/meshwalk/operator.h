@@ -1,17 +1,16 @@
 /**
  * @file operator.h
- * Weights that are kept: interpolation at the same points again and again, as a sparse matrix.
+ * Interpolation at the same points again and again: weights kept as a sparse matrix.
  *
- * An operator has a row for each point and a column for each vertex. It is made once, from
- * locations or from the entries of a file of weights, and applied to any number of fields:
+ * An operator has a row for each point and a column for each vertex. Create it once, from locations
+ * or from the entries of a file of weights, and apply it to any number of fields:
  *
  *     mw_locate_batch(locator, points, n, 2, NULL, locations, NULL, &error);
  *     mw_operator_create(mesh, locations, n, NULL, &weights, &error);
  *     for (each step) mw_operator_apply(weights, &table, NULL, result, &error);
  *
- * The values are those of mw_interpolate_table(), bit for bit. An operator takes 40 bytes a point,
- * keeps nothing of the mesh, and holds its rows in an order in which neighbours read the same
- * values.
+ * The results are those of mw_interpolate_table(), bit for bit. An operator takes 40 bytes a point
+ * and does not refer to the mesh. It orders its rows so that consecutive rows read nearby values.
  */
 #ifndef MESHWALK_OPERATOR_H
 #define MESHWALK_OPERATOR_H
@@ -25,7 +24,7 @@ extern "C" {
 /** Rows of weights. Opaque; any number of threads may apply one operator. */
 typedef struct mw_operator mw_operator;
 
-/** How an operator is made. Zero-initialised options select the defaults. */
+/** Options for creating an operator. Zero-initialised options select the defaults. */
 typedef struct mw_operator_options {
     uint32_t threads;            /**< number of threads; 0: one per processor */
     const mw_progress *progress; /**< progress and cancelling, see base.h; NULL: none */
@@ -33,18 +32,18 @@ typedef struct mw_operator_options {
 } mw_operator_options;
 
 /**
- * Make the operator that interpolates values at the vertices of a mesh linearly at points.
+ * Create the operator that interpolates values at the vertices of a mesh linearly at points.
  *
  * @param mesh       the mesh in which the points were located; read during the call only
  * @param locations  n locations: row i is the point of location i. A location without a triangle
- *                   gives a row without entries; one on an edge or vertex gives the entries whose
- *                   weight is not 0
+ *                   gives a row without entries. Weights of 0 are left out, so a location on an
+ *                   edge gives two entries and one on a vertex one
  * @param n          number of locations
  * @param options    NULL selects the defaults
  * @param out        receives the operator, owned by the caller (mw_operator_destroy()); NULL on
  *                   failure
  * @param error      NULL, or receives the message of a failure
- * @return MW_OK; MW_ERROR_ARGUMENT for NULL, or a location whose triangle is none of the mesh or
+ * @return MW_OK; MW_ERROR_ARGUMENT for NULL, or a location whose triangle is not in the mesh or
  *         whose weights are not finite; MW_ERROR_LIMIT for 2^32 - 1 locations or more;
  *         MW_ERROR_MEMORY, MW_CANCELLED.
  *
@@ -65,7 +64,8 @@ typedef struct mw_operator_entries {
 } mw_operator_entries;
 
 /**
- * Make an operator from entries: any number in a row. Entries of the same row and column add up.
+ * Create an operator from entries. A row may have any number of them; entries with the same row and
+ * column are added.
  *
  * @param entries  read during the call only
  * @param options  NULL selects the defaults
@@ -83,8 +83,8 @@ MW_API mw_status mw_operator_create_from_entries(const mw_operator_entries *entr
                                                  mw_operator **out, mw_error *error);
 
 /**
- * Make the transpose of an operator: rows become columns. It spreads values at points to vertices;
- * rows without entries are vertices that no point uses, so apply it with
+ * Create the transpose of an operator: rows become columns. The transpose spreads values at points
+ * to vertices. Its rows without entries are vertices that no point uses, so apply it with
  * mw_operator_apply_options.zero_empty.
  *
  * @param weights  the operator
@@ -108,7 +108,7 @@ typedef struct mw_operator_info {
     uint32_t rows, columns;
     size_t entries;      /**< weights that are not 0 */
     uint32_t empty_rows; /**< rows without entries */
-    uint32_t widest;     /**< most entries in a row */
+    uint32_t widest;     /**< the most entries in a row */
     size_t bytes;        /**< memory in bytes */
 } mw_operator_info;
 
@@ -128,30 +128,31 @@ MW_API void mw_operator_describe(const mw_operator *weights, mw_operator_info *i
 MW_API void mw_operator_copy(const mw_operator *weights, uint64_t *first, uint32_t *column,
                              double *weight);
 
-/** What a row gives where a value that it needs is missing (NaN). */
+/** The result of a row if a value that it needs is missing (NaN). */
 typedef enum mw_missing_rule {
     MW_MISSING_SPREADS = 0, /**< NaN, as mw_interpolate() does */
-    /** The mean of the values that are there, by their weights, times the sum of all weights of
-     * the row; NaN if none is there. Near the border of missing values it is a guess. */
+    /** The weighted mean of the values present, times the sum of all weights of the row; NaN if no
+     * value is present. Next to missing values this is a guess. */
     MW_MISSING_LEFT_OUT
 } mw_missing_rule;
 
-/** How an operator is applied. Zero-initialised options select the defaults. */
+/** Options of mw_operator_apply(). Zero-initialised options select the defaults. */
 typedef struct mw_operator_apply_options {
-    uint32_t threads;            /**< number of threads; 0: one per processor */
-    mw_missing_rule missing;     /**< for values that are NaN */
-    int zero_empty;              /**< rows without entries give 1: 0, as a matrix does; 0: NaN */
+    uint32_t threads;        /**< number of threads; 0: one per processor */
+    mw_missing_rule missing; /**< what to do about values that are NaN */
+    /** result of a row without entries: 1: the number 0, as of a matrix; 0: NaN */
+    int zero_empty;
     const mw_progress *progress; /**< progress and cancelling, see base.h; NULL: none */
     uint32_t reserved[5];        /**< must be zero */
 } mw_operator_apply_options;
 
 /**
- * Apply an operator to one field or to many at once: each result is the sum of weight times value
+ * Apply an operator to one field or to many at once. Each result is the sum of weight times value
  * over the entries of its row, in the order of the entries.
  *
  * @param weights  the operator
- * @param table    values at the columns; count, stride and step as of mw_interpolate_table().
- *                 Values of a column side by side are fastest
+ * @param table    values at the columns; count, stride and step as for mw_interpolate_table(). It
+ *                 is fastest if the values of a column are side by side
  * @param options  NULL selects the defaults
  * @param result   receives values of the table's type, packed: value k of row i at
  *                 result[i * count + k], or at result[k * rows + i] if step is more than 1. Floats
@@ -160,9 +161,11 @@ typedef struct mw_operator_apply_options {
  * @return MW_OK; MW_ERROR_ARGUMENT for NULL, an unknown type or rule, or a stride less than count
  *         without a step; MW_CANCELLED, after which some results are written.
  *
- * Thread-safe. The same bits for any number of threads. Allocates memory for threads only, but for
- * four fields or more one after another, of scattered rows or columns, 64 bytes a row and a column:
- * these are then brought side by side, eight at a time. Without that memory it takes longer.
+ * Thread-safe. The result is the same, bit for bit, for any number of threads. Memory is allocated
+ * for threads only, with one exception: if four or more fields are stored one after another and
+ * rows or columns are scattered, their values are first brought side by side, eight fields at a
+ * time, in 64 bytes for each row and column. If that memory is not available, the call takes
+ * longer.
  */
 MW_API mw_status mw_operator_apply(const mw_operator *weights, const mw_value_table *table,
                                    const mw_operator_apply_options *options, void *result,

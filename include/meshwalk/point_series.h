@@ -1,8 +1,8 @@
 /**
  * @file point_series.h
  * Values over time at points, written as netCDF by the CF conventions for discrete sampling
- * geometries: time series at points that stay, or the track of one that moves. xarray, and whatever
- * knows CF, read it. libnetcdf is loaded when it is needed.
+ * geometries: time series at fixed points, or the track of one moving point. xarray and other
+ * programs that know CF can read it. libnetcdf is loaded at the first use.
  */
 #ifndef MESHWALK_POINT_SERIES_H
 #define MESHWALK_POINT_SERIES_H
@@ -19,32 +19,33 @@ typedef enum mw_point_feature {
     MW_POINT_TRAJECTORY       /**< one track: each point has its own time, and one value */
 } mw_point_feature;
 
-/** What is written beside the values. Everything is read by mw_point_series_open() only. */
+/** What is written besides the values. The arrays are read during mw_point_series_open() only. */
 typedef struct mw_point_series_layout {
     mw_point_feature feature;
     const double *positions; /**< x and y of each point */
     size_t position_stride;  /**< doubles from one to the next; 0: 2 */
     size_t point_count;
     int degrees;              /**< 1: x and y are longitude and latitude */
-    const double *times;      /**< `time_count` times; of a track one for each point */
+    const double *times;      /**< `time_count` times; for a track one for each point */
     size_t time_stride;       /**< doubles from one to the next; 0: 1 */
     size_t time_count;        /**< ignored for a track */
-    const char *time_unit;    /**< as CF has it: "hours since 2020-01-01"; NULL or "": not known */
-    const char *calendar;     /**< NULL or "": not known */
+    const char *time_unit;    /**< as in CF: "hours since 2020-01-01"; NULL or "": unknown */
+    const char *calendar;     /**< NULL or "": unknown */
     const char *const *names; /**< of the fields */
-    const char *const *units; /**< of the fields, "": not known; NULL: none is known */
+    const char *const *units; /**< of the fields; "": unknown; NULL: all unknown */
     size_t field_count;
-    const mw_location *located; /**< the location of each point, for its status; NULL: not told */
+    /** the location of each point, whose status is written; NULL: no status */
+    const mw_location *located;
 } mw_point_series_layout;
 
-/** A file that is written. Opaque. */
+/** A file that is being written. Opaque. */
 typedef struct mw_point_series mw_point_series;
 
 /**
  * Begin a file.
  *
- * @param path    the file, no pipe; it appears when it is complete
- * @param layout  what it holds. Characters of names that CF does not allow become "_"
+ * @param path    the file, not a pipe; it appears under its name only when it is complete
+ * @param layout  what the file holds. Characters that CF does not allow in names become "_"
  * @param out     receives the output, owned by the caller (mw_point_series_close()); NULL on
  *                failure
  * @param error   NULL, or receives the message of a failure
@@ -68,7 +69,7 @@ MW_API mw_status mw_point_series_open(const char *path, const mw_point_series_la
 MW_API void mw_point_series_write(mw_point_series *output, size_t field, size_t step,
                                   const double *values);
 
-/** 1 if a write has failed: a long job can stop. */
+/** 1 if a write has failed, so that a long job can stop early; else 0. */
 MW_API int mw_point_series_failed(const mw_point_series *output);
 
 /**

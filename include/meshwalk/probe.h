@@ -108,12 +108,13 @@ typedef struct mw_touch {
     uint8_t state; /**< mw_touch_state */
     uint8_t where; /**< mw_where: MW_INSIDE, MW_ON_EDGE or MW_ON_VERTEX; MW_BAD without a touch */
     uint8_t local; /**< the edge or vertex of the triangle; 255 otherwise */
-    uint8_t reserved;
+    uint8_t back;  /**< 1: the motion points at the triangle's back */
 } mw_touch;
 
 /** How the first triangle of a walk is chosen. */
 typedef enum mw_probe_start {
-    /** LAST if that triangle is probably nearer to q than the best of a sample; else SAMPLE. */
+    /** LAST if that triangle is probably nearer to q than the best triangle of a sample; else
+     * SAMPLE. */
     MW_PROBE_START_AUTO = 0,
     /** The triangle that this cursor touched last, if m points at its front. Otherwise, and in
      * further iterations, SAMPLE. */
@@ -126,6 +127,30 @@ typedef enum mw_probe_start {
 
 /** "auto", "last", "sample" or "random"; NULL for any other number. */
 MW_API const char *mw_probe_start_name(mw_probe_start start);
+
+/** Which faces of triangles count. */
+typedef enum mw_probe_faces {
+    MW_PROBE_FRONT = 0, /**< triangles at whose front the motion points */
+    MW_PROBE_BACK,      /**< at whose back */
+    MW_PROBE_BOTH,      /**< either */
+    MW_PROBE_FACES_COUNT
+} mw_probe_faces;
+
+/** "front", "back" or "both"; NULL for any other number. */
+MW_API const char *mw_probe_faces_name(mw_probe_faces faces);
+
+/** Which part of the line through q along m counts. */
+typedef enum mw_probe_extent {
+    MW_PROBE_LINE = 0, /**< all of it: ahead of q and behind q */
+    MW_PROBE_RAY,      /**< q, and what is ahead of it */
+    /** From q to m, both included: m is the other end, not a vector. The line through two points is
+     * exact, too. A difference of coordinates must not overflow. */
+    MW_PROBE_SEGMENT,
+    MW_PROBE_EXTENT_COUNT
+} mw_probe_extent;
+
+/** "line", "ray" or "segment"; NULL for any other number. */
+MW_API const char *mw_probe_extent_name(mw_probe_extent extent);
 
 /** How to answer probes. Zero-initialised options select the defaults. */
 typedef struct mw_probe_options {
@@ -144,7 +169,12 @@ typedef struct mw_probe_options {
     uint64_t seed;               /**< seed of random choices */
     int counters;                /**< 1: count what probes do */
     const mw_progress *progress; /**< progress and cancelling, see base.h; NULL: none */
-    uint32_t reserved[5];        /**< must be zero */
+    /** What is nearer to q than this does not count; mesh units. Certain probes only, as the two
+     * that follow. */
+    double min_distance;
+    mw_probe_faces faces;
+    mw_probe_extent extent;
+    uint32_t reserved[2]; /**< must be zero */
 } mw_probe_options;
 
 /** What probes did, summed over queries. A race counts all its walks; that depends on the run. */
@@ -203,6 +233,47 @@ MW_API mw_status mw_probe_cursor_init(const mw_prober *prober, const mw_probe_op
  */
 MW_API mw_touch mw_probe(const mw_prober *prober, mw_probe_cursor *cursor, const double point[3],
                          const double motion[3]);
+
+/**
+ * Does a probe touch anything? Faster than mw_probe(), since the first touch found is enough.
+ *
+ * Always complete, as certain probes. With MW_PROBE_SEGMENT: is the straight way from q to m
+ * blocked?
+ *
+ * @param prober  a prober with boxes
+ * @param cursor  a cursor of this prober, whose options tell what counts
+ * @param point   q: x, y, z
+ * @param motion  m: x, y, z; the other end of a segment
+ * @return MW_TOUCH_HIT, MW_TOUCH_NONE, or MW_TOUCH_BAD: not finite, no direction, no boxes, or
+ *         outdated boxes.
+ *
+ * Thread-safe with one cursor per thread. No allocation. O(log n) typically.
+ */
+MW_API mw_touch_state mw_probe_any(const mw_prober *prober, mw_probe_cursor *cursor,
+                                   const double point[3], const double motion[3]);
+
+/**
+ * All triangles that a probe touches, in their order along m. Exact and complete.
+ *
+ * The order is that of the signed distance; triangles touched at the same place are ordered by
+ * their numbers. A line through an edge or a vertex touches all triangles there.
+ *
+ * @param prober    a prober with boxes
+ * @param cursor    a cursor of this prober, whose options tell what counts
+ * @param point     q: x, y, z
+ * @param motion    m: x, y, z; the other end of a segment
+ * @param touches   receives the first `capacity` touches; may be NULL if that is 0
+ * @param capacity  room in `touches`
+ * @param state     NULL, or receives MW_TOUCH_HIT, MW_TOUCH_NONE or MW_TOUCH_BAD, as
+ *                  mw_probe_any()
+ * @return how many triangles are touched, also if `capacity` is less; 0 for MW_TOUCH_BAD.
+ *
+ * Thread-safe with one cursor per thread. No allocation. O(k log k) for k touches, besides the
+ * search.
+ */
+MW_API size_t mw_probe_all(const mw_prober *prober, mw_probe_cursor *cursor, const double point[3],
+                           const double motion[3], mw_touch *touches, size_t capacity,
+                           mw_touch_state *state);
 
 /**
  * Answer n probes.
@@ -291,6 +362,43 @@ typedef struct mw_nearest_surface_point {
 MW_API mw_status mw_nearest_on_surface(const mw_prober *prober, const double point[3],
                                        double max_distance, mw_nearest_surface_point *nearest,
                                        mw_error *error);
+
+/** Where a point is with respect to a closed surface. */
+typedef enum mw_surface_side {
+    MW_SURFACE_OUTSIDE = 0,
+    MW_SURFACE_INSIDE,
+    MW_SURFACE_ON,  /**< on a triangle, an edge or a vertex, exactly */
+    MW_SURFACE_BAD, /**< not finite */
+    MW_SURFACE_SIDE_COUNT
+} mw_surface_side;
+
+/** "outside", "inside", "on" or "bad"; NULL for any other number. */
+MW_API const char *mw_surface_side_name(mw_surface_side side);
+
+/**
+ * Which points are inside of a closed surface? Exact.
+ *
+ * A point is inside if a ray from it meets an odd number of triangles. The surface may have several
+ * components, one in another, may touch or cross itself, and its triangles may have any
+ * orientation. A ray through an edge or a vertex counts as moved aside by an infinitely small
+ * distance, always in the same direction. Triangles without area do not count.
+ *
+ * @param prober   a prober with boxes, of a surface whose edges all have a neighbour
+ * @param points   x, y, z of point i at points[i * stride]
+ * @param n        number of points
+ * @param stride   doubles from one point to the next; 0 means 3
+ * @param threads  number of threads; 0: one per processor
+ * @param sides    receives n answers, of mw_surface_side
+ * @param error    NULL, or receives the message of a failure
+ * @return MW_OK; MW_ERROR_ARGUMENT for NULL, a stride of 1 or 2, a prober without boxes, or boxes
+ *         that are not up to date; MW_ERROR_INPUT if the surface is not closed, a vertex is not
+ *         finite, or vertices that were welded may have moved apart.
+ *
+ * Thread-safe. O(log n) a point typically.
+ */
+MW_API mw_status mw_inside_surface(const mw_prober *prober, const double *points, size_t n,
+                                   size_t stride, uint32_t threads, uint8_t *sides,
+                                   mw_error *error);
 
 #ifdef __cplusplus
 }

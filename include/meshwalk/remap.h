@@ -1,24 +1,25 @@
 /**
  * @file remap.h
- * Conservative remapping: weights that bring values of the cells of a mesh to the cells of another
- * mesh or of a raster, so that sums of value times area stay what they are.
+ * Conservative remapping: weights that carry cell values of a mesh to the cells of another mesh or
+ * of a raster. The sum of value times area stays the same.
  *
- * The value of a target cell is the mean over its area of the values of the source cells that it
- * overlaps: the weight of a source cell is the area that both have in common, over that of the
- * target cell. Which cells overlap and how their edges cross is decided exactly; areas are rounded,
- * each by about 2^-45 of the smaller cell at most, and nearly always by a few 2^-53. So, for each
- * source cell that the target covers, the sum of its weights times the areas of their rows is its
- * area, to rounding.
+ * The value of a target cell is the mean, over its area, of the source cells that it overlaps. So
+ * the weight of a source cell is the area of the overlap divided by the area of the target cell.
+ * Overlaps and the crossings of edges are decided exactly. Areas are rounded: each is off by at
+ * most about 2^-45 of the smaller cell, nearly always by a few 2^-53. So for a source cell that the
+ * target covers, its weights times the areas of their rows add up to its area, up to rounding.
  *
  * The cells of a mesh are its triangles or its faces, several triangles each. Values may also
- * belong to the vertices of the source and be linear between: then a weight is the integral of that
- * vertex's hat function over the target cell, over the area of that cell.
+ * belong to the vertices of the source and be linear between them. Then a weight is the integral of
+ * the vertex's hat function over the target cell, divided by the area of that cell.
  *
- * Areas are those of the plane, in units of the coordinates. If coordinates are longitudes and
- * latitudes in degrees (`degrees`), they are those of the unit sphere, in steradians as in ESMF's
- * files, with edges that are straight in longitude and latitude. The hat functions of vertices are
- * then weighed by the area of each common part as a whole: sums are conserved, but integrals of
- * hat functions are off by the change of the cosine of the latitude within a triangle.
+ * Areas are those of the plane, in units of the coordinates. With `degrees` the coordinates are
+ * longitudes and latitudes, and areas are those of the unit sphere, in steradians as in ESMF's
+ * files; edges are straight in longitude and latitude. Longitudes that differ by whole turns are
+ * the same: a mesh from 170 to 190 degrees meets a raster from -180 to 180 at both of its ends. The
+ * hat functions of vertices are then
+ * weighted by the area of each common part as a whole. Sums are conserved, but the integral of a
+ * hat function ignores how the cosine of the latitude varies within a triangle.
  */
 #ifndef MESHWALK_REMAP_H
 #define MESHWALK_REMAP_H
@@ -37,8 +38,8 @@ typedef struct mw_remap_mesh {
     size_t face_count;         /**< number of cells, with `face` */
 } mw_remap_mesh;
 
-/** The pixels of a raster whose rows run east and whose columns run south. Pixel c of row r, both
- * from 0, is cell r * columns + c. */
+/** The pixels of a raster. Rows run east, columns run south. Pixel c of row r, both from 0, is cell
+ * r * columns + c. */
 typedef struct mw_remap_pixels {
     double west, north;   /**< outer corner of the first pixel */
     double width, height; /**< of a pixel, positive */
@@ -51,9 +52,9 @@ typedef struct mw_remap_options {
     const mw_progress *progress; /**< progress and cancelling, see base.h; NULL: none */
     int vertices;                /**< 1: values belong to the vertices of the source */
     int degrees;                 /**< 1: coordinates are longitudes and latitudes */
-    /** 1: a target cell gets the mean over its covered part, so weights of a row sum up to 1
-     * ("fracarea"); 0: over the whole cell, so they sum up to the covered fraction ("dstarea"), and
-     * sums are conserved. */
+    /** 1: a target cell gets the mean over its covered part, and the weights of a row add up to 1
+     * ("fracarea"). 0: the mean over the whole cell; the weights add up to the covered fraction
+     * ("dstarea"), and sums are conserved. */
     int covered;
     uint32_t reserved[4]; /**< must be zero */
 } mw_remap_options;
@@ -62,45 +63,48 @@ typedef struct mw_remap_options {
 typedef struct mw_remap {
     mw_operator *weights;    /**< a row for each target cell, a column for each source value */
     double *source_area;     /**< of each column; of a vertex: the integral of its hat function */
-    double *source_fraction; /**< the part of it that the target covers, 0 to 1 */
+    double *source_fraction; /**< the fraction of it that the target covers, 0 to 1 */
     double *target_area;     /**< of each row */
-    double *target_fraction; /**< the part of it that the source covers, 0 to 1 */
+    double *target_fraction; /**< the fraction of it that the source covers, 0 to 1 */
     double source_sum;       /**< the area of the source */
     double common_sum;       /**< the area that both cover */
 } mw_remap;
 
 /**
- * Conservative weights from a mesh to another one.
+ * Compute conservative weights from one mesh to another.
  *
  * @param source   the mesh with the values
- * @param target   the mesh with the cells that get values; may be the same
+ * @param target   the mesh whose cells receive values; may be the same
  * @param options  NULL selects the defaults
  * @param remap    receives weights and areas; empty on failure
  * @param error    NULL, or receives the message of a failure
  * @return MW_OK, also if nothing overlaps; MW_ERROR_ARGUMENT for NULL, a locator whose pockets and
  *         holes are open or whose mesh is not an embedding, or a cell number out of range;
- *         MW_ERROR_INPUT for latitudes beyond 90 degrees; MW_ERROR_LIMIT for coordinates of 2^300
+ *         MW_ERROR_INPUT for latitudes beyond 90 degrees, longitudes beyond 720 or that go round
+ *         the sphere more than once, and a triangle whose longitudes differ by more than 180
+ *         degrees, as one across the meridian of 180 may; MW_ERROR_LIMIT for coordinates of 2^300
  *         and more; MW_ERROR_MEMORY, MW_CANCELLED.
  *
- * Thread-safe. The same bits for any number of threads. Time in proportion to the triangles and
- * their common parts; 16 bytes a common part, twice while the operator is made.
+ * Thread-safe. The result is the same, bit for bit, for any number of threads. Time is proportional
+ * to the number of triangles and of their common parts. Memory: 16 bytes a common part, and twice
+ * that while the operator is made.
  */
 MW_API mw_status mw_remap_to_mesh(const mw_remap_mesh *source, const mw_remap_mesh *target,
                                   const mw_remap_options *options, mw_remap *remap,
                                   mw_error *error);
 
 /**
- * Conservative weights from a mesh to the pixels of a raster.
+ * Compute conservative weights from a mesh to the pixels of a raster.
  *
  * @param source   the mesh with the values
  * @param target   the pixels
  * @param options  NULL selects the defaults
  * @param remap    receives weights and areas; empty on failure
  * @param error    NULL, or receives the message of a failure
- * @return as mw_remap_to_mesh(); MW_ERROR_ARGUMENT also for pixels without a size, and
- *         MW_ERROR_LIMIT for 2^32 - 1 pixels or pixels too small for their coordinates.
+ * @return as mw_remap_to_mesh(); MW_ERROR_ARGUMENT also for pixels without a size; MW_ERROR_LIMIT
+ *         for 2^32 - 1 or more pixels, or pixels too small for their coordinates.
  *
- * Thread-safe. As mw_remap_to_mesh().
+ * Thread safety and cost as mw_remap_to_mesh().
  */
 MW_API mw_status mw_remap_to_pixels(const mw_remap_mesh *source, const mw_remap_pixels *target,
                                     const mw_remap_options *options, mw_remap *remap,

@@ -5,10 +5,10 @@
  * A walk along a segment from a to b lists its pieces in order. A point of the segment has the
  * parameter t: it is a + t (b - a), so that a has 0 and b has 1. The rules:
  *
- * - A piece is a longest part of the segment, of positive length, whose points belong to one
- *   triangle by the rule of ties: the triangle is the answer of mw_locate() to every point of the
- *   piece but finitely many. So a part along an edge belongs to the lower-numbered of the two
- *   triangles at that edge, and every part belongs to one piece only.
+ * - A piece is a maximal part of the segment, of positive length, that belongs to one triangle:
+ *   mw_locate() returns this triangle for all points of the piece except finitely many. So a part
+ *   along an edge belongs to the lower-numbered of the two triangles at that edge, and every part
+ *   belongs to one piece only.
  * - Parts in holes, in pockets and outside the mesh belong to no piece. A segment may leave the
  *   mesh and enter it again as often as it likes, also in another connected component.
  * - A triangle that the segment touches in one point only has no piece.
@@ -34,8 +34,8 @@ extern "C" {
 /** Where in its triangle a piece begins or ends; edges and vertices as the caller numbers them. */
 enum {
     MW_AT_EDGE = 0,   /**< 0, 1, 2: on that local edge, not at a vertex */
-    MW_AT_VERTEX = 3, /**< 3, 4, 5: at local vertex 0, 1, 2             */
-    MW_AT_INSIDE = 6  /**< inside: the segment begins or ends there     */
+    MW_AT_VERTEX = 3, /**< 3, 4, 5: at local vertex 0, 1, 2 */
+    MW_AT_INSIDE = 6  /**< inside: the segment begins or ends there */
 };
 
 /** A part of a segment, in one triangle. */
@@ -51,7 +51,7 @@ typedef struct mw_segment_piece {
 /**
  * A walk along a segment: a plain value that may be copied. All members are private.
  *
- * It serves as long as its locator and, for an editor's locator, until the next edit.
+ * It is valid as long as its locator exists; for an editor's locator, until the next edit.
  */
 typedef struct mw_segment {
     const mw_locator *locator;
@@ -79,16 +79,16 @@ typedef struct mw_segment {
  *         mesh is not an embedding; MW_ERROR_INPUT if a coordinate is not finite.
  *
  * Thread-safe with one cursor per thread. No allocation. Time: that of a query; if a is outside the
- * convex hull, also in proportion to the edges of the hull that are passed along it.
+ * convex hull, also proportional to the hull edges that the search passes.
  */
 MW_API mw_status mw_segment_begin(const mw_locator *locator, mw_cursor *cursor, const double a[2],
                                   const double b[2], mw_segment *segment, mw_error *error);
 
 /**
- * Begin a walk along the segment from the end of the last one to another point: the next part of a
- * polyline. It starts in the triangle where the last one ended.
+ * Begin the next part of a polyline: a walk from the end of the last segment to another point. It
+ * starts in the triangle where the last walk ended.
  *
- * @param segment  a walk, best at its end; receives the new walk
+ * @param segment  a walk, preferably at its end; receives the new walk
  * @param b        x, y of the new end
  * @param error    NULL, or receives the message of a failure
  * @return MW_OK; MW_ERROR_ARGUMENT for NULL; MW_ERROR_INPUT if a coordinate is not finite: then the
@@ -106,7 +106,7 @@ MW_API mw_status mw_segment_continue(mw_segment *segment, const double b[2], mw_
  * @return 1, or 0 at the end.
  *
  * No allocation. O(1) for each triangle, ghost triangles of pockets and holes included; at a vertex
- * on the segment, in proportion to the triangles round it.
+ * on the segment, proportional to its degree.
  */
 MW_API int mw_segment_next(mw_segment *segment, mw_segment_piece *piece);
 
@@ -152,9 +152,9 @@ MW_API void mw_segment_pieces_release(mw_segment_pieces *pieces);
 /**
  * Where a piece begins or ends: the point, and its weights for interpolation.
  *
- * If a field is interpolated by these weights, two pieces that meet have the same value there to
- * the last bit, as both take only the vertices of the edge or vertex between them. (Not where flat
- * triangles join a vertex to the inside of an edge: there a field jumps.)
+ * A field interpolated by these weights has the same value, bit for bit, on both pieces that meet
+ * at a point, because both use only the vertices of the edge or vertex between them. Exception: a
+ * flat triangle that joins a vertex to the inside of an edge, where the field jumps.
  *
  * @param mesh    the mesh of the locator
  * @param a       beginning of the segment, as it was given

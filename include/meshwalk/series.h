@@ -1,14 +1,15 @@
 /**
  * @file series.h
- * Values over time that files hold beside a mesh: water levels, velocities, temperatures.
+ * Values over time in files: water levels, velocities, temperatures at the vertices or faces of a
+ * mesh.
  *
  *     mw_series_open("fort.63.nc", NULL, &series, &error);
  *     const mw_series_info *info = mw_series_describe(series);
  *     for (size_t step = 0; step < info->step_count; step++)
  *         mw_series_read(series, field, step, values, &error);
  *
- * One step of one field is read at a time; a series itself holds its times and the names of its
- * fields only. Vertices and faces have the numbers that mw_read_mesh() gives them.
+ * A call reads one step of one field. The series itself holds only its times and the names of its
+ * fields. Vertices and faces have the numbers that mw_read_mesh() gives them.
  */
 #ifndef MESHWALK_SERIES_H
 #define MESHWALK_SERIES_H
@@ -35,7 +36,7 @@ typedef struct mw_series_field {
     const char *name;
     const char *unit; /**< "" = the file does not tell */
     mw_series_location location;
-    int constant;       /**< 1 = the field does not depend on time: all steps are equal */
+    int constant;       /**< 1 = the field does not depend on time; all steps are equal */
     size_t value_count; /**< vertices or faces */
     uint32_t reserved[4];
 } mw_series_field;
@@ -44,23 +45,23 @@ typedef struct mw_series_field {
 typedef struct mw_series_info {
     size_t step_count;   /**< 0 = constant fields only */
     const double *times; /**< of the steps, increasing */
-    /** Of the times, as CF has them: "seconds since 2015-12-14 00:00:00"; "" = not known. */
+    /** Unit of the times, as in CF: "seconds since 2015-12-14 00:00:00"; "" = unknown. */
     const char *time_unit;
-    /** Calendar of CF: "standard", "noleap", "360_day" ...; "" = the file does not tell, which
-     * means "standard". */
+    /** Calendar of CF: "standard", "noleap", "360_day" ...; "" = the file names none, which means
+     * "standard". */
     const char *calendar;
     const mw_series_field *fields;
     size_t field_count;
     uint32_t reserved[6];
 } mw_series_info;
 
-/** How a series is opened. All zero = the defaults. */
+/** Options of mw_series_open(). Zero-initialised options select the defaults. */
 typedef struct mw_series_options {
-    /** Numbers of vertices and faces of the mesh that the values belong to; 0 = those of the mesh
-     * in the file. They are needed where the mesh is in another file. */
+    /** How many vertices and faces the mesh of the values has; 0 = as the mesh in the file. Needed
+     * if the mesh is in another file. */
     size_t vertex_count, face_count;
     const char *layout; /**< as mw_file_options.layout; NULL = recognised */
-    /** Further files with the same fields, whose times follow; NULL = none. */
+    /** Further files with the same fields and later times; NULL = none. */
     const char *const *more_paths;
     size_t more_count;
     uint32_t reserved[6]; /**< must be zero */
@@ -69,32 +70,32 @@ typedef struct mw_series_options {
 /**
  * Open the values over time in a file.
  *
- * netCDF: every variable of numbers over the vertices or the faces of the mesh (layouts: see
- * mw_read_mesh()), with or without a time, and with at most one dimension more, is a field, or one
- * for each index of that dimension. Values are unpacked (scale_factor, add_offset).
+ * netCDF: a variable of numbers over the vertices or faces of the mesh is a field (layouts: see
+ * mw_read_mesh()). It may have a time and one further dimension; with that dimension it is one
+ * field for each index. Values are unpacked (scale_factor, add_offset).
+ *
  * Selafin: every variable. ADCIRC's text: fort.63 has the field "zeta", fort.64 "u-vel" and
  * "v-vel", fort.73 "pressure", fort.74 "windx" and "windy", maxele.63 "zeta_max", maxvel.63
- * "vel_max"; the mesh is in fort.14. SMS .dat, text and binary: one dataset, of the vertices of a
- * .2dm, or of its faces if the name of the file holds "_els"; a vector is "NAME_x" and "NAME_y".
- * These kinds are read once for their times, and again from
- * their beginning where a step is asked for that comes before the last one; one step of all fields
- * is kept.
+ * "vel_max"; the mesh is in fort.14. SMS .dat, text and binary: one dataset over the vertices of a
+ * .2dm, or over its faces if the name of the file contains "_els"; a vector becomes "NAME_x" and
+ * "NAME_y". Files of these kinds are read once for their times. Reading a step before the latest
+ * one starts again at the beginning of the file. One step of all fields is kept in memory.
  *
- * @param path     the file; it may be packed by gzip, which is then unpacked in memory
+ * @param path     the file; a file compressed by gzip is decompressed in memory
  * @param options  NULL = all zero
  * @param out      set to the series, owned by the caller (mw_series_close()), or to NULL on failure
  * @param error    NULL, or receives the message of a failure
- * @return MW_OK; MW_ERROR_INPUT: no such values, numbers of vertices or faces that differ from
- *         those of the mesh, times that do not increase, a calendar that CF does not know, files
- *         that do not fit together; MW_ERROR_SYSTEM, also where libnetcdf is not found;
- *         MW_ERROR_ARGUMENT, MW_ERROR_MEMORY
+ * @return MW_OK; MW_ERROR_INPUT: no values over time, another number of vertices or faces than the
+ *         mesh has, times that do not increase, a calendar unknown to CF, files that do not fit
+ *         together; MW_ERROR_SYSTEM, also if libnetcdf is not found; MW_ERROR_ARGUMENT,
+ *         MW_ERROR_MEMORY
  *
- * Thread-safe. Reads no values but the times.
+ * Thread-safe. Reads the times, but no values.
  */
 MW_API mw_status mw_series_open(const char *path, const mw_series_options *options, mw_series **out,
                                 mw_error *error);
 
-/** Tell what a series holds.
+/** Describe what a series holds.
  * @return owned by the series, never NULL. Thread-safe. */
 MW_API const mw_series_info *mw_series_describe(const mw_series *series);
 
@@ -113,8 +114,8 @@ MW_API size_t mw_series_find(const mw_series *series, const char *name);
  * @return MW_OK; MW_ERROR_ARGUMENT: no such field or step; MW_ERROR_INPUT, MW_ERROR_SYSTEM,
  *         MW_ERROR_MEMORY
  *
- * One thread at a time may read from one series. O(value_count) time, no memory but `values` and
- * what reading takes.
+ * One thread at a time may read from one series. O(value_count) time. Allocates buffers for reading
+ * only.
  */
 MW_API mw_status mw_series_read(mw_series *series, size_t field, size_t step, double *values,
                                 mw_error *error);

@@ -2,20 +2,20 @@
  * @file sight.h
  * Lines of sight over a terrain: what is seen from a point.
  *
- * The terrain is a planar mesh with a height at each vertex, linear in each triangle. A target is
- * visible from a viewpoint if the straight line between them is nowhere below the terrain. The
- * rules:
+ * The terrain is a planar mesh with a height at each vertex; heights are linear in each triangle. A
+ * target is visible from a viewpoint if no point of the straight line between them lies below the
+ * terrain. The rules:
  *
- * - A line that touches the terrain, or runs on it, is not interrupted. So on a plane every point
+ * - A line that touches the terrain or runs along it is not interrupted. So on a plane every point
  *   of the ground sees every other.
- * - Where the mesh has no triangle (beyond its border, in holes), or a corner of the triangle has
- *   no height (NaN), there is no terrain, and nothing is hidden. A triangle that the line meets in
- *   one point only hides nothing, either.
- * - An end below the terrain sees nothing and is not seen.
+ * - There is no terrain beyond the border of the mesh, in its holes, and in triangles with a corner
+ *   of unknown height (NaN). Nothing is hidden there. A triangle that the line meets in a single
+ *   point hides nothing either.
+ * - From an end below the terrain nothing is visible, and such an end is not visible itself.
  *
- * All of this is decided exactly, for the heights as they are given: the height of an end above the
- * ground is not rounded, although the height of the ground there is no double. The earth is taken
- * as a plane: there is neither curvature nor refraction.
+ * All of this is decided exactly for the given doubles. The height of an end above the ground is
+ * not rounded, even where the height of the ground is not a double. The earth is a plane: curvature
+ * and refraction are ignored.
  */
 #ifndef MESHWALK_SIGHT_H
 #define MESHWALK_SIGHT_H
@@ -29,16 +29,17 @@ extern "C" {
 /** An end of a line of sight. */
 typedef struct mw_sight_end {
     double x, y;
-    double height; /**< above the ground, or, if `absolute`, in the heights of the mesh */
-    int absolute;  /**< 1: `height` does not count from the ground */
+    double height; /**< above the ground; if `absolute`: on the scale of the mesh's heights */
+    int absolute;  /**< 1: `height` is not measured from the ground */
     uint32_t reserved;
 } mw_sight_end;
 
-/** What is known of a line of sight. */
+/** Whether a target is visible. */
 typedef enum mw_sight_state {
-    MW_SIGHT_VISIBLE = 0, /**< no terrain above the line */
-    MW_SIGHT_HIDDEN,      /**< there is some */
-    MW_SIGHT_UNKNOWN      /**< the target is above ground that has no height, or not finite */
+    MW_SIGHT_VISIBLE = 0, /**< no terrain is above the line */
+    MW_SIGHT_HIDDEN,      /**< terrain is above the line */
+    /** the ground at the target has no height, or the target is not finite */
+    MW_SIGHT_UNKNOWN
 } mw_sight_state;
 
 /** A line of sight. */
@@ -53,7 +54,7 @@ typedef struct mw_sight {
 /**
  * A viewpoint: a plain value that may be copied. All members are private.
  *
- * It serves as long as its locator and the heights.
+ * It is valid as long as its locator and the heights exist.
  */
 typedef struct mw_viewpoint {
     const mw_locator *locator;
@@ -76,7 +77,7 @@ typedef struct mw_viewpoint {
  * @param view     receives the prepared viewpoint
  * @param error    NULL, or receives the message of a failure
  * @return MW_OK; MW_ERROR_ARGUMENT for NULL, and as mw_segment_begin(); MW_ERROR_INPUT if a number
- *         is not finite, if there is no ground to be above of, or if it lies below the ground.
+ *         is not finite, if there is no ground below the viewpoint, or if it lies below the ground.
  *
  * Thread-safe. No allocation. Time: that of a query.
  */
@@ -90,8 +91,8 @@ MW_API mw_status mw_viewpoint_init(const mw_locator *locator, const double *heig
  * @param to    the target
  * @return the line of sight.
  *
- * Thread-safe with a copy of the viewpoint for each thread. No allocation. Time: that of a query
- * and O(1) for each triangle that the line passes up to where it is interrupted.
+ * Thread-safe with a copy of the viewpoint for each thread. No allocation. Time: that of a query,
+ * and O(1) for each triangle that the line passes before it is interrupted.
  */
 MW_API mw_sight mw_sight_to(mw_viewpoint *view, const mw_sight_end *to);
 

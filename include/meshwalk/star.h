@@ -170,7 +170,7 @@ MW_API void mw_direction_to_lonlat(const double direction[3], double *longitude,
 /* --- queries ---------------------------------------------------------------------------------- */
 
 /**
- * What some starts build beside a star. Opaque; any number of threads may use one index.
+ * The index of a start. Opaque; any number of threads may use one index.
  *
  * An index is only a guide to the first facet. It may serve any star, also after an update; answers
  * stay exact.
@@ -264,9 +264,10 @@ typedef struct mw_star_cursor {
 /**
  * Initialise a cursor.
  *
- * MW_STAR_START_AUTO begins at the facet of the query before if the ray is near it, else where a
- * curve over the sphere leads: near the answer, in any order of the queries. Where that walk meets
- * a vertex of 64 facets or more, it jumps to the facet there that faces the ray.
+ * MW_STAR_START_AUTO begins at the facet of the previous query if the ray is near it. Otherwise an
+ * index along a curve over the sphere gives a facet near the answer, whatever the order of the
+ * queries. If this walk meets a vertex of 64 facets or more, it jumps to the facet there that faces
+ * the ray.
  *
  * MW_STAR_START_SORTED acts as MW_STAR_START_LAST in single queries. In a batch of more queries
  * than facets each query starts at the facet of the previous one; in a smaller batch it starts

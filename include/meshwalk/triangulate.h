@@ -97,7 +97,7 @@ typedef struct mw_kind_report {
 /** Options of mw_triangulate(). Zero-initialised options select the defaults. */
 typedef struct mw_kind_options {
     /** How far to search for the optimum. 0: for about half a minute, with memory proportional to
-     * the points. Else, however long it takes and however much memory: MW_KIND_MIN_WEIGHT fills
+     * the points. Any other number, without a limit on time and memory: MW_KIND_MIN_WEIGHT fills
      * faces of up to `limit` corners optimally; MW_KIND_MIN_MAX_ANGLE seeks the optimum for up to
      * `limit` points. */
     uint32_t limit;
@@ -115,8 +115,9 @@ typedef struct mw_kind_options {
  * Triangulate points by any kind of rule.
  *
  * MW_KIND_GREEDY takes edges by increasing length (compared exactly; equal ones by the lower, then
- * the higher end) unless they cross an earlier edge. For scattered points about as fast as sorting;
- * quadratic in the degree at a vertex that sees thousands. 200 bytes per point.
+ * the higher end) unless they cross an earlier edge. For scattered points it is about as fast as
+ * sorting. A vertex from which thousands of others are visible takes time quadratic in its degree.
+ * 200 bytes per point.
  *
  * MW_KIND_MIN_WEIGHT minimises the sum of edge lengths. Sums are compared in doubles, so of
  * triangulations that differ in the last digits any may result. Faces that are too large for
@@ -129,11 +130,11 @@ typedef struct mw_kind_options {
  * `optimal`, its largest angle is the least possible. About 10 us per scattered point; the
  * exchanges that lead to the local optimum have no bound on time.
  *
- * MW_KIND_REGULAR takes weighted points: circles round the points, with the weight as the square
- * of the radius. Point x of weight w is lifted to the height |x|^2 - w; the triangles are the
- * lower hull of the lifted points. Exact. A point above that hull is hidden: a vertex of no
- * triangle. Of points with equal coordinates only the heaviest, and of these the lowest, can be a
- * corner. A point on the hull that is no corner is hidden or not by the order of insertion. Equal
+ * MW_KIND_REGULAR takes weighted points: circles round the points, with the weight as the square of
+ * the radius. Point x of weight w is lifted to the height |x|^2 - w; the triangles are the lower
+ * hull of the lifted points. Exact. A point above that hull is hidden: a vertex of no triangle. Of
+ * points with equal coordinates only the heaviest, and of these the lowest, can be a corner. For a
+ * point on the hull that is no corner, the order of insertion decides whether it is hidden. Equal
  * weights give a Delaunay triangulation. About 2 us and 250 bytes per point.
  *
  * docs/proofs/optimal-triangulations.md says what is optimal and what makes it slow.

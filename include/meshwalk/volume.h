@@ -1,13 +1,13 @@
 /**
  * @file volume.h
- * The volume between a surface over the plane and another one, or a plane: cut and fill.
+ * Cut and fill: the volume between a surface over the plane and another one, or a plane.
  *
- * A surface is a mesh with a height at each vertex, linear on each triangle. Its triangles are
- * clipped by those of the other mesh that they overlap. Which these are, and how their edges cross,
- * is decided exactly; areas and volumes are sums of doubles: each common part is off by about 2^-45
- * of the smaller of its two triangles at most, nearly always by a few 2^-53.
+ * A surface is a mesh with a height at each vertex, linear on each triangle. Each triangle is
+ * clipped by the triangles of the other mesh that it overlaps. Overlaps and the crossings of edges
+ * are decided exactly. Areas and volumes are sums of doubles: each common part is off by at most
+ * about 2^-45 of the smaller of its two triangles, nearly always by a few 2^-53.
  *
- * Where only one of the two has a height, there is no volume: such areas are told.
+ * Where only one of the two has a height there is no volume; the area of these places is reported.
  */
 #ifndef MESHWALK_VOLUME_H
 #define MESHWALK_VOLUME_H
@@ -27,8 +27,8 @@ typedef struct mw_volume_options {
 
 /** Volumes and areas, in units of the coordinates and heights. Areas are those of the plane. */
 typedef struct mw_volume_info {
-    double cut;          /**< volume where the surface is above the other: what is to be cut off */
-    double fill;         /**< volume where it is below, not negative: what is to be filled */
+    double cut;          /**< volume where the surface is above the other: to be cut off */
+    double fill;         /**< volume where it is below, as a positive number: to be filled */
     double cut_area;     /**< area where the surface is above */
     double fill_area;    /**< area where it is below */
     double level_area;   /**< area of common parts of triangles where both are equal throughout */
@@ -53,9 +53,9 @@ typedef struct mw_volume_info {
  *         whose pockets and holes are open or whose mesh is not an embedding; MW_ERROR_LIMIT for
  *         coordinates of 2^300 and more; MW_ERROR_MEMORY, MW_CANCELLED.
  *
- * Thread-safe. The same bits for any number of threads. Time in proportion to the triangles and
- * their common parts, where neighbours in memory are near each other. 4 bytes a triangle of the
- * other mesh for each thread.
+ * Thread-safe. The result is the same, bit for bit, for any number of threads. Time is proportional
+ * to the number of triangles and of their common parts if neighbours are near each other in memory.
+ * Each thread takes 4 bytes for each triangle of the other mesh.
  */
 MW_API mw_status mw_volume_between(const mw_locator *surface, const double *heights,
                                    const mw_locator *other, const double *other_heights,
@@ -63,7 +63,7 @@ MW_API mw_status mw_volume_between(const mw_locator *surface, const double *heig
                                    mw_error *error);
 
 /**
- * The volume between a surface and a horizontal plane.
+ * Compute the volume between a surface and a horizontal plane.
  *
  * @param surface  a locator of an embedding, as for mw_volume_between()
  * @param heights  the height of each vertex of its mesh; a triangle with one that is not finite is
@@ -75,22 +75,22 @@ MW_API mw_status mw_volume_between(const mw_locator *surface, const double *heig
  * @return MW_OK; MW_ERROR_ARGUMENT for NULL, a base that is not finite, and locators as for
  *         mw_volume_between(); MW_ERROR_LIMIT, MW_ERROR_MEMORY, MW_CANCELLED.
  *
- * Thread-safe. The same bits for any number of threads. O(triangles).
+ * Thread-safe. The result is the same, bit for bit, for any number of threads. O(triangles).
  */
 MW_API mw_status mw_volume_above(const mw_locator *surface, const double *heights, double base,
                                  const mw_volume_options *options, mw_volume_info *info,
                                  mw_error *error);
 
-/** Areas of a part of a surface, in units of the coordinates and heights. */
+/** Areas of the part of a surface over a region, in units of the coordinates and heights. */
 typedef struct mw_surface_area_info {
-    double area;         /**< area of the plane that region and surface have in common */
+    double area;         /**< area of the plane that both the region and the surface cover */
     double surface_area; /**< area of the surface over it, slopes included */
     double region_area;  /**< area of the region */
     uint64_t parts;      /**< common parts of triangles that were added */
 } mw_surface_area_info;
 
 /**
- * The area of a surface over a region of the plane, as that of a parcel on a slope.
+ * Compute the area of a surface over a region of the plane, such as a parcel on a slope.
  *
  * @param surface  a locator of an embedding, as for mw_volume_between()
  * @param heights  the height of each vertex of its mesh; a triangle with one that is not finite is
@@ -102,8 +102,8 @@ typedef struct mw_surface_area_info {
  * @param error    NULL, or receives the message of a failure
  * @return as mw_volume_between().
  *
- * Thread-safe. The same bits for any number of threads. Time in proportion to the triangles of the
- * region and those of the surface over it.
+ * Thread-safe. The result is the same, bit for bit, for any number of threads. Time is proportional
+ * to the triangles of the region and those of the surface over it.
  */
 MW_API mw_status mw_surface_area(const mw_locator *surface, const double *heights,
                                  const mw_locator *region, const mw_volume_options *options,

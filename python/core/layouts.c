@@ -27,11 +27,11 @@ static int layout_add_touch(PyObject *module)
     return layout_add(
         module, "TOUCH_LAYOUT",
         Py_BuildValue(
-            "{s:n,s:n,s:n,s:n,s:n,s:n,s:n}", LAYOUT_MEMBER(mw_touch, "distance", distance),
+            "{s:n,s:n,s:n,s:n,s:n,s:n,s:n,s:n}", LAYOUT_MEMBER(mw_touch, "distance", distance),
             LAYOUT_MEMBER(mw_touch, "weights", weight),
             LAYOUT_MEMBER(mw_touch, "triangle", triangle), LAYOUT_MEMBER(mw_touch, "state", state),
             LAYOUT_MEMBER(mw_touch, "where", where), LAYOUT_MEMBER(mw_touch, "local", local),
-            "itemsize", (Py_ssize_t)sizeof(mw_touch)));
+            LAYOUT_MEMBER(mw_touch, "back", back), "itemsize", (Py_ssize_t)sizeof(mw_touch)));
 }
 
 static int layout_add_nearest(PyObject *module)

@@ -58,25 +58,57 @@ static mw_probe_start prober_start_by_name(const char *name)
     return (mw_probe_start)start;
 }
 
-/* _probe(queries, out, max_distance, certain, start, iterations, threads, progress): six doubles a
- * query */
+/* The number of a name in a list; `count` if it is not there. */
+static int prober_choice(const char *(*name_of)(int number), int count, const char *name)
+{
+    int i = 0;
+    while (i < count && strcmp(name_of(i), name) != 0) i++;
+    return i;
+}
+
+static const char *prober_extent_name(int i)
+{
+    return mw_probe_extent_name((mw_probe_extent)i);
+}
+static const char *prober_faces_name(int i)
+{
+    return mw_probe_faces_name((mw_probe_faces)i);
+}
+
+/* Set options->extent and ->faces. Returns -1 with an exception for an unknown name. */
+static int prober_set_ray(mw_probe_options *options, const char *extent, const char *faces)
+{
+    options->extent =
+        (mw_probe_extent)prober_choice(prober_extent_name, MW_PROBE_EXTENT_COUNT, extent);
+    options->faces = (mw_probe_faces)prober_choice(prober_faces_name, MW_PROBE_FACES_COUNT, faces);
+    if (options->extent == MW_PROBE_EXTENT_COUNT)
+        PyErr_Format(PyExc_ValueError, "there is no extent '%s'", extent);
+    else if (options->faces == MW_PROBE_FACES_COUNT)
+        PyErr_Format(PyExc_ValueError, "there are no faces '%s'", faces);
+    return PyErr_Occurred() ? -1 : 0;
+}
+
+/* _probe(queries, out, min_distance, max_distance, certain, extent, faces, start, iterations,
+ * threads, progress): six doubles a query */
 static PyObject *prober_probe(PyObject *self, PyObject *args)
 {
     prober_object *object = (prober_object *)self;
     PyObject *queries, *out, *function;
-    const char *start;
+    const char *start, *extent, *faces;
     mw_progress progress;
     mw_probe_options options = {0};
     buffer_batch batch;
     mw_error error;
     mw_status status;
-    if (!PyArg_ParseTuple(args, "OOdpsO&O&O", &queries, &out, &options.max_distance,
-                          &options.certain, &start, option_uint32, &options.iterations,
-                          option_uint32, &options.threads, &function))
+    if (!PyArg_ParseTuple(args, "OOddpsssO&O&O", &queries, &out, &options.min_distance,
+                          &options.max_distance, &options.certain, &extent, &faces, &start,
+                          option_uint32, &options.iterations, option_uint32, &options.threads,
+                          &function))
         return NULL;
     options.start = prober_start_by_name(start);
     if (options.start == MW_PROBE_START_COUNT)
         return PyErr_Format(PyExc_ValueError, "there is no start '%s'", start);
+    if (prober_set_ray(&options, extent, faces)) return NULL;
     if (buffer_get_batch(queries, 6, out, sizeof(mw_touch), Py_None, &batch)) return NULL;
     options.progress = progress_begin(object->state, function, &progress);
     Py_BEGIN_ALLOW_THREADS
@@ -138,6 +170,57 @@ static PyObject *prober_nearest(PyObject *self, PyObject *args)
     Py_RETURN_NONE;
 }
 
+/* _all(query, extent, faces, min_distance, max_distance) -> bytes of touches */
+static PyObject *prober_all(PyObject *self, PyObject *args)
+{
+    prober_object *object = (prober_object *)self;
+    const char *extent, *faces;
+    double q[6];
+    mw_probe_options options = {.certain = 1};
+    mw_probe_cursor cursor;
+    mw_error error;
+    mw_touch few[32];
+    if (!PyArg_ParseTuple(args, "(dddddd)ssdd", &q[0], &q[1], &q[2], &q[3], &q[4], &q[5], &extent,
+                          &faces, &options.min_distance, &options.max_distance) ||
+        prober_set_ray(&options, extent, faces))
+        return NULL;
+    if (mw_probe_cursor_init(object->prober, &options, &cursor, &error) != MW_OK)
+        return errors_raise(object->state, &error);
+    mw_touch_state state;
+    size_t n = mw_probe_all(object->prober, &cursor, q, q + 3, few, 32, &state);
+    if (state == MW_TOUCH_BAD)
+        return PyErr_Format(PyExc_ValueError, "a coordinate is not finite, or the motion is zero");
+    PyObject *bytes = PyBytes_FromStringAndSize(NULL, (Py_ssize_t)(n * sizeof *few));
+    if (!bytes) return NULL;
+    mw_touch *all = (mw_touch *)PyBytes_AsString(bytes);
+    if (n <= 32)
+        memcpy(all, few, n * sizeof *few);
+    else
+        mw_probe_all(object->prober, &cursor, q, q + 3, all, n, NULL);
+    return bytes;
+}
+
+/* _inside(points, out, threads): a byte for each point */
+static PyObject *prober_inside(PyObject *self, PyObject *args)
+{
+    prober_object *object = (prober_object *)self;
+    PyObject *points, *out;
+    uint32_t threads;
+    buffer_batch batch;
+    mw_error error;
+    mw_status status;
+    if (!PyArg_ParseTuple(args, "OOO&", &points, &out, option_uint32, &threads) ||
+        buffer_get_batch(points, 3, out, 1, Py_None, &batch))
+        return NULL;
+    Py_BEGIN_ALLOW_THREADS
+    status = mw_inside_surface(object->prober, batch.points.points, batch.points.count,
+                               batch.points.stride, threads, batch.out.buf, &error);
+    Py_END_ALLOW_THREADS
+    buffer_release_batch(&batch);
+    if (status) return errors_raise(object->state, &error);
+    Py_RETURN_NONE;
+}
+
 static PyObject *prober_surface(PyObject *self, void *unused)
 {
     (void)unused;
@@ -147,6 +230,8 @@ static PyObject *prober_surface(PyObject *self, void *unused)
 static PyMethodDef prober_methods[] = {
     {"_probe", prober_probe, METH_VARARGS, NULL},
     {"_nearest", prober_nearest, METH_VARARGS, NULL},
+    {"_all", prober_all, METH_VARARGS, NULL},
+    {"_inside", prober_inside, METH_VARARGS, NULL},
     {NULL, NULL, 0, NULL},
 };
 

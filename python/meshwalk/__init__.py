@@ -46,7 +46,7 @@ from meshwalk._mesh import Mesh, MeshInfo
 from meshwalk._operator import Operator
 from meshwalk._plot import explain, plot
 from meshwalk._polygons import PolygonHits, Polygons
-from meshwalk._prober import NearestPoints, Prober, Touches, TouchState
+from meshwalk._prober import NearestPoints, Prober, SurfaceSide, Touches, TouchState
 from meshwalk._segments import Segments
 from meshwalk._star import Star, StarInfo, direction_to_lonlat, lonlat_to_direction
 from meshwalk._surface import Surface, SurfaceInfo
@@ -97,6 +97,7 @@ __all__ = [
     "StarInfo",
     "Surface",
     "SurfaceInfo",
+    "SurfaceSide",
     "TouchState",
     "Touches",
     "Where",

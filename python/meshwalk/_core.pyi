@@ -224,8 +224,11 @@ class Prober:
         self,
         queries: Buffer,
         out: Buffer,
+        min_distance: float,
         max_distance: float,
         certain: bool,
+        extent: str,
+        faces: str,
         start: str,
         iterations: int,
         threads: int,
@@ -235,6 +238,16 @@ class Prober:
     def _nearest(
         self, points: Buffer, out: Buffer, max_distance: float, progress: Progress | None, /
     ) -> None: ...
+    def _all(
+        self,
+        query: tuple[float, float, float, float, float, float],
+        extent: str,
+        faces: str,
+        min_distance: float,
+        max_distance: float,
+        /,
+    ) -> bytes: ...
+    def _inside(self, points: Buffer, out: Buffer, threads: int, /) -> None: ...
 
 _RawChange: TypeAlias = tuple[int, int, int, int, int, int, int, int, bytes | None]
 

@@ -31,8 +31,8 @@ def read(
     ----------
     path : str or path-like
         OFF, OBJ, PLY, STL, Triangle's ``.node``/``.ele``, ``fort.14``, ``.gr3``, ``.2dm``,
-        Selafin, ``.msh``, VTK, VTU, SU2, ``.npz`` or netCDF (UGRID, FVCOM, SCHISM, ADCIRC, ANUGA,
-        FESOM2, ICON, MPAS, TUFLOW-FV): recognised by content, else by name.
+        Selafin, ``.msh``, VTK, VTU, SU2, ``.npz``, netCDF (UGRID, FVCOM, SCHISM, ADCIRC, ANUGA,
+        FESOM2, ICON, MPAS, TUFLOW-FV) or prepared ``.mwm``: recognised by content, else by name.
     layout : str, optional
         Of netCDF: how the file is laid out, such as ``"fvcom"``, with ``":0"`` or ``":1"`` behind
         it for the number of the first vertex. Default: recognised.

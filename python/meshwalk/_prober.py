@@ -26,6 +26,7 @@ TOUCH = _arrays.record_type(
         "state": np.uint8,
         "where": np.uint8,
         "local": np.uint8,
+        "back": np.bool_,
     },
 )
 """The type of the answer to one probe, as the library writes it."""
@@ -53,6 +54,17 @@ class TouchState(enum.IntEnum):
     """Nothing was found within the limit of iterations: there may be something."""
     BAD = 3
     """A coordinate is NaN or infinite, or the motion is zero."""
+
+
+class SurfaceSide(enum.IntEnum):
+    """Where a point is with respect to a closed surface: the answers of `Prober.inside`."""
+
+    OUTSIDE = 0
+    INSIDE = 1
+    ON = 2
+    """Exactly on a triangle."""
+    BAD = 3
+    """A coordinate is NaN or infinite."""
 
 
 class _Found:
@@ -103,6 +115,11 @@ class Touches(_Found):
     def where(self) -> NDArray[np.uint8]:
         """Inside of the triangle, on an edge or at a vertex: the numbers of `Where`."""
         return self.records["where"]
+
+    @property
+    def back(self) -> NDArray[np.bool_]:
+        """Whether the motion points at the triangle's back."""
+        return self.records["back"]
 
     def __repr__(self) -> str:
         counts = np.bincount(self.state.ravel(), minlength=len(TouchState))
@@ -194,6 +211,9 @@ class Prober(_core.Prober):
         max_distance: float = 0,
         *,
         certain: bool = False,
+        extent: Literal["line", "ray", "segment"] = "line",
+        faces: Literal["front", "back", "both"] = "front",
+        min_distance: float = 0,
         start: Literal["auto", "last", "sample", "random"] = "auto",
         iterations: int = 0,
         threads: int = 0,
@@ -214,6 +234,14 @@ class Prober(_core.Prober):
             Find the nearest touch, and none is missed. Needs a prober with ``boxes=True``. Else the
             walks as published: fast, and where their iterations end without a touch the state is
             ``TouchState.LIMIT``.
+        extent : {"line", "ray", "segment"}, optional
+            Which part of the line counts: all of it, the point and what is ahead of it, or from
+            the point to ``motions``, which then are the other ends. Ray and segment need
+            ``certain=True``, as do the two that follow.
+        faces : {"front", "back", "both"}, optional
+            Which triangles count: those at whose front or back the motion points, or both.
+        min_distance : float, optional
+            What is nearer to the point than this does not count.
         start : {"auto", "last", "sample", "random"}, optional
             The first triangle of a walk.
         iterations : int, optional
@@ -235,8 +263,102 @@ class Prober(_core.Prober):
         queries[:, :3] = rows
         queries[:, 3:] = ways
         records = np.empty(len(rows), TOUCH)
-        self._probe(queries, records, max_distance, certain, start, iterations, threads, progress)
+        self._probe(
+            queries,
+            records,
+            min_distance,
+            max_distance,
+            certain,
+            extent,
+            faces,
+            start,
+            iterations,
+            threads,
+            progress,
+        )
         return Touches(self.surface, records.reshape(shape))
+
+    def probe_all(
+        self,
+        point: ArrayLike,
+        motion: ArrayLike,
+        max_distance: float = 0,
+        *,
+        extent: Literal["line", "ray", "segment"] = "line",
+        faces: Literal["front", "back", "both"] = "both",
+        min_distance: float = 0,
+    ) -> Touches:
+        """Find all triangles that a line through a point touches, in their order along it.
+
+        Parameters
+        ----------
+        point : array_like, shape (3,)
+            Where the probe is.
+        motion : array_like, shape (3,)
+            Its motion; the other end of a segment.
+        max_distance, extent, faces, min_distance
+            As of `probe`, but both faces count unless told otherwise.
+
+        Returns
+        -------
+        Touches
+            One for each triangle; those at one place are ordered by number.
+
+        Raises
+        ------
+        ValueError
+            The prober has no boxes, a number is not finite, or the motion is zero.
+
+        Examples
+        --------
+        >>> import meshwalk
+        >>> floor = meshwalk.Surface([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]])
+        >>> prober = meshwalk.Prober(floor, boxes=True)
+        >>> prober.probe_all([1, 1, -5], [0, 0, 1], extent="ray").distance
+        array([5.])
+        """
+        rows, shape = _arrays.queries(point, "point", 3)
+        ways, way_shape = _arrays.queries(motion, "motion", 3)
+        if shape or way_shape:
+            raise ValueError("point and motion must be one each, three numbers")
+        x, y, z, a, b, c = (float(v) for v in (*rows[0], *ways[0]))
+        found = self._all((x, y, z, a, b, c), extent, faces, min_distance, max_distance)
+        return Touches(self.surface, np.frombuffer(bytearray(found), TOUCH))
+
+    def inside(self, points: ArrayLike, *, threads: int = 0) -> NDArray[np.uint8]:
+        """Decide which points are inside of the surface, exactly.
+
+        Parameters
+        ----------
+        points : array_like, shape (..., 3)
+            The points.
+        threads : int, optional
+            How many threads answer; 0 lets the library choose.
+
+        Returns
+        -------
+        ndarray
+            For each point a number of `SurfaceSide`.
+
+        Raises
+        ------
+        InputError
+            The surface is not closed.
+        ValueError
+            The prober has no boxes.
+
+        Examples
+        --------
+        >>> import meshwalk
+        >>> corners = [[0, 0, 0], [4, 0, 0], [0, 4, 0], [0, 0, 4]]
+        >>> solid = meshwalk.Surface(corners, [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])
+        >>> meshwalk.Prober(solid, boxes=True).inside([[1, 1, 1], [3, 3, 3], [0, 0, 0]])
+        array([1, 0, 2], dtype=uint8)
+        """
+        rows, shape = _arrays.queries(points, "points", 3)
+        sides = np.empty(len(rows), np.uint8)
+        self._inside(rows, sides, threads)
+        return sides.reshape(shape)
 
     def nearest(
         self,

@@ -31,8 +31,8 @@ static MW_INLINE double coordinate_sum(mw_borrowed_walk *w, const mw_borrowed_ti
     return area_value(&w->counts, tile->p[0], tile->p[1], tile->p[2], off, mw__borrowed_policy);
 }
 
-/* Over the edge opposite to corner k. MW_VERDICT_UNSURE where there is no neighbour: q surely lies
- * beyond the edge, but of what the mesh lacks there the remembering walk knows more. */
+/* Cross the edge opposite to corner k. MW_VERDICT_UNSURE if there is no neighbour: q certainly lies
+ * beyond the edge, and the remembering walk then decides whether it is outside. */
 static MW_INLINE mw_verdict coordinate_cross(mw_borrowed_walk *w, uint32_t k)
 {
     uint32_t next = mw__borrowed_across(w->mesh, w->t, k);

@@ -1,14 +1,14 @@
 /* clip.c - clips a triangle by a convex polygon. The figure is in clip.h. */
 #include "clip/clip.h"
 
-/* Areas of edges with corners: exact signs, and magnitudes off by a little. `left` is the sign once
+/* Twice the areas of edges with corners: signs exact, magnitudes rounded. `left` is the sign after
  * P has moved. */
 typedef struct clip_sides {
     double p[3][MW_CLIP_SIDES], q[MW_CLIP_SIDES][3]; /* edge i of one with corner j of the other */
     bool in_p[3][MW_CLIP_SIDES], in_q[MW_CLIP_SIDES][3];
 } clip_sides;
 
-/* A rounded area is taken where it is off by less than this part of itself. */
+/* A rounded area is used if its relative error is below this. */
 #define CLIP_ERROR 0x1p-45
 
 static MW_INLINE uint32_t clip_next(uint32_t i, uint32_t n)
@@ -30,22 +30,23 @@ static MW_INLINE double clip_area(mw_point a, mw_point b, mw_point c)
     return MW_LIKELY(CLIP_ERROR * fabs(area) > bound) ? area : mw__orient2d_exact(a, b, c);
 }
 
-/* Is a corner of Q left of the edge ab of P, once that has moved? Its area with it is `area`. */
+/* Is a corner of Q left of the edge ab of P after P has moved? `area` is twice the area of the two.
+ */
 static MW_INLINE bool clip_left_of_p(double area, mw_point a, mw_point b)
 {
     if (MW_LIKELY(area != 0)) return area > 0;
     return b.y != a.y ? b.y > a.y : b.x < a.x;
 }
 
-/* Is a corner of P, once that has moved, left of the edge ab of Q? */
+/* Is a corner of P left of the edge ab of Q after P has moved? */
 static MW_INLINE bool clip_left_of_q(double area, mw_point a, mw_point b)
 {
     if (MW_LIKELY(area != 0)) return area > 0;
     return b.y != a.y ? b.y < a.y : b.x > a.x;
 }
 
-/* The sides of all corners. False if a line along an edge has P on one side and Q on the other:
- * they have no area in common; `apart` no point. */
+/* Find the sides of all corners. False if a line along an edge has P on one side and Q on the
+ * other: then they have no common area. `apart`: they do not even have a common point. */
 static bool clip_sides_find(clip_sides *s, const mw_point p[3], const mw_point *q, uint32_t m,
                             bool *apart)
 {
@@ -93,7 +94,8 @@ static mw_clip_corner *clip_add(clip_work *w)
     return &w->clip->corner[w->clip->count++];
 }
 
-/* Weights from twice the areas opposite corners 1 and the last of the frame, and its own. */
+/* Weights from twice the areas opposite corner 1 and the last corner of the frame, and twice the
+ * area of the frame. */
 static void clip_frame_weights(double weight[3], double area_1, double area_last, double whole)
 {
     weight[1] = area_1 / whole;
@@ -133,8 +135,8 @@ static void clip_add_q(clip_work *w, uint32_t j)
     }
 }
 
-/* Where edge i of P crosses edge j of Q. Of the two areas on one line at most one is 0, else the
- * edges would be on one line, and corners of it move together. */
+/* The point where edge i of P crosses edge j of Q. At most one of the two areas of each edge is 0:
+ * otherwise both edges would lie on one line, and its corners move together. */
 static void clip_add_crossing(clip_work *w, uint32_t i, uint32_t j)
 {
     mw_clip_corner *c = clip_add(w);
@@ -161,7 +163,7 @@ static bool clip_in_q(const clip_sides *s, uint32_t i, uint32_t m)
     return in;
 }
 
-/* Do edge i of P and edge j of Q cross? P goes into Q there if `enters`, else out of it. */
+/* Do edge i of P and edge j of Q cross, such that P enters Q there (`enters`) or leaves it? */
 static bool clip_crosses(const clip_work *w, uint32_t i, uint32_t j, bool enters)
 {
     const clip_sides *s = w->sides;
@@ -169,7 +171,7 @@ static bool clip_crosses(const clip_work *w, uint32_t i, uint32_t j, bool enters
     return s->in_q[j][i] == !enters && s->in_q[j][i2] == enters && s->in_p[i][j] != s->in_p[i][j2];
 }
 
-/* The edge of Q where edge i of P goes out of Q, or m. */
+/* The edge of Q over which edge i of P leaves Q, or m. */
 static uint32_t clip_exit(const clip_work *w, uint32_t i)
 {
     uint32_t j = 0;
@@ -177,7 +179,7 @@ static uint32_t clip_exit(const clip_work *w, uint32_t i)
     return j;
 }
 
-/* The edge of P that goes into Q over edge j of Q, or 3. */
+/* The edge of P that enters Q over edge j of Q, or 3. */
 static uint32_t clip_entry(const clip_work *w, uint32_t j)
 {
     uint32_t i = 0;
@@ -185,7 +187,7 @@ static uint32_t clip_entry(const clip_work *w, uint32_t j)
     return i;
 }
 
-/* An edge of P that goes into Q over an edge. 3: none. */
+/* The first edge of P that enters Q. 3: none. */
 static uint32_t clip_first_entry(const clip_work *w)
 {
     uint32_t i = 3;
@@ -193,8 +195,8 @@ static uint32_t clip_first_entry(const clip_work *w)
     return i;
 }
 
-/* From edge i of P, inside Q: along edges of P to where they leave Q, then along those of Q to
- * where P enters again. Returns the edge of P that does; 3 if Q is not convex. */
+/* Follow the common part from edge i of P inside Q: along edges of P until they leave Q, then along
+ * edges of Q until P enters again. Returns the edge of P that enters; 3 if Q is not convex. */
 static uint32_t clip_follow(clip_work *w, uint32_t i)
 {
     uint32_t j, entry = 3;

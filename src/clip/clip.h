@@ -8,20 +8,20 @@
  *         /     \               edge of Q where it leaves.
  *       p_0-----p_1
  *
- * Where corners lie on edges, P counts as moved by (e, e^2) with an infinitely small e > 0. So no
- * corner is on an edge, and two cells that share an edge are cut by the same rule: parts of one
- * triangle in cells that tile the plane are disjoint, and they are all of it. A common part without
- * area is none, decided exactly.
+ * If corners lie on edges, P counts as moved by (e, e^2) with an infinitely small e > 0. So no
+ * corner lies on an edge, and two cells that share an edge follow the same rule: if cells tile the
+ * plane, their parts of one triangle are disjoint and cover it. A common part without area does not
+ * count, decided exactly.
  *
- * A corner is told by its weights: of the corners of P, and of q_0, q_1 and the last of Q. These
- * are quotients of areas that have one sign, each off by less than 2^-43 of itself, nearly always
- * by a few 2^-53. Areas are computed from weights of the smaller of P and Q, and so they are off by
- * that part of the smaller area at most, however far the two are from the origin: sums over cells
- * conserve areas to rounding.
+ * A corner of the common part is given by its weights: those of the corners of P, and those of q_0,
+ * q_1 and the last corner of Q. A weight is a quotient of areas of one sign, so no digits cancel:
+ * its relative error is below 2^-43, nearly always a few 2^-53. The area is computed from weights
+ * in the smaller of P and Q. So its error is that fraction of the smaller area, however far from
+ * the origin both are, and sums over cells conserve areas up to rounding.
  *
- * P and Q are counter-clockwise, P has an area, Q is convex and has no two equal neighbours among
- * its corners. Where areas are not between 2^-900 and 2^900, or differ by more, the corners are
- * right and areas are not. Cost: 6 m orient2d for m corners of Q. */
+ * P and Q must be counter-clockwise, P must have an area, and Q must be convex without equal
+ * consecutive corners. If areas are not between 2^-900 and 2^900, or their ratio is not, corners
+ * are right but areas are not. Cost: 6 m orient2d for m corners of Q. */
 #ifndef MW_SRC_CLIP_CLIP_H
 #define MW_SRC_CLIP_CLIP_H
 
@@ -31,36 +31,38 @@
 
 typedef struct mw_clip_corner {
     double p[3]; /* weights of the corners of P: none negative, sum 1 up to rounding */
-    double q[3]; /* of corners 0, 1 and m - 1 of Q; with more than three some are negative */
+    /* weights of corners 0, 1 and m - 1 of Q; some are negative if Q has more than three corners */
+    double q[3];
 } mw_clip_corner;
 
 typedef struct mw_clip {
     uint32_t count; /* corners, counter-clockwise; 0: no area in common */
     mw_clip_corner corner[MW_CLIP_SIDES + 3];
-    uint32_t over;             /* bit j: a part of edge j of Q lies inside P, once that has moved */
+    uint32_t over;             /* bit j: a part of edge j of Q lies inside P after P has moved */
     double double_p, double_q; /* twice the areas of P and of the triangle of those corners of Q */
 } mw_clip;
 
-/* Clip P by Q, which has m corners, at most MW_CLIP_SIDES. Returns the number of corners, at most
- * m + 3; 0 where they have no area in common. */
+/* Clip P by Q, which has m corners, at most MW_CLIP_SIDES. Returns the number of corners of the
+ * common part, at most m + 3; 0 if they have no common area. */
 uint32_t mw__clip(const mw_point p[3], const mw_point *q, uint32_t m, mw_clip *clip);
 
 /* Do P and Q have a point in common? Exact. */
 bool mw__clip_touches(const mw_point p[3], const mw_point *q, uint32_t m);
 
-/* The area of the triangle of corners 0, k and k + 1, for k from 1 to count - 2: together they are
- * the common part. Never negative. */
+/* The area of the triangle of corners 0, k and k + 1. The triangles for k from 1 to count - 2 make
+ * up the common part. Never negative. */
 double mw__clip_part(const mw_clip *clip, uint32_t k);
 
-/* What integrals over the common part are made of. */
+/* Integrals over the common part. */
 typedef struct mw_clip_integral {
     double area;
-    /* The integral of each weight: that of a linear function with the values f[] at the corners of
-     * P is the sum of p[i] * f[i], and the centroid is the sum of p[i] / area * (corner i). */
+    /* The integral of each weight. The integral of a linear function with the values f[] at the
+     * corners of P is the sum of p[i] * f[i]; the centroid is the sum of p[i] / area * (corner i).
+     */
     double p[3], q[3];
 } mw_clip_integral;
 
-/* All 0 where there is no common part. */
+/* All 0 if there is no common part. */
 mw_clip_integral mw__clip_integral(const mw_clip *clip);
 
 #endif

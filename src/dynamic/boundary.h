@@ -1,9 +1,9 @@
 /* boundary.h - fill the polygon inside a boundary with tiles. Private.
  *
- * Used where tiles are replaced by as many others, or fewer, with the same corners. Steps are given
- * counter-clockwise: the polygon lies to their left. The new tiles reuse the slots and numbers of
- * the old ones (the pool), lowest numbers first. The slots left over are dropped at the end of the
- * edit. */
+ * Used when tiles are replaced by the same number of tiles, or fewer, with the same corners. Steps
+ * are given counter-clockwise: the polygon lies to their left. The new tiles reuse the slots and
+ * numbers of the old ones (the pool), lowest numbers first. The slots left over are dropped at the
+ * end of the edit. */
 #ifndef MW_SRC_DYNAMIC_BOUNDARY_H
 #define MW_SRC_DYNAMIC_BOUNDARY_H
 

@@ -170,7 +170,7 @@ static void shrink_journal(mw_dynamic_tiling *dynamic)
 
 void mw__journal_forget(mw_dynamic_tiling *dynamic, size_t steps)
 {
-    /* not before as many steps go as stay: so a step moves once, on average */
+    /* only when at least half of the steps are dropped: so each step moves once, on average */
     if (dynamic->step_count <= steps || dynamic->step_count - steps < steps) return;
     size_t gone = dynamic->step_count - steps,
            entries = steps ? dynamic->step[gone].first_entry : dynamic->journal_count;

@@ -137,8 +137,8 @@ static MW_INLINE void prefetch_far(const lookahead *look, size_t i)
     prefetch_beyond(tiling, &look->upcoming[(i + BEYOND) % AHEAD]);
 }
 
-/* If there are as many points as vertices, each lies in the tile of the one before, or near it: no
- * lookahead is needed. */
+/* If there are at least as many points as vertices, each point lies in or near the tile of the
+ * previous one: no lookahead is needed. */
 static void lookahead_begin(lookahead *look, const mw_editor *editor, const point_batch *b)
 {
     bool used = b->n < editor->dynamic.vertex_count;

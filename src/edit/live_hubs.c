@@ -54,7 +54,8 @@ static void heap_drop_first(mw_hub *hub)
     if (hub->count > 1) heap_sink(hub, 0);
 }
 
-/* The hub is no longer known. Its place stays taken, as others were put behind it. */
+/* Forget a hub. Its entry stays in the table, because later entries may have been placed after it.
+ */
 static void hub_lose(mw_hub *hub)
 {
     free(hub->number);
@@ -112,7 +113,7 @@ static bool vertex_is_hub(const mw_tiling *tiling, uint32_t t, uint32_t v)
     return hub_go_round(tiling, t, v, MW_HUB_DEGREE, NULL, &listed) == MW_HUB_DEGREE;
 }
 
-/* Room for one more. Hubs that are none now are left out. */
+/* Make room for one more. Vertices that are no longer hubs are dropped. */
 static bool hub_table_room(mw_hub_table *table, const mw_tiling *tiling)
 {
     if (table->hub && 2 * (table->count + 1) <= table->mask) return true;

@@ -1,12 +1,13 @@
 /* live_hubs.h - the hubs of a tiling, which follow its edits. Private.
  *
- * A vertex is found to be a hub when one of its tiles is looked at by chance: one in HUB_STRIDE of
- * all, and tiles of one in HUB_EDITS edits. So a mesh without hubs pays next to nothing, and a
- * vertex of d tiles stays unknown with a probability of exp(-d / HUB_STRIDE), in a mesh that is
- * edited until about HUB_EDITS edits more have changed its tiles. Answers do not depend on it.
+ * Hubs are found by sampling: one in HUB_STRIDE of all tiles, and the tiles of one in HUB_EDITS
+ * edits. So a mesh without hubs pays almost nothing. A vertex of d tiles is missed with probability
+ * exp(-d / HUB_STRIDE); in a mesh that is edited, until about HUB_EDITS further edits have changed
+ * its tiles. Answers do not depend on it.
  *
- * The numbers that an edit gave to tiles of a hub are added to its heap, and those of triangles
- * that are gone leave it when they are its first one. It is made anew when it has twice as many. */
+ * When an edit gives new numbers to tiles of a hub, they are added to its heap. The number of a
+ * removed triangle is dropped when it becomes the first of the heap. The heap is rebuilt when it
+ * has doubled. */
 #ifndef MW_SRC_EDIT_LIVE_HUBS_H
 #define MW_SRC_EDIT_LIVE_HUBS_H
 

@@ -1,8 +1,8 @@
 /* upkeep.h - keeps the guide and the indices useful while the mesh changes. Private.
  *
  * The locator of an editor has a guide (a grid, or a grid of two levels where vertices are
- * crowded). The editor may have an index for each start, too. They name tiles that edits delete or
- * reshape:
+ * crowded). The editor may have an index for each start, too. They refer to tiles that edits delete
+ * or reshape:
  *
  *   grids    hold names of tiles. A name leads to the triangle of that number, or to one that
  *            replaced it. So a name is never wrong; it may only lead farther off. A triangle that

@@ -78,7 +78,7 @@ static bool border_sort(mw_border_tree *border, const mw_tiling *tiling)
     return key && sorted;
 }
 
-static mw_box border_edge_box(const void *edges, uint32_t i)
+mw_box mw__border_edge_box(const void *edges, uint32_t i)
 {
     const mw_border_edge *e = (const mw_border_edge *)edges + i;
     return (mw_box){{fmin(e->a.x, e->b.x), fmin(e->a.y, e->b.y)},
@@ -91,8 +91,8 @@ bool mw__border_tree_create(mw_border_tree *border, const mw_mesh *mesh, const m
     border->edge = mw__alloc(border->edge_count, sizeof *border->edge);
     if (!border->edge) return false;
     border_collect(mesh, tiling, border->edge);
-    return border_sort(border, tiling) &&
-           mw__box_tree_create(&border->tree, border->edge_count, border_edge_box, border->edge);
+    return border_sort(border, tiling) && mw__box_tree_create(&border->tree, border->edge_count,
+                                                              mw__border_edge_box, border->edge);
 }
 
 void mw__border_tree_release(mw_border_tree *border)

@@ -21,6 +21,9 @@ typedef struct mw_border_tree {
     uint32_t edge_count;
 } mw_border_tree;
 
+/* The box of edge i, for the tree. */
+mw_box mw__border_edge_box(const void *edges, uint32_t i);
+
 /* Returns false when out of memory. */
 bool mw__border_tree_create(mw_border_tree *border, const mw_mesh *mesh, const mw_tiling *tiling);
 void mw__border_tree_release(mw_border_tree *border);

@@ -49,7 +49,7 @@ static uint32_t query_tile(const mw_interleaved *of, mw_point q, uint32_t query)
                                 q, &random, NULL);
 }
 
-/* Point of a query; one that is no point is answered at once, and false returned. */
+/* The point of a query. A point that is not finite is answered at once; then returns false. */
 static MW_INLINE bool query_point(const mw_interleaved *of, uint32_t query, mw_point *q)
 {
     const double *at = &of->queries->points[query * of->queries->stride];

@@ -56,7 +56,7 @@ static mw_walk chunk_begin_walk(batch_chunk *c, uint32_t lane, uint32_t query, m
                : mw__query_begin_at(b->locator, &b->cursor, t, q, &random, &c->work[lane]);
 }
 
-/* Put the next query of a lane into *walk; queries that are no points are answered on the way. */
+/* Put the next query of a lane into *walk. Queries that are not finite are answered here. */
 static bool chunk_next_query(batch_chunk *c, uint32_t lane, mw_walk *walk)
 {
     const locate_batch *b = c->batch;

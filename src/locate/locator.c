@@ -165,9 +165,8 @@ static bool guide_make_chains(const mw_locator *locator, mw_job *job, mw_index *
     return done;
 }
 
-/* Where the guide leads badly, or there is none, chains take its place: a query by them takes as
- * long as a walk over FEW tiles, and 68 to 88 bytes a tile. Tiles that are edited would leave them
- * behind. */
+/* Chains replace a guide from which walks are long: a query by chains takes as long as a walk over
+ * FEW tiles. They take 68 to 88 bytes a tile. They cannot follow edits. */
 bool mw__locator_guide(const mw_locator *locator, mw_job *job, mw_index *guide)
 {
     static const double FEW = 24;
@@ -212,6 +211,12 @@ void mw__locator_measure(mw_locator *locator, mw_job *job)
     locator_choose_walks(locator);
     locator->tiling.slots_are_numbers = tiling->tile_of && are_slots_numbers(tiling);
     locator->centre = mw__tile_name(tiling, mw__start_centre(tiling, locator->low, locator->high));
+    mw__locator_scale(locator);
+}
+
+void mw__locator_scale(mw_locator *locator)
+{
+    const mw_tiling *tiling = &locator->tiling;
     double width = locator->high[0] - locator->low[0], height = locator->high[1] - locator->low[1];
     locator->scale = extent_scale(locator->low, locator->high);
     locator->near2 = width / mw__sample_count(tiling, MW_SAMPLE_CUBE_ROOT_OF_VERTICES) * height;

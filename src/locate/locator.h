@@ -19,7 +19,7 @@ struct mw_locator {
     /* 1, or a power of two by which the fast path multiplies differences of coordinates, where
      * their products would leave the doubles */
     double scale;
-    /* How queries begin where nothing is said; with start MW_START_AUTO there is none. */
+    /* The guide, with which queries begin by default; MW_START_AUTO: there is none. */
     mw_index guide;
     /* A tile within this squared distance is expected to be nearer than any of a sample. */
     double near2;
@@ -41,13 +41,16 @@ struct mw_locator {
  * the middle. Steps of the present stage; if the job is cancelled, some of it is missing. */
 void mw__locator_measure(mw_locator *locator, mw_job *job);
 
+/* Of these, what follows from the extent and the number of tiles alone. */
+void mw__locator_scale(mw_locator *locator);
+
 /* Build the guide of a locator that has been measured. False when out of memory, or
  * cancelled; it may be released in either case. Stages of the present part of the job. */
 bool mw__locator_guide(const mw_locator *locator, mw_job *job, mw_index *guide);
 
-/* Does q lie within a few lengths of the shortest edge of tile t? Then hardly any guide leads
- * nearer. The longest edge would not do, as many small tiles may lie beside it. A tile as large as
- * a cell, as there are along the hull, does not count either. */
+/* Does q lie within a few lengths of the shortest edge of tile t? Then a guide would hardly lead
+ * nearer. The longest edge would be a bad measure, because many small tiles may lie next to it. A
+ * tile as large as a cell, as along the hull, does not count as near. */
 static MW_INLINE bool mw__locator_is_close(const mw_locator *locator, uint32_t t, mw_point q)
 {
     enum { LENGTHS = 3 };

@@ -23,7 +23,7 @@ static mw_status mend_check_arguments(const mw_arrays *arrays, const mw_mend_opt
     return mw__arrays_validate(arrays, options->space ? 3 : 2, error);
 }
 
-/* Copy the triangles. A number that is no vertex stays as it is, for the list of changes. */
+/* Copy the triangles. A number out of range is kept for the list of changes. */
 static mw_status mend_work_create(mw_mend_work *w, const mw_arrays *arrays, mw_error *error)
 {
     w->kept = mw__alloc(w->vertex_count, sizeof *w->kept);

@@ -1,17 +1,26 @@
-/* mesh.c - what a planar mesh tells of itself, its fields, and its end. */
+/* mesh.c - access to a planar mesh and its fields; how it is released. */
 #include "mesh/mesh.h"
 
 #include <stdlib.h>
 #include <string.h>
 
+static void field_release(mw_field *field)
+{
+    if (field->borrowed) return;
+    free(field->name);
+    free(field->values);
+}
+
+void mw__mesh_release_fields(mw_mesh *mesh)
+{
+    for (size_t i = 0; i < mesh->field_count; i++) field_release(&mesh->field[i]);
+    free(mesh->field);
+}
+
 void mw_mesh_destroy(mw_mesh *mesh)
 {
     if (!mesh) return;
-    for (size_t i = 0; i < mesh->field_count; i++) {
-        free(mesh->field[i].name);
-        free(mesh->field[i].values);
-    }
-    free(mesh->field);
+    mw__mesh_release_fields(mesh);
     free(mesh->tri);
     free(mesh->triangle_slot);
     free(mesh->vertex_slot);
@@ -75,23 +84,40 @@ static mw_field *mesh_find_field(const mw_mesh *mesh, const char *name)
     return NULL;
 }
 
-/* Append a field that owns copies of the name and room for the values; NULL when out of memory. */
-static mw_field *add_field(mw_mesh *mesh, const char *name)
+/* A field that owns a copy of the name and room for the values; without a name when out of memory.
+ */
+static mw_field field_make(const mw_mesh *mesh, const char *name)
+{
+    size_t size = strlen(name) + 1;
+    mw_field field = {.name = mw__alloc(size, 1),
+                      .values = mw__alloc(mesh->point_count, sizeof(double))};
+    if (field.name && field.values) {
+        memcpy(field.name, name, size);
+        return field;
+    }
+    field_release(&field);
+    return (mw_field){0};
+}
+
+/* Append a field to be filled in; NULL when out of memory. */
+static mw_field *mesh_add_field(mw_mesh *mesh, const char *name)
 {
     mw_field *fields = mw__realloc(mesh->field, mesh->field_count + 1, sizeof *fields);
     if (!fields) return NULL;
     mesh->field = fields;
-    mw_field *field = &fields[mesh->field_count];
-    size_t size = strlen(name) + 1;
-    field->name = mw__alloc(size, 1);
-    field->values = mw__alloc(mesh->point_count, sizeof(double));
-    if (!field->name || !field->values) {
-        free(field->name);
-        free(field->values);
-        return NULL;
-    }
-    memcpy(field->name, name, size);
-    mesh->field_count++;
+    fields[mesh->field_count] = field_make(mesh, name);
+    return fields[mesh->field_count].name ? &fields[mesh->field_count++] : NULL;
+}
+
+/* The field of that name, to be filled in; NULL when out of memory. */
+static mw_field *mesh_field_to_fill(mw_mesh *mesh, const char *name)
+{
+    mw_field *field = mesh_find_field(mesh, name);
+    if (!field) return mesh_add_field(mesh, name);
+    if (!field->borrowed) return field;
+    mw_field own = field_make(mesh, name);
+    if (!own.name) return NULL;
+    *field = own;
     return field;
 }
 
@@ -100,8 +126,7 @@ mw_status mw_mesh_set_field(mw_mesh *mesh, const char *name, const double *value
 {
     if (!mesh || !name || (!values && mesh->point_count))
         return mw__fail(error, MW_ERROR_ARGUMENT, "the mesh, the name or the values are NULL");
-    mw_field *field = mesh_find_field(mesh, name);
-    if (!field) field = add_field(mesh, name);
+    mw_field *field = mesh_field_to_fill(mesh, name);
     if (!field) return mw__fail_memory(error);
     if (stride == 0) stride = 1;
     for (size_t i = 0; i < mesh->point_count; i++) field->values[i] = values[i * stride];

@@ -88,6 +88,7 @@ static MW_INLINE uint32_t mw__user_local_vertex(uint32_t user, uint32_t k)
 typedef struct mw_field {
     char *name;
     double *values;
+    bool borrowed; /* name and values belong to a mapped file, and are never written */
 } mw_field;
 
 /* The library may store vertices and triangles in another order than the user's, along a curve
@@ -109,6 +110,9 @@ struct mw_mesh {
     bool opposite;
     bool tolerant; /* may have unusable triangles: see mw_mesh_options */
 };
+
+/* Release the fields of a mesh, and their list. */
+void mw__mesh_release_fields(mw_mesh *mesh);
 
 static MW_INLINE uint32_t mw__triangle_slot(const mw_mesh *mesh, uint32_t number)
 {

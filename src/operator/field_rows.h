@@ -1,8 +1,8 @@
-/* field_rows.h - fields that lie one after another are brought side by side, a few at a time.
- * Private; for this room only.
+/* field_rows.h - copies fields stored one after another so that their values lie side by side, a
+ * few fields at a time. Private; for this room only.
  *
- * A scattered row then reads, and writes, whole cache lines, where it would else use one number of
- * each. */
+ * A scattered row then reads and writes whole cache lines. Otherwise it would use a single number
+ * of each line. */
 #ifndef MW_SRC_OPERATOR_FIELD_ROWS_H
 #define MW_SRC_OPERATOR_FIELD_ROWS_H
 
@@ -15,7 +15,7 @@ typedef struct mw_field_rows {
     size_t n, count, size, stride, step;
 } mw_field_rows;
 
-/* A stage of the job's steps each. Return false if the job is to stop. */
+/* Each is a stage of the job. They return false if the job is to stop. */
 bool mw__field_rows_gather(const mw_field_rows *f, mw_job *job);
 bool mw__field_rows_spread(const mw_field_rows *f, mw_job *job);
 

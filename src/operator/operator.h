@@ -1,8 +1,8 @@
 /* operator.h - the rows of an operator. Private.
  *
- * The rank of a row is where it stands in memory. Rows that read near each other have ranks near
- * each other, so that values come from the cache. Most operators have at most three entries a row;
- * then each rank has three, and weights of 0 fill up what is missing. */
+ * The rank of a row is its position in memory. Rows that read nearby values have nearby ranks, so
+ * that values are in the cache. Most operators have at most three entries a row; then each rank has
+ * three, and weights of 0 fill up what is missing. */
 #ifndef MW_SRC_OPERATOR_OPERATOR_H
 #define MW_SRC_OPERATOR_OPERATOR_H
 

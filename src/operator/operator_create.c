@@ -11,7 +11,7 @@ static const mw_operator_options defaults;
 
 /* --- from locations --------------------------------------------------------------------------- */
 
-/* The locations of a mesh, and what is made of them. */
+/* The locations in a mesh and the operator that is made of them. */
 typedef struct location_rows {
     const mw_mesh *mesh;
     const mw_location *at;
@@ -171,7 +171,7 @@ static void entries_into_rows(const mw_operator_entries *in, mw_sparse_rows *s)
     mw__sparse_rows_full(s);
 }
 
-/* The end of a call that has filled rows, or had no memory for them. */
+/* Finish a call that has filled rows or ran out of memory. */
 static mw_status entries_end(mw_sparse_rows *s, bool filled, mw_job *job, mw_operator **out,
                              mw_error *error)
 {

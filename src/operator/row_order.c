@@ -1,13 +1,13 @@
-/* row_order.c - rows that read the same values come one after the other. */
+/* row_order.c - orders rows so that rows that read the same values follow each other. */
 #include "operator/row_order.h"
 
 #include "base/hilbert.h"
 
 #include <stdlib.h>
 
-enum { NEAR = 1024 }; /* keys that differ by less than this read about the same memory */
+enum { NEAR = 1024 }; /* rows whose keys differ by less than this read nearby memory */
 
-/* Whether at least seven of eight rows read near the row before them. */
+/* Do at least seven of eight rows read near the previous row? */
 static bool order_is_there(const uint32_t *key, uint32_t rows)
 {
     uint32_t far = 0, last = MW_NONE;

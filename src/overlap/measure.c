@@ -5,13 +5,14 @@
 
 #define MEASURE_DEGREE 0x1.1df46a2529d39p-6 /* pi / 180 */
 
-/* sin a - sin b, off by a few roundings of itself. */
+/* sin a - sin b, with a relative error of a few units in the last place. */
 static double measure_sine_difference(double a, double b)
 {
     return 2 * cos((a + b) / 2) * sin((a - b) / 2);
 }
 
-/* 1 - sin(x) / x. Below 1/8 the first term that is left out is less than 2^-53 of the first. */
+/* 1 - sin(x) / x. Below 1/8 by its series, whose first omitted term is less than 2^-53 of the first
+ * one. */
 static double measure_sinc_rest(double x)
 {
     double s = x * x;

@@ -3,11 +3,11 @@
 
 #include "segment/segment_parameter.h"
 
-/* Coordinates below this give areas and volumes that are doubles. */
+/* Areas and volumes do not overflow if coordinates are below this. */
 #define OVERLAP_FARTHEST 0x1p300
 
-/* The user's triangle as it is stored, with slots of vertices: its corners may be in another order,
- * and where triangles are cut, elsewhere. */
+/* The user's triangle as stored, with slots of vertices. A tile may have its corners in another
+ * order; if the triangle is cut into tiles, a tile may have other corners. */
 static const mw_triangle *tile_record(const mw_locator *locator, const mw_triangle *tile)
 {
     const mw_mesh *mesh = locator->mesh;

@@ -9,17 +9,17 @@ typedef struct mw_overlap_tile {
     mw_point p[3];      /* corners, counter-clockwise */
     uint32_t vertex[3]; /* their numbers */
     double value[3];
-    bool there;  /* it is no ghost, and its triangle has a finite value at each vertex */
+    bool there;  /* it is not a ghost, and its triangle has a finite value at each vertex */
     double area; /* 0 if it is not there */
 } mw_overlap_tile;
 
-/* Tile t with values of the user's vertices, one for each; NULL: no values, 0. Vertices at one
- * place may have different values: those of the user's own triangle count. Where that is cut into
- * tiles, a tile may have a corner that its triangle has not, whose value is between those of
- * others. */
+/* Tile t with the values of the user's vertices, one for each vertex; NULL: all values are 0.
+ * Coincident vertices may have different values: those of the user's triangle are taken. If the
+ * triangle is cut into tiles, a tile may have a corner that the triangle lacks; its value is
+ * interpolated. */
 mw_overlap_tile mw__overlap_tile(const mw_locator *locator, uint32_t t, const double *values);
 
-/* MW_ERROR_ARGUMENT unless the tiles of this locator are those of an embedding and fill its hull;
+/* Returns MW_ERROR_ARGUMENT unless the mesh is an embedding and its tiles fill the hull;
  * MW_ERROR_LIMIT if coordinates are so large that areas could overflow. */
 mw_status mw__overlap_check_locator(const mw_locator *locator, mw_error *error);
 

@@ -76,7 +76,7 @@ static bool overlap_take(mw_overlap_walk *walk, uint32_t *t)
 
 /* --- where it begins --- */
 
-/* From a tile that touches the triangle: the first one with an area in common, or MW_NONE. */
+/* Search from a tile that touches the triangle: the first tile with a common area, or MW_NONE. */
 static uint32_t overlap_search(mw_overlap_walk *walk, uint32_t from)
 {
     mw_point corner[3];
@@ -103,7 +103,7 @@ static bool overlap_is_near(const mw_overlap_walk *walk)
            fmax(fmax(p[0].y, p[1].y), p[2].y) >= l->low[1];
 }
 
-/* Where an edge of the triangle, whose corners are outside the hull, comes over the hull. */
+/* The tile where an edge of the triangle enters the hull, if its corners are outside. */
 static uint32_t overlap_over_hull(mw_overlap_walk *walk)
 {
     for (uint32_t k = 0; k < 3; k++) {
@@ -116,8 +116,8 @@ static uint32_t overlap_over_hull(mw_overlap_walk *walk)
     return MW_NONE;
 }
 
-/* A tile with an area in common, or MW_NONE. The tiles that touch the triangle are connected, so a
- * search from one of them finds what there is. */
+/* A tile with a common area, or MW_NONE. The tiles that touch the triangle are connected, so a
+ * search from any of them finds one if there is one. */
 static uint32_t overlap_first(mw_overlap_walk *walk)
 {
     if (!overlap_is_near(walk)) return MW_NONE;

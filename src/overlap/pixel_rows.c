@@ -10,7 +10,8 @@ static double pixel_y(const mw_remap_pixels *pixels, double row)
     return pixels->north - row * pixels->height;
 }
 
-/* The numbers of the cells from `low` to `high`, in widths of a cell, and one more at each end. */
+/* The numbers of the cells from `low` to `high`, which are in widths of a cell; and one more at
+ * each end. */
 static mw_pixel_range pixel_range(double low, double high, uint32_t count)
 {
     double first = floor(low) - 1, end = floor(high) + 2;
@@ -36,7 +37,7 @@ static double pixel_edge_x(mw_point a, mw_point b, double y)
 
 mw_pixel_range mw__pixel_columns(const mw_remap_pixels *pixels, const mw_point p[3], uint32_t row)
 {
-    /* A margin of a hundredth keeps what rounding moves over the row's edge. */
+    /* A margin of a hundredth of a row makes up for rounding. */
     double top = pixel_y(pixels, row - 0.01), bottom = pixel_y(pixels, row + 1.01);
     double low = INFINITY, high = -INFINITY;
     for (int k = 0; k < 3; k++) {

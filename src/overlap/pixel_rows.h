@@ -1,4 +1,4 @@
-/* pixel_rows.h - which pixels of a raster a triangle may have area in common with. Private. */
+/* pixel_rows.h - the pixels of a raster that a triangle may overlap. Private. */
 #ifndef MW_SRC_OVERLAP_PIXEL_ROWS_H
 #define MW_SRC_OVERLAP_PIXEL_ROWS_H
 
@@ -11,7 +11,7 @@ typedef struct mw_pixel_range {
     uint32_t first, end;
 } mw_pixel_range;
 
-/* One more than needed at each end: rounded quotients tell them, and clipping decides. */
+/* One more than needed at each end, because they come from rounded quotients; clipping decides. */
 mw_pixel_range mw__pixel_rows(const mw_remap_pixels *pixels, const mw_point p[3]);
 mw_pixel_range mw__pixel_columns(const mw_remap_pixels *pixels, const mw_point p[3], uint32_t row);
 

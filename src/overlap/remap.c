@@ -13,7 +13,10 @@
 
 enum { REMAP_CHUNK = 512 }; /* tiles */
 
-/* What cell or vertex i of the source gives to a cell: the area, or the integral of a hat
+/* Times round the sphere, either way, by which longitudes of two meshes may differ. */
+enum { REMAP_TURNS = 3 };
+
+/* The contribution of cell or vertex i of the source to a cell: the area, or the integral of a hat
  * function. */
 typedef struct remap_entry {
     uint32_t row, column;
@@ -29,8 +32,10 @@ typedef struct remap_work {
     const mw_remap_mesh *source, *mesh; /* mesh: the target; NULL: pixels */
     const mw_remap_pixels *pixels;
     const mw_remap_options *options;
-    mw_overlap_walk *walk; /* [member] */
-    remap_chunk *chunk;    /* [chunk] */
+    mw_overlap_walk *walk;             /* [member] */
+    remap_chunk *chunk;                /* [chunk] */
+    double shift[2 * REMAP_TURNS + 1]; /* what longitudes of the source get, to be the target's */
+    uint32_t shift_count;
     uint32_t rows, columns;
     atomic_bool no_memory;
 } remap_work;
@@ -105,6 +110,14 @@ static void remap_add_pixels(remap_work *w, remap_chunk *chunk, uint32_t t,
     }
 }
 
+/* The tile, moved along its parallel. False if rounding leaves no area of it. */
+static bool remap_shift(mw_overlap_tile *p, double shift)
+{
+    if (shift == 0) return true;
+    for (int k = 0; k < 3; k++) p->p[k].x += shift;
+    return mw__orient2d(p->p[0], p->p[1], p->p[2]) > 0;
+}
+
 static void remap_add_chunk(void *work, uint64_t number, uint32_t member)
 {
     remap_work *w = work;
@@ -115,11 +128,14 @@ static void remap_add_chunk(void *work, uint64_t number, uint32_t member)
     if (walk) mw__overlap_walk_forget(walk);
     for (uint64_t t = first; t < first + REMAP_CHUNK && t < n && !w->no_memory; t++) {
         mw_overlap_tile p = mw__overlap_tile(source, (uint32_t)t, NULL);
-        if (!p.there) continue;
-        if (walk)
-            remap_add_tiles(w, chunk, walk, (uint32_t)t, &p);
-        else
-            remap_add_pixels(w, chunk, (uint32_t)t, &p);
+        for (uint32_t i = 0; i < w->shift_count && p.there; i++) {
+            mw_overlap_tile at = p;
+            if (!remap_shift(&at, w->shift[i])) continue;
+            if (walk)
+                remap_add_tiles(w, chunk, walk, (uint32_t)t, &at);
+            else
+                remap_add_pixels(w, chunk, (uint32_t)t, &at);
+        }
     }
     if (walk && walk->no_memory) atomic_store_explicit(&w->no_memory, true, memory_order_relaxed);
 }
@@ -148,13 +164,13 @@ static void remap_sum_pixels(const mw_remap_pixels *pixels, bool degrees, double
         }
 }
 
-/* Sums of entries become fractions of areas. */
+/* Turn sums of entries into fractions of areas. */
 static void remap_divide(double *fraction, const double *area, uint32_t n)
 {
     for (uint32_t i = 0; i < n; i++) fraction[i] = area[i] > 0 ? fmin(fraction[i] / area[i], 1) : 0;
 }
 
-/* Sort entries by row, or by column; those of one key stay in their order. */
+/* Sort entries by row or by column; entries with equal keys keep their order. */
 static bool remap_sort(const remap_entry *from, remap_entry *to, size_t n, bool by_row,
                        uint32_t keys)
 {
@@ -181,7 +197,7 @@ static size_t remap_merge(remap_entry *entry, size_t n)
     return kept;
 }
 
-/* All entries by rows, and within a row by columns, each pair once. False without memory. */
+/* Sort all entries by row, then by column, and merge equal pairs. False when out of memory. */
 static bool remap_join(remap_work *w, uint64_t chunks, remap_entry **entry, size_t *n)
 {
     size_t count = 0, at = 0;
@@ -291,6 +307,45 @@ static mw_status remap_run(remap_work *w, mw_remap *out, mw_job *job, mw_error *
     return status;
 }
 
+/* --- longitudes --- */
+
+/* By how many turns longitudes of the source become those of the target: 10 is 370, and -350. */
+static void remap_find_shifts(remap_work *w, double west, double east)
+{
+    const mw_locator *source = w->source->locator;
+    w->shift_count = 0;
+    for (int turn = -REMAP_TURNS; w->options->degrees && turn <= REMAP_TURNS; turn++)
+        if (source->low[0] + 360 * turn < east && source->high[0] + 360 * turn > west)
+            w->shift[w->shift_count++] = 360 * turn;
+    if (w->shift_count == 0) w->shift[w->shift_count++] = 0;
+}
+
+static mw_status remap_check_round(double west, double east, double rounding, mw_error *error)
+{
+    if (fabs(west) > 720 || fabs(east) > 720)
+        return mw__fail(error, MW_ERROR_INPUT, "longitudes from %g to %g: they end at 720 degrees",
+                        west, east);
+    if (east - west <= 360 + rounding) return MW_OK;
+    return mw__fail(error, MW_ERROR_INPUT,
+                    "longitudes from %g to %g go round the sphere more than once", west, east);
+}
+
+/* A triangle across the meridian of 180 degrees, with longitudes on both sides of it. */
+static mw_status remap_check_seam(const mw_mesh *mesh, mw_error *error)
+{
+    for (uint32_t t = 0; t < mesh->tri_count; t++) {
+        const uint32_t *v = mesh->tri[t].v;
+        double a = mesh->point[v[0]].x, b = mesh->point[v[1]].x, c = mesh->point[v[2]].x;
+        double width = fmax(fmax(a, b), c) - fmin(fmin(a, b), c);
+        if (width > 180)
+            return mw__fail(error, MW_ERROR_INPUT,
+                            "triangle %u has longitudes that differ by %g degrees: if it crosses "
+                            "the meridian of 180 degrees, count them from 0 to 360",
+                            mw__triangle_number(mesh, t), width);
+    }
+    return MW_OK;
+}
+
 /* --- what is refused --- */
 
 static mw_status remap_check_mesh(const mw_remap_mesh *mesh, bool degrees, mw_error *error)
@@ -303,6 +358,9 @@ static mw_status remap_check_mesh(const mw_remap_mesh *mesh, bool degrees, mw_er
     if (degrees && (l->low[1] < -90 || l->high[1] > 90))
         return mw__fail(error, MW_ERROR_INPUT, "latitudes from %g to %g: they end at 90 degrees",
                         l->low[1], l->high[1]);
+    if (degrees) status = remap_check_round(l->low[0], l->high[0], 0x1p-30, error);
+    if (degrees && !status) status = remap_check_seam(l->mesh, error);
+    if (status) return status;
     if (mesh->face_count >= MW_NONE)
         return mw__fail(error, MW_ERROR_LIMIT, "%zu faces are too many", mesh->face_count);
     for (uint32_t t = 0; t < l->tiling.tri_count && mesh->face; t++)
@@ -312,7 +370,8 @@ static mw_status remap_check_mesh(const mw_remap_mesh *mesh, bool degrees, mw_er
     return MW_OK;
 }
 
-/* A pixel needs corners that differ well, and a latitude. */
+/* The corners of a pixel must be different doubles, and with degrees its latitudes must be valid.
+ */
 static mw_status remap_check_pixels(const mw_remap_pixels *p, bool degrees, mw_error *error)
 {
     if (!p || !(p->width > 0) || !(p->height > 0) || !isfinite(p->west) || !isfinite(p->north) ||
@@ -328,7 +387,7 @@ static mw_status remap_check_pixels(const mw_remap_pixels *p, bool degrees, mw_e
     if (degrees && (p->north > 90 + p->height * 0x1p-20 || south < -90 - p->height * 0x1p-20))
         return mw__fail(error, MW_ERROR_INPUT, "latitudes from %g to %g: they end at 90 degrees",
                         south, p->north);
-    return MW_OK;
+    return degrees ? remap_check_round(p->west, east, p->width * 0x1p-10, error) : MW_OK;
 }
 
 static uint32_t remap_cells(const mw_remap_mesh *mesh)
@@ -363,7 +422,9 @@ mw_status mw_remap_to_mesh(const mw_remap_mesh *source, const mw_remap_mesh *tar
     remap_work work = {.source = source, .mesh = target, .options = options};
     mw_status status = remap_begin(&work, remap, error);
     if (!status) status = remap_check_mesh(target, work.options->degrees, error);
-    return status ? status : remap_produce(&work, remap, error);
+    if (status) return status;
+    remap_find_shifts(&work, target->locator->low[0], target->locator->high[0]);
+    return remap_produce(&work, remap, error);
 }
 
 mw_status mw_remap_to_pixels(const mw_remap_mesh *source, const mw_remap_pixels *target,
@@ -372,7 +433,9 @@ mw_status mw_remap_to_pixels(const mw_remap_mesh *source, const mw_remap_pixels 
     remap_work work = {.source = source, .pixels = target, .options = options};
     mw_status status = remap_begin(&work, remap, error);
     if (!status) status = remap_check_pixels(target, work.options->degrees, error);
-    return status ? status : remap_produce(&work, remap, error);
+    if (status) return status;
+    remap_find_shifts(&work, target->west, target->west + target->columns * target->width);
+    return remap_produce(&work, remap, error);
 }
 
 void mw_remap_release(mw_remap *remap)

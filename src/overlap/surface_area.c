@@ -18,7 +18,7 @@ typedef struct surface_work {
     atomic_bool no_memory;
 } surface_work;
 
-/* How much larger the tile is than its image in the plane. */
+/* The area of the tile in space divided by its area in the plane. */
 static double surface_slope(const mw_overlap_tile *t)
 {
     double ax = t->p[1].x - t->p[0].x, ay = t->p[1].y - t->p[0].y, az = t->value[1] - t->value[0],

@@ -22,7 +22,7 @@ enum {
     VOLUME_SUMS
 };
 
-/* Sums with what rounding leaves, so that a million small terms lose no more than one. */
+/* Compensated sums: a million small terms lose no more than one. */
 typedef struct volume_sums {
     double sum[VOLUME_SUMS], rest[VOLUME_SUMS];
     uint64_t parts;
@@ -46,8 +46,8 @@ static MW_INLINE void volume_add(volume_sums *s, int which, double value)
 
 /* --- one triangle --- */
 
-/* A triangle where the surface is d[k] above the other at corner k: d[0] on one side, the others on
- * the other side or 0. It is cut where d is 0, into three triangles. */
+/* A triangle in which the surface is d[k] above the other at corner k. d[0] has one sign; the
+ * others have the opposite sign or are 0. The line where d is 0 cuts it into three triangles. */
 static void volume_add_cut(volume_sums *s, double area, double u, double v, double w)
 {
     double to_v = u / (u - v), to_w = u / (u - w); /* where d is 0, from corner 0 */
@@ -69,7 +69,7 @@ static void volume_add_triangle(volume_sums *s, double area, double u, double v,
         volume_add(s, above ? VOLUME_CUT : VOLUME_FILL, area * fabs(u + v + w) / 3);
         volume_add(s, above ? VOLUME_CUT_AREA : VOLUME_FILL_AREA, area);
     } else {
-        int side = above == 1 ? 1 : -1; /* the sign that one corner has alone */
+        int side = above == 1 ? 1 : -1; /* the sign that only one corner has */
         if (u * side > 0) volume_add_cut(s, area, u, v, w);
         if (v * side > 0) volume_add_cut(s, area, v, w, u);
         if (w * side > 0) volume_add_cut(s, area, w, u, v);
@@ -137,7 +137,7 @@ static void volume_add_other_chunk(void *work, uint64_t chunk, uint32_t member)
                    mw__overlap_tile(w->other, (uint32_t)t, w->other_heights).area);
 }
 
-/* The area of the whole less the part that both have; what rounding leaves of nothing is 0. */
+/* The area of the whole minus the common part; a remainder within rounding is 0. */
 static double volume_only(double whole, double common)
 {
     return whole - common > whole * 0x1p-44 ? whole - common : 0;

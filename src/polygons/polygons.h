@@ -26,7 +26,7 @@
 
 #include <meshwalk/polygons.h>
 
-/* A segment that is no chain of edges. */
+/* A segment that is not a chain of edges. */
 typedef struct mw_polygon_chord {
     mw_point a, b;
     uint32_t rank; /* of its polygon */

@@ -7,10 +7,25 @@
  * these integers have few limbs and cost less than expansions of so high a degree. */
 #include "predicates/line.h"
 #include "predicates/big.h"
+#include "predicates/error_free.h"
 #include "predicates/expansion.h"
 
 #include <limits.h>
 #include <stdlib.h>
+
+/* --- the line --- */
+
+bool mw__line_through(const double q[3], const double r[3], mw_line *line)
+{
+    bool some = false, finite = true;
+    for (int k = 0; k < 3; k++) {
+        line->q[k] = q[k];
+        line->m[k] = mw__two_sum(r[k], -q[k], &line->tail[k]);
+        some = some || line->m[k] != 0;
+        finite = finite && isfinite(line->m[k]);
+    }
+    return some && finite;
+}
 
 /* --- sides --- */
 
@@ -19,13 +34,13 @@
 #define LOW 0x1p-306
 #define HIGH 0x1p339
 
-/* A term has 16 * 1 * 2 = 32 parts, and takes room for a cross product and twice its own. */
-#define TERM_PARTS 32
+/* A term has 16 * 2 * 2 = 64 parts, and takes room for a cross product and twice its own. */
+#define TERM_PARTS 64
 #define TERM_ROOM (MW_CROSS_ROOM + 2 * TERM_PARTS)
 
 static double side_with_expansions(const mw_line *line, const double a[3], const double b[3])
 {
-    double room[12 + 3 * TERM_ROOM + 6 * TERM_PARTS];
+    double room[18 + 3 * TERM_ROOM + 6 * TERM_PARTS];
     mw_arena arena = {room};
     mw_expansion p[3], r[3], sum = {room, 0};
     for (int k = 0; k < 3; k++) {
@@ -34,7 +49,7 @@ static double side_with_expansions(const mw_line *line, const double a[3], const
     }
     for (int k = 0; k < 3; k++) {
         int i = (k + 1) % 3, j = (k + 2) % 3;
-        mw_expansion m = {line->m + k, line->m[k] != 0},
+        mw_expansion m = mw__expansion_difference(&arena, line->m[k], -line->tail[k]),
                      minor = mw__expansion_cross(&arena, p[i], p[j], r[i], r[j]);
         sum = mw__expansion_add(&arena, sum, mw__expansion_multiply(&arena, minor, m));
     }
@@ -63,27 +78,35 @@ static void add_term(mw_big *r, const mw_big *minor, double a, double b, int bas
     mw__big_add(r, r, &term);
 }
 
+/* The base of m and its tail. */
+static int motion_base(const mw_line *line)
+{
+    const double *m = line->m, *tail = line->tail,
+                 v[6] = {m[0], m[1], m[2], tail[0], tail[1], tail[2]};
+    return mw__big_base(v, 6);
+}
+
 /* The side is *r * 2^(the exponent returned). */
 static int big_side(mw_big *r, const mw_line *line, const double a[3], const double b[3])
 {
     const double *q = line->q, v[9] = {q[0], q[1], q[2], a[0], a[1], a[2], b[0], b[1], b[2]};
-    int base = mw__big_base(v, 9), motion = mw__big_base(line->m, 3);
+    int base = mw__big_base(v, 9), motion = motion_base(line);
     mw_big from[3], to[3], minor;
     big_vector(from, a, q, base);
     big_vector(to, b, q, base);
     r->sign = r->n = 0;
     for (int k = 0; k < 3; k++) {
         big_minor(&minor, from, to, k);
-        add_term(r, &minor, line->m[k], 0, motion);
+        add_term(r, &minor, line->m[k], -line->tail[k], motion);
     }
     return 2 * base + motion;
 }
 
 double mw__side_exact(const mw_line *line, const double a[3], const double b[3])
 {
-    const double *const all[4] = {line->q, line->m, a, b};
+    const double *const all[5] = {line->q, line->m, line->tail, a, b};
     bool within = true, finite = true;
-    for (int i = 0; i < 4; i++) {
+    for (int i = 0; i < 5; i++) {
         within = within && mw__within(all[i], 3, LOW, HIGH);
         finite = finite && mw__all_finite(all[i], 3);
     }
@@ -125,7 +148,7 @@ static double rounded_n(const mw_line *line, const mw_corners s, double *bound)
 
 static double rounded_m(const mw_line *line, const mw_corners s, double *bound)
 {
-    mw_line through = {{s[0][0], s[0][1], s[0][2]}, {line->m[0], line->m[1], line->m[2]}};
+    mw_line through = {{s[0][0], s[0][1], s[0][2]}, {line->m[0], line->m[1], line->m[2]}, {0}};
     return mw__side_rounded(&through, s[1], s[2], bound);
 }
 
@@ -155,7 +178,7 @@ static void big_hit(hit *h, const mw_line *line, const mw_corners s, int base, i
     for (int k = 0; k < 3; k++) {
         big_minor(&minor, u, v, k);
         add_term(&h->n, &minor, s[0][k], line->q[k], base);
-        add_term(&h->m, &minor, line->m[k], 0, motion);
+        add_term(&h->m, &minor, line->m[k], -line->tail[k], motion);
     }
 }
 
@@ -185,7 +208,7 @@ static int compare_products(const mw_big *a, const mw_big *b, const mw_big *c, c
 static int compare_hits_exact(const mw_line *line, const mw_corners s, const mw_corners t)
 {
     hit p, r;
-    int base = common_base(line, s, t, 0), motion = mw__big_base(line->m, 3);
+    int base = common_base(line, s, t, 0), motion = motion_base(line);
     big_hit(&p, line, s, base, motion);
     big_hit(&r, line, t, base, motion);
     return compare_products(&p.n, &r.m, &r.n, &p.m);
@@ -199,13 +222,13 @@ int mw__compare_hits(const mw_line *line, const mw_corners s, const mw_corners t
     return compare_hits_exact(line, s, t);
 }
 
-/* r = |m|^2 / 2^(2 motion) */
-static void big_square_length(mw_big *r, const double m[3], int motion)
+/* r = |m + tail|^2 / 2^(2 motion) */
+static void big_square_length(mw_big *r, const mw_line *line, int motion)
 {
     mw_big part, square;
     r->sign = r->n = 0;
     for (int k = 0; k < 3; k++) {
-        mw__big_difference(&part, m[k], 0, motion);
+        mw__big_difference(&part, line->m[k], -line->tail[k], motion);
         mw__big_multiply(&square, &part, &part);
         mw__big_add(r, r, &square);
     }
@@ -216,18 +239,18 @@ static int compare_hit_to_exact(const mw_line *line, const mw_corners s, double 
 {
     hit h;
     mw_big length, squares[2];
-    int base = common_base(line, s, s, d), motion = mw__big_base(line->m, 3);
+    int base = common_base(line, s, s, d), motion = motion_base(line);
     big_hit(&h, line, s, base, motion);
     mw__big_multiply(&squares[0], &h.n, &h.n);
     mw__big_multiply(&squares[1], &h.m, &h.m);
-    big_square_length(&h.n, line->m, motion);
+    big_square_length(&h.n, line, motion);
     mw__big_difference(&length, d, 0, base);
     mw__big_multiply(&h.m, &length, &length);
     return compare_products(&squares[0], &h.n, &h.m, &squares[1]);
 }
 
-/* Where |m|^2 lies here, its rounding errors are relative ones: less than 3u, and of the root
- * 3u. */
+/* Where |m|^2 lies here, its rounding errors are relative ones: less than 3u, 2u by the tails, and
+ * of the root 4u. */
 #define SHORT 0x1p-900
 #define LONG 0x1p1000
 
@@ -275,7 +298,7 @@ static void exact_quotient(const mw_line *line, const mw_corners s, double fract
                            int exponent[2])
 {
     hit h;
-    int base = common_base(line, s, s, 0), motion = mw__big_base(line->m, 3);
+    int base = common_base(line, s, s, 0), motion = motion_base(line);
     big_hit(&h, line, s, base, motion);
     fraction[0] = mw__big_fraction(&h.n, &exponent[0]);
     fraction[1] = mw__big_fraction(&h.m, &exponent[1]);
@@ -336,21 +359,72 @@ static void exact_sides(const mw_line *line, const mw_corners s, double side[3])
 #define WEIGHT_FINE 0x1p-44
 #define LEAST_SUM 0x1p-900
 #define MOST_SUM 0x1p900
+/* For these no product of two coordinates of interest over- or underflows. */
+#define LEAST_NEAR_SUM 0x1p-200
+#define MOST_NEAR_SUM 0x1p200
+
+/* A vector to each corner from the point p of the line near the triangle. From q they would be much
+ * longer than the triangle, and the sides small differences of large products. p = q + t (m + tail)
+ * + off, where t is a rounded N / M and `off` is what rounding leaves; corners are p + head + tail.
+ * So each coordinate below is off by 2u of itself, and by 2^-100 of the largest coordinate. */
+static void corners_from_line(const mw_line *line, const mw_corners s, double from[3][3])
+{
+    double bound, t = rounded_n(line, s, &bound) / rounded_m(line, s, &bound);
+    for (int k = 0; k < 3; k++) {
+        double product_tail, sum_tail, product = mw__two_product(t, line->m[k], &product_tail);
+        double p = mw__two_sum(line->q[k], product, &sum_tail);
+        double off = sum_tail + (product_tail + t * line->tail[k]);
+        for (int i = 0; i < 3; i++) {
+            double tail, head = mw__two_sum(s[i][k], -p, &tail);
+            from[i][k] = head + (tail - off);
+        }
+    }
+}
+
+/* Magnitudes of the sides from there, with a bound of their errors: that of mw__side_rounded is
+ * about doubled by 2u for each coordinate, and q adds FAR_ERROR of the coordinates. */
+#define FAR_ERROR 0x1p-96
+static double near_sides(const mw_line *line, const mw_corners s, double side[3])
+{
+    double from[3][3], most = 0, length = 0, extent = 0, farthest = 0;
+    mw_line through = {{0}, {line->m[0], line->m[1], line->m[2]}, {0}};
+    corners_from_line(line, s, from);
+    for (int k = 0; k < 3; k++) {
+        double bound;
+        side[k] = fabs(mw__side_rounded(&through, from[(k + 1) % 3], from[(k + 2) % 3], &bound));
+        most = fmax(most, bound);
+        length += fabs(line->m[k]);
+        farthest = fmax(farthest, fabs(line->q[k]));
+        for (int i = 0; i < 3; i++) {
+            extent = fmax(extent, fabs(from[i][k]));
+            farthest = fmax(farthest, fabs(s[i][k]));
+        }
+    }
+    return 2 * most + length * extent * farthest * FAR_ERROR;
+}
 
 void mw__hit_sides(const mw_line *line, const mw_corners s, double side[3])
 {
-    double bound[3], sum = 0;
+    double bound[3], sum = 0, near[3];
+    bool exact[3];
     for (int k = 0; k < 3; k++) {
         const double *a = s[(k + 1) % 3], *b = s[(k + 2) % 3];
         side[k] = fabs(mw__side_rounded(line, a, b, &bound[k]));
-        if (!(side[k] > bound[k])) {
+        exact[k] = !(side[k] > bound[k]);
+        if (exact[k]) {
             side[k] = fabs(mw__side_exact(line, a, b));
             bound[k] = 0;
         }
         sum += side[k];
     }
     double most = fmax(fmax(bound[0], bound[1]), bound[2]);
-    if (!(most <= WEIGHT_FINE * sum && sum >= LEAST_SUM && sum <= MOST_SUM))
+    if (most <= WEIGHT_FINE * sum && sum >= LEAST_SUM && sum <= MOST_SUM) return;
+    most = near_sides(line, s, near);
+    sum = 0;
+    for (int k = 0; k < 3; k++) sum += near[k] = exact[k] ? side[k] : near[k];
+    if (most <= WEIGHT_FINE * sum && sum >= LEAST_NEAR_SUM && sum <= MOST_NEAR_SUM)
+        for (int k = 0; k < 3; k++) side[k] = near[k];
+    else
         exact_sides(line, s, side);
 }
 

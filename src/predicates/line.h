@@ -1,5 +1,5 @@
 /* line.h - a line in space against edges and triangles, exactly: through a point q along a vector
- * m. Private.
+ * m, or through two points. Private.
  *
  * Seen along m, everything is planar: an edge ab passes the line on one side or on the other, and
  * the line meets a triangle where it passes all its three edges on the same side. */
@@ -8,20 +8,27 @@
 
 #include "predicates/predicates.h"
 
+/* The vector is m + tail: a vector between two points may take two doubles a coordinate. All are
+ * finite, m is not zero, and each coordinate of m is the sum of its two doubles, rounded. */
 typedef struct mw_line {
-    double q[3], m[3]; /* all finite, m not zero */
+    double q[3], m[3], tail[3];
 } mw_line;
+
+/* The line from q to r, at t = 0 and t = 1. False if a difference of coordinates overflows, or the
+ * points are equal. */
+bool mw__line_through(const double q[3], const double r[3], mw_line *line);
 
 /* The exact stage of mw__side: 0 with a coordinate that is not finite. */
 double mw__side_exact(const mw_line *line, const double a[3], const double b[3]);
 
 /* Bound for m . ((a - q) x (b - q)) in terms of its permanent. A minor is off by (4u + 4u^2 + ...)
- * P, as in orient3d; m is exact, so the product with it, rounded, is off by (5u + 8u^2 + ...) |m|
- * P, which is (5u + 18u^2 + ...) of its computed permanent. The first sum adds u and a factor 1 +
- * u: 6u + 23u^2; the sum of the permanents and the last rounding make it 6u + 35u^2 + .... (6u +
- * 64u^2)(1 - u)^2 is more. Underflow: an error of 2^-1075 in each of six products is multiplied by
- * a coordinate of m, and 2^-1075 added; with the sum of m below 2^100 that is less than 2^-970. */
-#define MW_SIDE_ERROR ((6.0 + 64.0 * 0x1p-53) * 0x1p-53)
+ * P, as in orient3d; m is off by u |m| without its tail, so the product with it, rounded, is off by
+ * (6u + 14u^2 + ...) |m| P, which is (6u + 26u^2 + ...) of its computed permanent. The first sum
+ * adds u and a factor 1 + u: 7u + 32u^2; the sum of the permanents and the last rounding make it 7u
+ * + 46u^2 + .... (7u + 64u^2)(1 - u)^2 is more. Underflow: an error of 2^-1075 in each of six
+ * products is multiplied by a coordinate of m, and 2^-1075 added; with the sum of m below 2^100
+ * that is less than 2^-970. */
+#define MW_SIDE_ERROR ((7.0 + 64.0 * 0x1p-53) * 0x1p-53)
 #define MW_SIDE_MOTION 0x1p100
 
 /* m . ((a - q) x (b - q)) as rounded. Its sign is sure where its magnitude is above *bound. */
@@ -52,7 +59,7 @@ static MW_INLINE double mw__side(const mw_line *line, const double a[3], const d
 static MW_INLINE double mw__facing(const double m[3], const double a[3], const double b[3],
                                    const double c[3])
 {
-    mw_line line = {{a[0], a[1], a[2]}, {m[0], m[1], m[2]}};
+    mw_line line = {{a[0], a[1], a[2]}, {m[0], m[1], m[2]}, {0}};
     return mw__side(&line, b, c);
 }
 

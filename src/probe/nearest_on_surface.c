@@ -10,6 +10,7 @@
  * triangle is at least that of its own box (distance_to_corners_box). So a box at a rounded
  * distance from q has no triangle at a smaller one, except for the few roundings that REACH_ERROR
  * covers. */
+#include "probe/bvh_beam.h"
 #include "probe/prober.h"
 
 /* --- vectors --- */
@@ -282,7 +283,7 @@ static mw_nearest_surface_point nearest_of_triangle(const mw_corners corner, con
 
 /* --- the search --- */
 
-/* Bounds are in the frame of the BVH and rounded as for lines (probe_certain.c). The distance of a
+/* Bounds are in the frame of the BVH and rounded as for lines (bvh_beam.h). The distance of a
  * box of either kind is off by less than 2^-48 of itself. */
 #define REACH_ERROR (1 + 0x1p-40)
 
@@ -300,16 +301,21 @@ static void nearest_set_reach(nearest_search *s, double distance)
     s->reach = (distance + MW_BVH_TINY_LENGTH) * scale * REACH_ERROR + MW_BVH_LEAST_WIDTH;
 }
 
-/* A lower bound of the distance of q to everything in a box. */
-static double bvh_box_distance(const nearest_search *s, const mw_bvh_box *box)
+/* Lower bounds of the distances of q to everything in the boxes of the children. In doubles: a
+ * point may be far from the surface. */
+static void node_distances(const nearest_search *s, const mw_bvh_node *node,
+                           double distance[MW_BVH_WIDTH])
 {
-    double square = 0;
-    for (int k = 0; k < 3; k++) {
-        double below = (double)box->low[k] - s->q[k], above = s->q[k] - (double)box->high[k];
-        double away = (below > above ? below : above) - s->width;
-        if (away > 0) square += away * away;
+    for (uint32_t i = 0; i < MW_BVH_WIDTH; i++) {
+        double square = 0;
+        for (int k = 0; k < 3; k++) {
+            double below = (double)node->low[k][i] - s->q[k],
+                   above = s->q[k] - (double)node->high[k][i];
+            double away = (below > above ? below : above) - s->width;
+            square += away > 0 ? away * away : 0;
+        }
+        distance[i] = sqrt(square);
     }
-    return sqrt(square);
 }
 
 static void nearest_look_at_triangle(nearest_search *s, uint32_t t)
@@ -329,21 +335,20 @@ static void nearest_look_at_triangle(nearest_search *s, uint32_t t)
     nearest_set_reach(s, hit.distance);
 }
 
-static void nearest_look_into(nearest_search *s, mw_bvh_stack *stack, mw_bvh_visit visit)
+/* A visit keeps its distance as a float that is not greater. */
+static void nearest_look_into(nearest_search *s, mw_bvh_stack *stack, uint32_t visited)
 {
-    const mw_bvh *bvh = &s->prober->bvh;
-    uint32_t first, end = mw__bvh_children(bvh, visit.level, visit.box, &first),
-                    floor = stack->count;
-    if (visit.level == 0) {
-        for (uint32_t i = first; i < end; i++)
-            nearest_look_at_triangle(s, mw__bvh_triangle(bvh, i));
-        return;
-    }
-    mw_bvh_visit below = {0, visit.level - 1, 0};
-    for (below.box = first; below.box < end; below.box++) {
-        below.near = bvh_box_distance(s, mw__bvh_box_at(bvh, below.level, below.box));
-        if (below.near <= s->reach) mw__bvh_push(stack, floor, below);
-    }
+    const mw_bvh_node *node = &s->prober->bvh.node[visited];
+    double distance[MW_BVH_WIDTH];
+    uint32_t floor = stack->count;
+    node_distances(s, node, distance);
+    for (uint32_t i = 0; i < MW_BVH_WIDTH; i++)
+        if ((node->child[i] & MW_BVH_TRIANGLE) && node->child[i] != MW_NONE &&
+            distance[i] <= s->reach)
+            nearest_look_at_triangle(s, node->child[i] & ~MW_BVH_TRIANGLE);
+    for (uint32_t i = 0; i < MW_BVH_WIDTH; i++)
+        if (!(node->child[i] & MW_BVH_TRIANGLE) && distance[i] <= s->reach)
+            mw__bvh_push(stack, floor, (mw_bvh_visit){mw__float_down(distance[i]), node->child[i]});
 }
 
 static void nearest_search_bvh(nearest_search *s)
@@ -351,10 +356,12 @@ static void nearest_search_bvh(nearest_search *s)
     const mw_prober *prober = s->prober;
     s->width = mw__bvh_aim(&prober->bvh, s->point, prober->slack, s->q);
     nearest_set_reach(s, s->max_distance);
-    mw_bvh_stack stack = {.count = 1, .visit[0] = {0, prober->bvh.level_count - 1, 0}};
+    mw_bvh_stack stack;
+    stack.count = 1;
+    stack.visit[0] = (mw_bvh_visit){0, 0};
     while (stack.count) {
         mw_bvh_visit visit = stack.visit[--stack.count];
-        if (visit.near <= s->reach) nearest_look_into(s, &stack, visit);
+        if ((double)visit.near <= s->reach) nearest_look_into(s, &stack, visit.node);
     }
 }
 

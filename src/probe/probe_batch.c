@@ -6,6 +6,7 @@
 #include "base/job.h"
 #include "base/random.h"
 #include "probe/plane_walk.h"
+#include "probe/ray.h"
 
 #include <pthread.h>
 
@@ -24,7 +25,12 @@ static mw_probe_counters probe_batch_answer(const probe_batch *b, size_t first)
 {
     mw_probe_cursor cursor = b->cursor;
     size_t end = b->n - first < CHUNK ? b->n : first + CHUNK;
-    for (size_t i = first; i < end; i++) {
+    for (size_t i = first; cursor.options.certain && i < end; i += MW_RAYS_AT_A_TIME) {
+        uint32_t n = (uint32_t)(end - i < MW_RAYS_AT_A_TIME ? end - i : MW_RAYS_AT_A_TIME);
+        mw__probe_certain_group(b->prober, &cursor, b->queries + i * b->stride, b->stride, n,
+                                b->touches + i);
+    }
+    for (size_t i = first; !cursor.options.certain && i < end; i++) {
         const double *query = b->queries + i * b->stride;
         cursor.random = mw__random_seed(b->seed, i);
         b->touches[i] = mw_probe(b->prober, &cursor, query, query + 3);

@@ -3,6 +3,7 @@
 #include "base/random.h"
 #include "base/options.h"
 #include "probe/plane_walk.h"
+#include "probe/ray.h"
 
 enum {
     ITERATIONS = 10, /* as in the thesis */
@@ -23,6 +24,18 @@ const char *mw_probe_start_name(mw_probe_start start)
 {
     static const char *const names[MW_PROBE_START_COUNT] = {"auto", "last", "sample", "random"};
     return (unsigned)start < MW_PROBE_START_COUNT ? names[start] : NULL;
+}
+
+const char *mw_probe_faces_name(mw_probe_faces faces)
+{
+    static const char *const names[MW_PROBE_FACES_COUNT] = {"front", "back", "both"};
+    return (unsigned)faces < MW_PROBE_FACES_COUNT ? names[faces] : NULL;
+}
+
+const char *mw_probe_extent_name(mw_probe_extent extent)
+{
+    static const char *const names[MW_PROBE_EXTENT_COUNT] = {"line", "ray", "segment"};
+    return (unsigned)extent < MW_PROBE_EXTENT_COUNT ? names[extent] : NULL;
 }
 
 /* --- counters --- */
@@ -57,6 +70,25 @@ static mw_probe_options probe_options_resolve(const mw_probe_options *options,
     return all;
 }
 
+/* Options that only certain probes have. */
+static mw_status probe_check_ray(const mw_probe_options *options, mw_error *error)
+{
+    bool limited = options->max_distance > 0;
+    if ((unsigned)options->faces >= MW_PROBE_FACES_COUNT ||
+        (unsigned)options->extent >= MW_PROBE_EXTENT_COUNT)
+        return mw__fail(error, MW_ERROR_ARGUMENT, "unknown faces or extent");
+    if (!(options->min_distance >= 0) || isinf(options->min_distance) ||
+        (limited && options->min_distance > options->max_distance))
+        return mw__fail(
+            error, MW_ERROR_ARGUMENT,
+            "the least distance must be finite, at least 0, and not above the greatest");
+    if (!options->certain && (options->min_distance > 0 || options->faces != MW_PROBE_FRONT ||
+                              options->extent != MW_PROBE_LINE))
+        return mw__fail(error, MW_ERROR_ARGUMENT,
+                        "a least distance, faces and an extent need certain probes");
+    return MW_OK;
+}
+
 mw_status mw_probe_cursor_init(const mw_prober *prober, const mw_probe_options *options,
                                mw_probe_cursor *cursor, mw_error *error)
 {
@@ -71,7 +103,8 @@ mw_status mw_probe_cursor_init(const mw_prober *prober, const mw_probe_options *
     if (options->certain && !prober->has_bvh)
         return mw__fail(error, MW_ERROR_ARGUMENT,
                         "certain probes need a prober with options.boxes");
-    mw_status status = MW_RESERVED_CHECK(mw_probe_options, options, error);
+    mw_status status = probe_check_ray(options, error);
+    if (status == MW_OK) status = MW_RESERVED_CHECK(mw_probe_options, options, error);
     if (status) return status;
     *cursor = (mw_probe_cursor){
         .options = probe_options_resolve(options, prober->surface),
@@ -111,7 +144,7 @@ static mw_probe_search probe_plan(const mw_prober *prober, mw_probe_cursor *curs
     const mw_probe_options *options = &cursor->options;
     return (mw_probe_search){
         .surface = prober->surface,
-        .line = {{q[0], q[1], q[2]}, {m[0], m[1], m[2]}},
+        .line = {{q[0], q[1], q[2]}, {m[0], m[1], m[2]}, {0}},
         .reach = options->max_distance > 0 ? options->max_distance : INFINITY,
         .last = probe_is_coherent(prober, cursor, q) ? cursor->last : MW_NONE,
         .samples = options->samples,
@@ -140,19 +173,69 @@ static mw_touch probe_answer_published(const mw_probe_search *search, mw_probe_c
     return mw__touch_of_lowest(search->surface, &search->line, t);
 }
 
-static mw_touch probe_answer_certain(const mw_prober *prober, mw_probe_search *search,
-                                     double max_distance, mw_probe_counters *work,
-                                     mw_probe_trace *trace)
+/* The first bound of a certain probe: a short walk from the triangle touched last, which only finds
+ * fronts on a line; or that triangle. */
+static void probe_guess(mw_ray_search *search, const mw_probe_cursor *cursor, mw_probe_search *walk,
+                        mw_probe_counters *work, mw_probe_trace *trace)
 {
-    if (!prober->has_bvh || prober->version != search->surface->version)
-        return mw__touch_none(MW_TOUCH_BAD);
-    uint32_t seed = MW_NONE;
-    search->steps = SEED_STEPS < search->steps ? SEED_STEPS : search->steps;
-    if (search->last != MW_NONE && mw__probe_faces(search, search->last, work))
-        seed = mw__probe_search_from(search, 0, search->last, NULL, work, trace);
-    uint32_t t = mw__probe_certain(prober, &search->line, max_distance, seed, work);
-    return t == MW_NONE ? mw__touch_none(MW_TOUCH_NONE)
-                        : mw__touch_of(search->surface, &search->line, t);
+    const mw_prober *prober = search->prober;
+    const mw_ray_query *ray = search->ray;
+    bool walks = ray->extent == MW_PROBE_LINE && ray->faces == MW_PROBE_FRONT && ray->least == 0;
+    uint32_t last = cursor->prober == prober && cursor->last < prober->surface->tri_count &&
+                            cursor->options.start <= MW_PROBE_START_LAST
+                        ? cursor->last
+                        : MW_NONE;
+    if (walks && walk->last != MW_NONE && mw__probe_faces(walk, walk->last, work)) {
+        walk->steps = SEED_STEPS < walk->steps ? SEED_STEPS : walk->steps;
+        last = mw__probe_search_from(walk, 0, walk->last, NULL, work, trace);
+    }
+    if (last != MW_NONE) mw__ray_search_guess(search, last);
+}
+
+static bool prober_is_current(const mw_prober *prober)
+{
+    return prober->has_bvh && prober->version == prober->surface->version;
+}
+
+static mw_touch probe_answer_certain(const mw_prober *prober, mw_probe_cursor *cursor,
+                                     const mw_ray_query *ray, mw_probe_search *walk,
+                                     mw_probe_counters *work, mw_probe_trace *trace)
+{
+    mw_ray_search search;
+    mw__ray_search_begin(&search, prober, ray, mw__ray_found_nearest, NULL);
+    probe_guess(&search, cursor, walk, work, trace);
+    mw__ray_search_run(prober, &search, 1);
+    if (work) mw__ray_search_count(&search, work);
+    return mw__ray_touch_found(&search);
+}
+
+/* The line, ray or segment of a query. Returns false if a coordinate is not finite, or it has no
+ * direction. */
+static bool probe_ray(const mw_probe_options *options, const double q[3], const double m[3],
+                      mw_ray_query *ray)
+{
+    if (!mw__is_finite3(q) || !mw__is_finite3(m)) return false;
+    *ray = (mw_ray_query){.line = {{q[0], q[1], q[2]}, {m[0], m[1], m[2]}, {0}},
+                          .extent = options->extent,
+                          .faces = options->faces,
+                          .least = options->min_distance,
+                          .greatest = options->max_distance > 0 ? options->max_distance : INFINITY,
+                          .end = {m[0], m[1], m[2]}};
+    if (ray->extent == MW_PROBE_SEGMENT) return mw__line_through(q, m, &ray->line);
+    return m[0] != 0 || m[1] != 0 || m[2] != 0;
+}
+
+/* The answer of a query, and the state of the series after it. */
+static mw_touch probe_conclude(const mw_prober *prober, mw_probe_cursor *cursor, mw_touch touch,
+                               mw_probe_counters *work)
+{
+    bool hit = touch.state == MW_TOUCH_HIT;
+    if (hit) {
+        cursor->prober = prober;
+        cursor->last = touch.triangle;
+    }
+    if (cursor->options.counters) probe_count(&cursor->counters, work, hit);
+    return touch;
 }
 
 static mw_touch probe_answer(const mw_prober *prober, mw_probe_cursor *cursor, const double q[3],
@@ -163,22 +246,117 @@ static mw_touch probe_answer(const mw_prober *prober, mw_probe_cursor *cursor, c
     bool counted = cursor->options.counters || trace;
     mw_probe_counters work = {0};
     mw_touch touch = mw__touch_none(MW_TOUCH_BAD);
-    if (mw__is_finite3(q) && mw__is_finite3(m) && (m[0] != 0 || m[1] != 0 || m[2] != 0)) {
+    mw_ray_query ray;
+    if (probe_ray(&cursor->options, q, m, &ray)) {
         mw__surface_read_lock(prober->surface);
         mw_probe_search search = probe_plan(prober, cursor, q, m);
         mw_probe_counters *to = counted ? &work : NULL;
-        touch = cursor->options.certain
-                    ? probe_answer_certain(prober, &search, cursor->options.max_distance, to, trace)
-                    : probe_answer_published(&search, to, trace);
+        if (!cursor->options.certain)
+            touch = probe_answer_published(&search, to, trace);
+        else if (prober_is_current(prober))
+            touch = probe_answer_certain(prober, cursor, &ray, &search, to, trace);
         mw__surface_read_unlock(prober->surface);
     }
-    bool hit = touch.state == MW_TOUCH_HIT;
-    if (hit) {
-        cursor->prober = prober;
-        cursor->last = touch.triangle;
+    return probe_conclude(prober, cursor, touch, &work);
+}
+
+/* --- several at a time --- */
+
+typedef struct probe_group {
+    mw_ray_query ray[MW_RAYS_AT_A_TIME];
+    mw_ray_search search[MW_RAYS_AT_A_TIME];
+    mw_probe_counters work[MW_RAYS_AT_A_TIME];
+} probe_group;
+
+/* Run the searches of those queries that are good. All begin with the triangle touched last. */
+static void probe_group_run(probe_group *g, const mw_prober *prober, mw_probe_cursor *cursor,
+                            const double *queries, size_t stride, uint32_t n)
+{
+    for (uint32_t i = 0; i < n; i++) {
+        const double *q = queries + i * stride;
+        g->search[i].stack.count = 0;
+        g->search[i].prober = NULL;
+        if (!probe_ray(&cursor->options, q, q + 3, &g->ray[i])) continue;
+        mw_probe_search walk = probe_plan(prober, cursor, q, q + 3);
+        mw__ray_search_begin(&g->search[i], prober, &g->ray[i], mw__ray_found_nearest, NULL);
+        probe_guess(&g->search[i], cursor, &walk, cursor->options.counters ? &g->work[i] : NULL,
+                    NULL);
     }
-    if (cursor->options.counters) probe_count(&cursor->counters, &work, hit);
-    return touch;
+    mw__ray_search_run(prober, g->search, n);
+}
+
+void mw__probe_certain_group(const mw_prober *prober, mw_probe_cursor *cursor,
+                             const double *queries, size_t stride, uint32_t n, mw_touch *touches)
+{
+    probe_group g;
+    for (uint32_t i = 0; i < n; i++) {
+        g.work[i] = (mw_probe_counters){0};
+        touches[i] = mw__touch_none(MW_TOUCH_BAD);
+    }
+    mw__surface_read_lock(prober->surface);
+    if (prober_is_current(prober)) {
+        probe_group_run(&g, prober, cursor, queries, stride, n);
+        for (uint32_t i = 0; i < n; i++) {
+            if (!g.search[i].prober) continue;
+            mw__ray_search_count(&g.search[i], &g.work[i]);
+            touches[i] = mw__ray_touch_found(&g.search[i]);
+        }
+    }
+    mw__surface_read_unlock(prober->surface);
+    for (uint32_t i = 0; i < n; i++) probe_conclude(prober, cursor, touches[i], &g.work[i]);
+}
+
+/* --- any, and all --- */
+
+static bool ray_found_any(mw_ray_search *search, uint32_t triangle, mw_ray_side side)
+{
+    search->nearest = triangle;
+    search->side = side;
+    return false;
+}
+
+/* Run a search of all that a query meets. Returns its state. */
+static mw_touch_state probe_search(const mw_prober *prober, mw_probe_cursor *cursor,
+                                   const double q[3], const double m[3], mw_ray_found *found,
+                                   void *self, void (*finish)(const mw_ray_search *search))
+{
+    mw_touch_state state = MW_TOUCH_BAD;
+    mw_probe_counters work = {0};
+    mw_ray_query ray;
+    if (!cursor->prober) mw_probe_cursor_init(prober, NULL, cursor, NULL); /* was all zero */
+    if (!probe_ray(&cursor->options, q, m, &ray)) return state;
+    mw__surface_read_lock(prober->surface);
+    if (prober_is_current(prober)) {
+        mw_ray_search search;
+        mw__ray_search_begin(&search, prober, &ray, found, self);
+        if (!finish && cursor->prober == prober && cursor->last < prober->surface->tri_count)
+            mw__ray_search_guess(&search, cursor->last);
+        mw__ray_search_run(prober, &search, 1);
+        mw__ray_search_count(&search, &work);
+        state = search.hits ? MW_TOUCH_HIT : MW_TOUCH_NONE;
+        if (finish) finish(&search);
+        if (search.nearest != MW_NONE) cursor->last = search.nearest;
+    }
+    mw__surface_read_unlock(prober->surface);
+    if (cursor->options.counters) probe_count(&cursor->counters, &work, state == MW_TOUCH_HIT);
+    return state;
+}
+
+mw_touch_state mw_probe_any(const mw_prober *prober, mw_probe_cursor *cursor, const double point[3],
+                            const double motion[3])
+{
+    return probe_search(prober, cursor, point, motion, ray_found_any, NULL, NULL);
+}
+
+size_t mw_probe_all(const mw_prober *prober, mw_probe_cursor *cursor, const double point[3],
+                    const double motion[3], mw_touch *touches, size_t capacity,
+                    mw_touch_state *state)
+{
+    mw_hit_list list = {.touches = touches, .capacity = touches ? capacity : 0};
+    mw_touch_state found =
+        probe_search(prober, cursor, point, motion, mw__hit_list_found, &list, mw__hit_list_finish);
+    if (state) *state = found;
+    return list.count;
 }
 
 mw_touch mw_probe(const mw_prober *prober, mw_probe_cursor *cursor, const double point[3],

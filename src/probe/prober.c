@@ -21,7 +21,8 @@ static bool prober_fit(mw_prober *prober, mw_job *job)
     prober->fit_seconds = mw__seconds() - start;
     prober->fits++;
     prober->slack = 0;
-    prober->slack_limit = SLACK_LIMIT * mw__bvh_leaf_size(&prober->bvh);
+    prober->joined = mw__surface_is_joined(prober->surface);
+    prober->slack_limit = SLACK_LIMIT * mw__bvh_triangle_size(&prober->bvh);
     return true;
 }
 
@@ -77,6 +78,7 @@ mw_status mw_prober_create(const mw_surface *surface, const mw_prober_options *o
     prober->has_bvh = options->boxes != 0;
     prober->variance = prober_sample_variance(surface);
     if (prober->has_bvh) {
+        prober->closed = mw__surface_is_closed(surface);
         mw_job job = mw__job(options->threads, options->progress);
         status = mw__job_end(&job, prober_make_boxes(prober, &job, error), error);
     }
@@ -101,7 +103,10 @@ void mw_prober_update(mw_prober *prober, double moved, uint32_t threads)
     mw_job job = mw__job(threads, NULL);
     prober->version = prober->surface->version;
     if (!prober->has_bvh) return;
-    if (known && moved > 0) prober->slack = nextafter(prober->slack + moved, INFINITY);
+    if (known && moved > 0) {
+        prober->slack = nextafter(prober->slack + moved, INFINITY);
+        prober->joined = prober->surface->coincident == NULL;
+    }
     if (!known || prober->slack > prober->slack_limit) prober_fit(prober, &job);
 }
 

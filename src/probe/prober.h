@@ -15,6 +15,10 @@ struct mw_prober {
     const mw_surface *surface;
     mw_bvh bvh;
     bool has_bvh;
+    bool portable; /* no vector instructions: for tests */
+    /* For mw_inside_surface: all edges have neighbours, which do not change; and vertices that were
+     * welded are known to have stayed together. */
+    bool closed, joined;
     /* About the mean squared distance of the vertices from their mean, when created. */
     double variance;
     uint64_t version;   /* version of the surface that the BVH is valid for */
@@ -61,9 +65,22 @@ bool mw__touch_surely_inside(const mw_surface *surface, const mw_line *line, uin
 /* --- probe_certain.c --- */
 
 /* The best triangle that is touched at most max_distance away (0: no limit), or MW_NONE: exact and
- * complete. `seed`: a triangle known to be touched in reach, or MW_NONE. Counts in *counters,
- * unless that is NULL. The BVH must be up to date. */
+ * complete. `seed`: a triangle, to be looked at first, or MW_NONE. Counts in *counters, unless that
+ * is NULL. The BVH must be up to date. */
 uint32_t mw__probe_certain(const mw_prober *prober, const mw_line *line, double max_distance,
                            uint32_t seed, mw_probe_counters *counters);
+
+/* --- inside.c --- */
+
+/* Does every edge have a neighbour? O(n) */
+bool mw__surface_is_closed(const mw_surface *surface);
+/* Are vertices that were welded at the same place? O(n) if the surface was welded. */
+bool mw__surface_is_joined(const mw_surface *surface);
+
+/* --- probe_query.c --- */
+
+/* Answer n certain probes, at most 8, as mw_probe one after the other. */
+void mw__probe_certain_group(const mw_prober *prober, mw_probe_cursor *cursor,
+                             const double *queries, size_t stride, uint32_t n, mw_touch *touches);
 
 #endif

@@ -122,7 +122,7 @@ static bool follower_end_segment(const segment_batch *b, segments_follower *lane
     return follower_begin(b, lane);
 }
 
-/* One step nearer to the beginning of the segment; where there is none, it begins. */
+/* Walk one step towards the beginning of the segment; if it is reached, begin the segment. */
 static MW_INLINE void follower_locate(const segment_batch *b, segments_follower *lane)
 {
     const double *a = segments_ends(b, lane->at);

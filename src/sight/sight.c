@@ -1,13 +1,13 @@
-/* sight.c - what is seen from a viewpoint: the terrain is linear in each triangle, so a line of
- * sight is above it if it is so at every edge and vertex that it passes (segment.h lists them), and
- * at its ends. */
+/* sight.c - what is seen from a viewpoint. The terrain is linear in each triangle. So a line of
+ * sight is above it everywhere if it is above it at its ends and at every edge and vertex that it
+ * passes (segment.h lists them). */
 #include "locate/locator.h"
 #include "sight/sight_line.h"
 
 #include <meshwalk/segment.h>
 #include <meshwalk/sight.h>
 
-/* The triangle of a point, or MW_NONE: there is none, or a corner of it has no height. */
+/* The triangle of a point; MW_NONE if there is none or one of its corners has no height. */
 static uint32_t sight_ground(const mw_locator *locator, const double *heights, mw_cursor *cursor,
                              mw_point p, double *ground)
 {
@@ -17,7 +17,7 @@ static uint32_t sight_ground(const mw_locator *locator, const double *heights, m
     return isfinite(*ground) ? at.triangle : MW_NONE;
 }
 
-/* Is an end at or above the ground, where there is some? Sets its level. `grounded`: the triangle
+/* Is an end at or above the ground, if there is ground? Sets its level. `grounded`: the triangle
  * there, or MW_NONE. */
 static bool sight_find_level(const mw_sight_line *line, const mw_sight_end *end, uint32_t grounded,
                              double ground, mw_sight_level *level)
@@ -90,7 +90,7 @@ static bool triangle_has_ground(const mw_sight_line *line, uint32_t triangle)
            !isnan(line->heights[v[2]]);
 }
 
-/* Along an edge, the triangle on the other side will do. */
+/* If the piece runs along an edge, the triangle on either side may be used. */
 static bool piece_has_ground(const mw_sight_line *line, const mw_segment_piece *piece)
 {
     if (triangle_has_ground(line, piece->triangle)) return true;
@@ -99,7 +99,8 @@ static bool piece_has_ground(const mw_sight_line *line, const mw_segment_piece *
     return other != MW_NONE && triangle_has_ground(line, other);
 }
 
-/* Is the terrain above the line where a piece begins or ends? *last is where it was asked last. */
+/* Is the terrain above the line where a piece begins or ends? *last is the place of the previous
+ * call. */
 static bool piece_hides(const mw_sight_line *line, const mw_segment_piece *piece, int end,
                         sight_place *last)
 {

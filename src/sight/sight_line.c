@@ -1,15 +1,17 @@
 #include "sight/sight_line.h"
 #include "predicates/big.h"
 
-/* Heights of the ground are off by less than this part of the heights of the triangle: weights are
- * off by less than 2^-40, and there are three. */
+/* Bound for the error of a ground height, relative to the heights of the triangle: each of its
+ * three weights is off by less than 2^-40. */
 #define SIGHT_GROUND_ERROR 0x1p-37
 
-/* A coordinate and its differences have one rounding each, a cross product adds two and a sum one;
- * the difference of heights has one, its product one, and the two sums three: fewer than 16. */
+/* Roundings: one for each difference of coordinates, two for a cross product, one for its sum; one
+ * for the difference of heights, one for its product, three for the two sums. Together fewer than
+ * 16. */
 #define SIGHT_ROUNDING (16 * 0x1p-53)
 
-/* Doubles decide between these: products neither over- nor underflow then by as much as counts. */
+/* Doubles decide only between these limits: then no product overflows, and underflow is below the
+ * error bound. */
 #define SIGHT_LEAST 0x1p-700
 #define SIGHT_MOST 0x1p200
 
@@ -33,7 +35,7 @@ mw_sight_level mw__sight_level(const mw_mesh *mesh, const double *heights, mw_po
 
 /* --- exactly ---------------------------------------------------------------------------------- */
 
-/* Numbers of one test: their coordinates and heights are integers times these powers of two. */
+/* The numbers of one test. Coordinates and heights are integers times these powers of two. */
 typedef struct sight_scale {
     int plane, height;
     double coordinate[20], value[10];
@@ -91,7 +93,7 @@ static void big_add_product(mw_big *sum, const mw_big *factor, const mw_big *val
     mw__big_add(sum, sum, &product);
 }
 
-/* A level as a quotient, whose divisor is positive. */
+/* A level as a quotient with a positive divisor. */
 typedef struct big_level {
     mw_big sum, divisor;
 } big_level;
@@ -111,7 +113,7 @@ static void level_exactly(big_level *r, const sight_scale *s, const mw_sight_lin
     big_area(&r->divisor, s, p[0], p[1], p[2]);
     mw__big_multiply(&r->sum, &r->divisor, &value);
     for (int k = 0; k < 3; k++) {
-        if (isnan(line->heights[v[k]])) continue; /* the point is on the edge of the others */
+        if (isnan(line->heights[v[k]])) continue; /* the point lies on the edge of the other two */
         mw__big_difference(&value, line->heights[v[k]], 0, s->height);
         big_area(&area, s, level->at, p[(k + 1) % 3], p[(k + 2) % 3]);
         big_add_product(&r->sum, &area, &value);
@@ -195,7 +197,7 @@ int mw__sight_level_sign(const mw_sight_line *line, const mw_sight_level *level)
 
 /* --- in doubles ------------------------------------------------------------------------------- */
 
-/* A sum of products of a difference of heights and a factor, and what its rounding amounts to. */
+/* A sum of products of a difference of heights and a factor, and a bound for its rounding error. */
 typedef struct sight_sum {
     double value, bound, most;
 } sight_sum;

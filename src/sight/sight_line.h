@@ -15,7 +15,7 @@
 
 #include <meshwalk/mesh.h>
 
-/* The height of an end of a line. */
+/* The height of an end of a line of sight. */
 typedef struct mw_sight_level {
     mw_point at;
     double height;     /* rounded */
@@ -37,11 +37,12 @@ mw_sight_level mw__sight_level(const mw_mesh *mesh, const double *heights, mw_po
 /* The sign of a level: is it above height 0? Exact. */
 int mw__sight_level_sign(const mw_sight_line *line, const mw_sight_level *level);
 
-/* > 0: the edge between vertices v and w passes above the line, which it meets in the plane; 0:
- * through it, also if it runs along it; < 0: below it. Exact. */
+/* The edge between vertices v and w crosses the line in the plane. Returns > 0 if the edge passes
+ * above the line there, 0 if it touches the line or runs along it, < 0 if it passes below. Exact.
+ */
 int mw__sight_edge_sign(const mw_sight_line *line, uint32_t v, uint32_t w);
 
-/* The same for a vertex that the line meets in the plane. */
+/* The same for a vertex on the line in the plane. */
 int mw__sight_vertex_sign(const mw_sight_line *line, uint32_t v);
 
 #endif

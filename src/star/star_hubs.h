@@ -8,7 +8,7 @@
 
 #include "star/star.h"
 
-/* A vertex with fewer facets is no hub: to walk round it takes as long as to search. */
+/* A vertex with fewer facets is not a hub: walking round it takes no longer than the search. */
 #define MW_STAR_HUB_FACETS 64u
 
 /* Find the hubs of the star's facets. Returns false when out of memory. */

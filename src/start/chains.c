@@ -335,13 +335,18 @@ static MW_INLINE const mw_chains_edge *chain_edge_at(const mw_chains *chains, ui
     return e;
 }
 
+/* An edge of a chain always has the chain between its positions. Chains that come from a file
+ * (src/prepared) may not keep to that: there, too, each step leaves fewer positions. */
 static MW_INLINE void chain_search_step(const mw_chains *chains, chain_search *s)
 {
-    const mw_chains_edge *e = chain_edge_at(chains, chain_search_next(s), s);
+    const uint32_t chain = chain_search_next(s);
+    const mw_chains_edge *e = chain_edge_at(chains, chain, s);
+    const uint32_t right = e->right > chain ? e->right : chain,
+                   before = e->left < chain ? e->left : chain - 1;
     /* selected, since every other jump would be guessed wrong */
     bool left = chain_edge_has_left(e, s->q);
-    s->low = left ? s->low : e->right;
-    s->high = left ? e->left : s->high;
+    s->low = left ? s->low : right;
+    s->high = left ? before : s->high;
     s->beside = left ? e->right : e->left;
     s->tests++;
 }

@@ -9,8 +9,8 @@
 typedef struct mw_curve {
     mw_hilbert hilbert;
     mw_key
-        /* tiles by their keys, ascending; the first has key 0, the last, which is no query's,
-         * the largest */
+        /* tiles by ascending keys; the first has key 0, the last the largest key, which no query
+         * has */
         *sample;
     uint32_t *from; /* from[b]: how many samples have keys below b << shift, at least 1 */
     uint32_t count, shift;

@@ -121,8 +121,8 @@ static MW_INLINE mw_point mw__tile_middle(const mw_tiling *tiling, uint32_t t)
  * that has one. queue: room for as many numbers as cells. */
 void mw__lattice_fill(const mw_lattice *lattice, uint32_t *entry, uint32_t *queue);
 
-/* Cells for a tiling, where nothing is said: one for two vertices, which are half as many as tiles.
- * See grid.c. */
+/* The default number of cells for a tiling: one for two vertices, that is, for four tiles. See
+ * grid.c. */
 static MW_INLINE uint32_t mw__lattice_choose(const mw_tiling *tiling)
 {
     return tiling->tri_count / 4 + 1;

@@ -17,8 +17,7 @@ static void box_tree_build_level(mw_box_tree *b, uint32_t level,
     }
 }
 
-bool mw__box_tree_create(mw_box_tree *tree, uint32_t count,
-                         mw_box (*box_of)(const void *things, uint32_t i), const void *things)
+uint32_t mw__box_tree_lay_out(mw_box_tree *tree, uint32_t count)
 {
     *tree = (mw_box_tree){.count = count};
     uint32_t sum = 0, below = count;
@@ -29,7 +28,14 @@ bool mw__box_tree_create(mw_box_tree *tree, uint32_t count,
         sum += here;
         below = here;
     } while (below > 1);
-    tree->box = mw__alloc(sum, sizeof *tree->box);
+    return sum;
+}
+
+bool mw__box_tree_create(mw_box_tree *tree, uint32_t count,
+                         mw_box (*box_of)(const void *things, uint32_t i), const void *things)
+{
+    const uint32_t boxes = mw__box_tree_lay_out(tree, count);
+    tree->box = mw__alloc(boxes, sizeof *tree->box);
     if (!tree->box) return false;
     for (uint32_t level = 0; level < tree->level_count; level++)
         box_tree_build_level(tree, level, box_of, things);

@@ -25,6 +25,8 @@ typedef struct mw_box_tree {
  * of memory. Release in either case. */
 bool mw__box_tree_create(mw_box_tree *tree, uint32_t count,
                          mw_box (*box_of)(const void *things, uint32_t i), const void *things);
+/* Where the boxes of a tree over `count` things stand, without the boxes. Returns their number. */
+uint32_t mw__box_tree_lay_out(mw_box_tree *tree, uint32_t count);
 void mw__box_tree_release(mw_box_tree *tree);
 size_t mw__box_tree_bytes(const mw_box_tree *tree);
 

@@ -1,8 +1,9 @@
 /* hub_table.h - the triangles round the hubs of an edited tiling, lowest first. Private.
  *
- * A hub is a vertex of very many tiles. To go round it for its lowest triangle would take a query
- * on it a time in proportion. So a binary heap has the numbers of its triangles. It may also have
- * numbers of triangles that are no longer there; its first one never is of these. */
+ * A hub is a vertex of very many tiles. Going round it to find its lowest triangle would take a
+ * query time proportional to its degree. So a binary heap holds the numbers of its triangles. The
+ * heap may also hold numbers of removed triangles, but its first number is always that of an
+ * existing one. */
 #ifndef MW_SRC_TILING_HUB_TABLE_H
 #define MW_SRC_TILING_HUB_TABLE_H
 

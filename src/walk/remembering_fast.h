@@ -29,7 +29,7 @@
 /* Shares of rounded areas are weights if the bound on the error is below this part of the sum, and
  * the sum between these limits. The exact conclusion (mw__location_areas, mw__location_of in
  * locate/location.c) would then take the same rounded areas, and come to the very same weights: it
- * allows 2^-42, with a bound for each area in the place of one for all, and the same sums. */
+ * allows 2^-42, with a bound for each area instead of one for all, and the same sums. */
 #define MW_WEIGHT_ERROR 0x1p-44
 #define MW_WEIGHT_SUM_LEAST 0x1p-900
 #define MW_WEIGHT_SUM_MOST 0x1p900

@@ -74,6 +74,26 @@ for mesh in none void line equal; do
     done
 done
 run check line.off; prints_line '; 1 flat triangle$'
+
+# repeats NAME PLACE TEXT: the second face has a vertex twice, and the place is told.
+repeats() {
+    printf '%b' "$3" >"$1"
+    run info "$1"; exits 0
+    run locate "$1" q.xyz -o out.csv; refused 3 "$1: triangle 1: vertex 2 is in it twice"
+    absent out.csv
+    says "^meshwalk: $1$2 has vertex [23] twice"
+    rm "$1"
+}
+vertices='1 0 0 1\n2 1 0 1\n3 1 1 1\n4 0 1 1\n'
+repeats a.14 ':8: face 2' "bad\n2 4\n$vertices"'1 3 1 2 3\n2 3 1 3 3\n0\n0\n0\n0\n'
+repeats a.gr3 ':8: face 2' "bad\n2 4\n$vertices"'1 3 1 2 3\n2 3 1 3 3\n'
+nodes='ND 1 0 0 1\nND 2 1 0 1\nND 3 1 1 1\nND 4 0 1 1\n'
+repeats a.2dm ':7: face 2' "MESH2D\n$nodes"'E3T 1 1 2 3 1\nE3T 2 1 3 3 1\n'
+nodes='NPOIN= 4\n0 0 0\n1 0 1\n1 1 2\n0 1 3\n'
+repeats a.su2 ':4: face 1' 'NDIME= 2\nNELEM= 2\n5 0 1 2 0\n5 0 2 2 1\n'"$nodes"
+repeats a.off ':8: face 1' 'OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 2\n'
+repeats a.obj ':6: face 2' 'v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 3\n'
+
 printf 'OFF\n3 1 0\n0 0 0\n1 0 0\n0 nan 0\n3 0 1 2\n' >nan.off
 run check nan.off; exits 3; prints_line 'no embedding: 1 defect'
 run locate nan.off q.xyz; refused 3 'nan\.off: '

@@ -236,6 +236,25 @@ for threads in 1 2; do
 done
 holds "one thread and two print the same" same_text 1.csv 2.csv
 
+# Other parts of the line, other faces, points inside.
+printf '%s\n' .75,.25,.5,0,0,1 .75,.25,.5,.75,.25,1 .75,.25,.5,.75,.25,.75 >rays.csv
+run probe --only-answers --certain --extent ray --faces both cube.off rays.csv; exits 0
+holds "a ray meets a back" grep -q '^0.75,0.25,0.5,hit,2,0.5,' "$logs/out"
+run probe --only-answers --certain --extent segment --faces back cube.off rays.csv; exits 0
+holds "a segment ends" test "$(cut -d, -f4 "$logs/out" | tr '\n' ' ')" = "status hit hit none "
+run probe --only-answers --certain --min-distance .6 cube.off rays.csv; exits 0
+holds "a least distance" test "$(sed -n 2p "$logs/out")" = "0.75,0.25,0.5,none,-1,,,,"
+printf '%s\n' .5,.5,.5 0,0,0 .5,.5,1 2,0,0 nan,0,0 >points.csv
+run probe --only-answers --inside cube.off points.csv; exits 0
+holds "inside" test "$(cut -d, -f4 "$logs/out" | tr '\n' ' ')" = "status inside on on outside bad "
+head -n 16 cube.off | sed '2s/12/6/' >sheet.off
+run probe --inside sheet.off points.csv; exits 3
+for wrong in '--extent ray' '--faces both' '--min-distance 1' '--inside --certain' \
+    '--certain --min-distance 2 --max-distance 1'; do
+    # shellcheck disable=SC2086
+    run probe $wrong cube.off rays.csv; exits 2
+done
+
 # Real surfaces, where they are at hand: what walks find, certain probes find, or something nearer.
 data=${MW_SHARED:-}/surface
 [[ -d $data ]] || { left_out "there is no ../shared/data"; finish; }

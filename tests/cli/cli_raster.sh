@@ -196,6 +196,22 @@ run raster half.off --mean -o mean.img --driver ENVI --type float64 --resolution
 prints_line '^with value +1$'
 prints_line '^integral +1$'
 holds 'a half pixel' test "$(raw d mean.img | xargs)" == 'empty 2'
-run raster square.off --mean --derive slope -o x.tif; refused 2 'cannot be used with --mean'
+run raster square.off --mean --outside nearest -o x.tif; refused 2 'cannot be used with --mean'
+run raster square.off --mean --derive slope,triangle -o x.tif
+refused 2 'the mean of numbers of triangles'
+# Means of what is derived: two planes that fall to the south and to the west, by 45 degrees each;
+# then one of them is horizontal, and has no aspect.
+printf '%s\n' OFF '4 2 0' '0 0 0' '1 0 0' '1 1 1' '0 1 0' '3 0 1 2' '3 0 2 3' >fold.off
+run raster -q fold.off --mean --derive slope,aspect -o mean.img --driver ENVI --type float64 \
+    --resolution 1
+exits 0
+holds 'means of slope and aspect' test "$(raw d mean.img | awk '{ printf "%.6f ", $1 }')" == \
+    '45.000000 225.000000 '
+printf '%s\n' OFF '4 2 0' '0 0 0' '1 0 0' '1 1 0' '0 1 -1' '3 0 1 2' '3 0 2 3' >fold.off
+run raster -q fold.off --mean --derive slope,aspect -o mean.img --driver ENVI --type float64 \
+    --resolution 1
+exits 0
+holds 'a horizontal half' test "$(raw d mean.img | awk '{ printf "%.4f ", $1 }')" == \
+    '27.3678 315.0000 '
 
 finish

@@ -82,6 +82,16 @@ else
         asked
     holds 'bands are named' grep -q 'zeta@0' bands.hdr
     holds 'bands are named' grep -q 'u@3' bands.hdr
+    # Their means over the whole square.
+    run raster flow.nc -q -o means.img --driver ENVI --time all --mean --resolution 1 --type float64
+    exits 0
+    holds 'means over time' test "$(perl -e 'local $/; open my $h, "<:raw", "means.img";
+        print join " ", map { sprintf "%.9g", $_ } unpack "d*", <$h>')" == '1 2 11 3 31 7'
+    run raster flow.nc -q -o mean.img --driver ENVI --time 1 --field u --mean --resolution 0.5 \
+        --type float64 --max-edge 9
+    exits 0
+    holds 'means of faces' test "$(perl -e 'local $/; open my $h, "<:raw", "mean.img";
+        print join " ", unpack "d*", <$h>')" == '4 3 3 2'
     run raster flow.nc -q -o one.tif --time nearest:1.9 --field zeta --creation COMPRESS=DEFLATE
     exits 0
     says_nothing

@@ -42,6 +42,57 @@ cp "$logs/out" one.csv
 run visible --threads 3 ridge.off --from 0,1 --to sites.csv; exits 0
 holds 'no answer depends on threads' same_text one.csv "$logs/out"
 
+# Several viewpoints: how many of them see each point.
+run visible ridge.off --from '0,1;8,1' --to sites.csv; exits 0; says_nothing
+prints 'name,x,y,colour,visible
+near,1.5,1,red,1
+slope,2.5,1,red,1
+top,3,1,blue,2
+"behind, low",5,1,green,1
+far,8,1,green,1
+away,9,1,grey,'
+run visible ridge.off --from '0,1,6.4;8,1;5,1' --to sites.csv --only-answers; exits 0
+prints_line '^8,1,3$'
+prints_line '^2.5,1,1$'
+for wrong in '0,1;' ';0,1' '0,1,2,' '0,1,2,3' '0' '0,1 8,1' 'nan,1'; do
+    run visible ridge.off --from "$wrong" --to sites.csv; refused 2 "'--from'"
+done
+run visible ridge.off --from '0,1;20,1' --to sites.csv; refused 3 'viewpoint 20,1: .*no ground'
+
+# Pairs: from the first to the last point of each line.
+cat >pairs.geojson <<'END'
+{"type": "FeatureCollection", "features": [
+{"type": "Feature", "properties": {"link": "a, b"},
+ "geometry": {"type": "LineString", "coordinates": [[0, 1], [2, 1]]}},
+{"type": "Feature", "properties": {"link": "c"},
+ "geometry": {"type": "MultiLineString", "coordinates": [[[0, 1], [4, 2], [8, 1]], [[8, 1], [4.5, 1]]]}},
+{"type": "Feature", "properties": {"link": "d"},
+ "geometry": {"type": "LineString", "coordinates": [[0, 1], [9, 1]]}},
+{"type": "Feature", "properties": {"link": "e"},
+ "geometry": {"type": "LineString", "coordinates": [[20, 1], [0, 1]]}}]}
+END
+if "$meshwalk" --version | grep -q 'GDAL .*found'; then
+    run visible ridge.off --between pairs.geojson --points-crs same; exits 0
+    says '2 of its lines have an end outside of ridge.off'
+    prints 'feature,part,link,visible,obstacle_x,obstacle_y
+0,0,"a, b",1,,
+1,0,c,0,2.5,1
+1,1,c,1,,
+2,0,d,,,
+3,0,e,,,'
+    run visible -q ridge.off --between pairs.geojson --points-crs same --height 8 \
+        --target-height 8; exits 0
+    prints_line '^1,0,c,1,,$'
+    run visible -q --strict ridge.off --between pairs.geojson --points-crs same; exits 1
+    run visible -q ridge.off --between pairs.geojson --points-crs same -o links.gpkg; exits 0
+    run profile -q ridge.off links.gpkg --attribute link,visible,obstacle_x; exits 0
+    prints_line '^1,0,c,0,2.5,0,0,1,0,0,begin$'
+else
+    left_out 'GDAL is not found: no attributes of pairs'
+fi
+run visible ridge.off --between pairs.geojson --from 0,1; refused 2 'cannot be used with --between'
+run visible ridge.off --between pairs.geojson --to sites.csv; refused 2 'look at what'
+
 # Another field; heights that are missing hide nothing.
 sed 's/^3 \([02]\) 4$/3 \1 -99999/' ridge.off >hole.off
 run visible -q hole.off --from 0,1 --to sites.csv --only-answers; exits 0
@@ -66,6 +117,22 @@ if "$meshwalk" --version | grep -q 'GDAL .*found'; then
         prints_line "^empty +$(grep -c '^255$' asked)\$"
         holds 'pixels are what points are' \
             same_text <(od -An -v -tu1 -w1 seen.img | tr -d ' ') asked
+    done
+    # Of several viewpoints their number; more than 254 do not fit into bytes.
+    many='48.3,51.7;20,20;77,15'
+    for number in 3 255; do
+        run visible -q random.ply --from "$many" --to centres.csv --only-answers; exits 0
+        awk -F, -v none=$((number == 3 ? 255 : -1)) \
+            'NR > 1 { print $3 == "" ? none : $3 }' "$logs/out" >asked
+        run visible random.ply --from "$many" --raster --resolution 2.5 \
+            --extent -2,2,103,102 -o seen.img --driver ENVI; exits 0; says_nothing
+        prints_line "^viewpoints +$number\$"
+        prints_line "^hidden +$(grep -c '^0$' asked)\$"
+        type=$([[ $number == 3 ]] && echo u1 || echo d4)
+        holds 'pixels are counts' same_text \
+            <(od -An -v -t"$type" -w"${type:1}" seen.img | tr -d ' ') asked
+        many+=$(for ((i = 3; i < 255; i++)); do printf ';%d,%d' $((i * 7 % 80 + 10)) \
+            $((i * 3 % 80 + 10)); done)
     done
     run visible -q random.ply --from 48.3,51.7 --raster -o seen.tif; exits 0; says_nothing
     run visible random.ply --from 48.3,51.7 --raster --like seen.tif -o like.tif --json; exits 0

@@ -98,11 +98,15 @@ static void expect_clip(const shape_pair *s, uint64_t *random)
     assert_true(fabs(sum - is.area) <= 0x1p-40 * size);
     assert_true(fabs(value - (should.above - should.below)) <= 0x1p-32 * (size + most) * 100);
     assert_true(fabs(x - should.x) <= 0x1p-32 * (size + most) * 100);
-    for (uint32_t i = 0; i < n; i++)
+    for (uint32_t i = 0; i < n; i++) {
+        const double *p = clip.corner[i].p, *q = clip.corner[i].q;
         for (int k = 0; k < 3; k++) {
-            assert_true(clip.corner[i].p[k] >= 0);
-            assert_true(s->m > 3 || clip.corner[i].q[k] >= 0);
+            assert_true(p[k] >= 0);
+            assert_true(s->m > 3 || q[k] >= 0);
         }
+        assert_true(fabs(p[0] + p[1] + p[2] - 1) <= 0x1p-40);
+        assert_true(fabs(q[0] + q[1] + q[2] - 1) <= 0x1p-32 * (1 + fabs(q[0]) + fabs(q[2])));
+    }
 }
 
 static void test_pairs(void **state)

@@ -578,7 +578,40 @@ static void test_undo_limit(void **state)
     }
 }
 
-/* Insertions are counted, too, if nobody asks what they change. */
+/* The memory reported grows with the fields and with the log, and its parts are no more than it. */
+static void test_bytes(void **state)
+{
+    (void)state;
+    enum { FIELDS = 3, POINTS = 200 };
+    static double points[2 * POINTS], values[POINTS];
+    uint64_t random = 61;
+    for (size_t i = 0; i < 2 * POINTS; i++) points[i] = (double)mw__random_below(&random, 1 << 20);
+    mw_mesh *mesh;
+    mw_editor_info bare, full, logged;
+    mw_editor *editor;
+    REQUIRE(mw_delaunay(points, POINTS, 2, NULL, NULL, NULL, &mesh, NULL) == MW_OK);
+    REQUIRE(mw_editor_create(mesh, NULL, &editor, NULL) == MW_OK);
+    mw_editor_describe(editor, &bare);
+    mw_editor_destroy(editor);
+    for (int f = 0; f < FIELDS; f++) {
+        const char name[2] = {(char)('a' + f), 0};
+        REQUIRE(mw_mesh_set_field(mesh, name, values, 0, NULL) == MW_OK);
+    }
+    REQUIRE(mw_editor_create(mesh, &(mw_editor_options){.log = 1, .undo = 50}, &editor, NULL) ==
+            MW_OK);
+    mw_editor_describe(editor, &full);
+    assert_true(full.bytes >= bare.bytes + FIELDS * POINTS * sizeof(double));
+    for (int i = 0; i < 1000; i++)
+        REQUIRE(mw_edit_value(editor, 0, (uint32_t)i % POINTS, i, NULL) == MW_OK);
+    mw_editor_describe(editor, &logged);
+    assert_true(logged.bytes >= full.bytes + 1000 * sizeof(mw_edit));
+    assert_true(logged.undo_bytes > full.undo_bytes && logged.undo_bytes <= logged.bytes);
+    assert_true(bare.index_bytes > 0 && bare.index_bytes <= bare.bytes);
+    mw_editor_destroy(editor);
+    mw_mesh_destroy(mesh);
+}
+
+/* Insertions are counted also if no change report is requested. */
 static void test_edits_unreported(void **state)
 {
     (void)state;
@@ -848,6 +881,7 @@ int main(void)
         cmocka_unit_test(test_arguments),
         cmocka_unit_test(test_refusals),
         cmocka_unit_test(test_undo_limit),
+        cmocka_unit_test(test_bytes),
         cmocka_unit_test(test_edits_unreported),
         cmocka_unit_test(test_hub),
         cmocka_unit_test(test_grow),

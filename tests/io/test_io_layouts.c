@@ -383,6 +383,36 @@ static void test_crs(void **state)
     files_clear();
 }
 
+/* ICON's files of fields hold the corners of each cell, not a table: corners at one place become
+ * one vertex. */
+static void test_bounds(void **state)
+{
+    (void)state;
+    need_libnetcdf();
+    writing w = begin("a.nc", "none", "cell", 4, 3);
+    double corners[2][12];
+    int x = define(&w, "clon_bnds", MW_NETCDF_DOUBLE, w.face, w.corner);
+    int y = define(&w, "clat_bnds", MW_NETCDF_DOUBLE, w.face, w.corner);
+    mw__netcdf_output_defined(w.output);
+    for (size_t i = 0; i < 12; i++) {
+        corners[0][i] = xs[halves[i / 3][i % 3]] * (3.14159265358979323846 / 180);
+        corners[1][i] = ys[halves[i / 3][i % 3]] * (3.14159265358979323846 / 180);
+    }
+    mw__netcdf_output_doubles(w.output, x, (size_t[]){0, 0}, (size_t[]){4, 3}, corners[0]);
+    mw__netcdf_output_doubles(w.output, y, (size_t[]){0, 0}, (size_t[]){4, 3}, corners[1]);
+    end(&w);
+    mw_mesh_file file = read_layout("a.nc", NULL);
+    assert_int_equal(file.point_count, 6);
+    assert_int_equal(file.triangle_count, 4);
+    for (size_t i = 0; i < 12; i++) {
+        const double *p = file.points + 3 * (size_t)file.triangles[i];
+        assert_true(fabs(p[0] - xs[halves[i / 3][i % 3]]) < 1e-12);
+        assert_true(fabs(p[1] - ys[halves[i / 3][i % 3]]) < 1e-12);
+    }
+    mw_mesh_file_release(&file);
+    files_clear();
+}
+
 /* Dimensions that the file cannot hold; a table of texts; axes of different lengths. */
 static void test_wrong(void **state)
 {
@@ -425,6 +455,36 @@ static void test_wrong(void **state)
                                            (int64_t[]){1, 2, 3});
         end(&w);
         expect_refused(NULL, MW_ERROR_INPUT, says[wrong]);
+    }
+    files_clear();
+}
+
+/* A vertex twice in a face is read, and the file tells in which variable; a concave face is not. */
+static void test_places(void **state)
+{
+    (void)state;
+    need_libnetcdf();
+    static const int64_t faces[2][3][4] = {{{0, 1, 4, 3}, {1, 2, 2, -1}, {2, 5, 4, -1}},
+                                           {{0, 1, 4, 3}, {1, 2, 4, -1}, {1, 5, 2, 4}}};
+    for (int concave = 0; concave < 2; concave++) {
+        writing w = begin("a.nc", "node", "nele", 3, 4);
+        int x = define(&w, "x", MW_NETCDF_DOUBLE, w.node, -1);
+        int y = define(&w, "y", MW_NETCDF_DOUBLE, w.node, -1);
+        int corners = define(&w, "element", MW_NETCDF_INT, w.face, w.corner);
+        mw__netcdf_output_defined(w.output);
+        put_vertices(&w, x, xs);
+        put_vertices(&w, y, ys);
+        put_faces(&w, corners, faces[concave][0], 3, 4, 1, -9, false);
+        end(&w);
+        if (concave) {
+            expect_refused(NULL, MW_ERROR_INPUT, "a.nc: variable element: face 3 of 4 corners");
+            continue;
+        }
+        mw_mesh_file file = read_layout("a.nc", "adcirc");
+        assert_string_equal(file.repeat, "a.nc: variable element: face 2 has vertex 3 twice");
+        assert_int_equal(file.triangles[3 * file.repeat_triangle + 1],
+                         file.triangles[3 * file.repeat_triangle + 2]);
+        mw_mesh_file_release(&file);
     }
     files_clear();
 }
@@ -551,7 +611,8 @@ int main(void)
         cmocka_unit_test(test_dual),          cmocka_unit_test(test_numbers),
         cmocka_unit_test(test_crs),           cmocka_unit_test(test_wrong),
         cmocka_unit_test(test_models),        cmocka_unit_test(test_writer),
-        cmocka_unit_test(test_written_faces),
+        cmocka_unit_test(test_written_faces), cmocka_unit_test(test_bounds),
+        cmocka_unit_test(test_places),
     };
     return cmocka_run_group_tests(tests, files_enter, files_leave);
 }

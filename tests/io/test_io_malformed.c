@@ -167,7 +167,9 @@ static const bad_mesh bads[] = {
     {"e.stl", "solid\nfacet\nendsolid\n", 3, "'endsolid' was not expected"},
     {"e.stl", "solid\nwhat is this\n", 2, "'what' was not expected"},
 
-    {"e.txt", "nothing here\n", -1, "this is not a mesh in a known format"},
+    {"e.txt", "nothing here\n", -1,
+     "this is not a mesh in a known format (off, ply, node, obj, stl, netcdf, vtk, vtu, fort.14, "
+     "gr3, ll, 2dm, msh, selafin, su2, npz, mwm)"},
     {"e.txt", "", -1, "this is not a mesh in a known format"},
     {"e.xyz", "0 0\n1 0\n0 1\n", -1, "this is not a mesh in a known format"},
     {"e.csv", "x,y\n0,0\n", -1, "this is not a mesh in a known format"},

@@ -25,6 +25,7 @@ typedef struct model {
     double times[3];
     size_t steps;
     bool no_mesh;
+    bool exact; /* FVCOM's: times as floats, and beside them days and milliseconds */
 } model;
 
 static void put(mw_netcdf_output *output, int variable, size_t rank, const size_t *counts,
@@ -45,7 +46,14 @@ static void write_model(const char *path, model m)
     int face = mw__netcdf_output_dimension(output, "nele", 2);
     int layer = mw__netcdf_output_dimension(output, "layer", 2);
     int corner = mw__netcdf_output_dimension(output, "corner", 3);
-    int t = mw__netcdf_output_variable(output, "time", MW_NETCDF_DOUBLE, 1, &time);
+    int t = mw__netcdf_output_variable(output, "time", m.exact ? MW_NETCDF_FLOAT : MW_NETCDF_DOUBLE,
+                                       1, &time);
+    int days = -1, parts = -1;
+    if (m.exact) {
+        days = mw__netcdf_output_variable(output, "Itime", MW_NETCDF_INT, 1, &time);
+        parts = mw__netcdf_output_variable(output, "Itime2", MW_NETCDF_INT, 1, &time);
+        mw__netcdf_output_text(output, days, "units", "hours since 2020-01-01");
+    }
     int x = -1, y = -1, element = -1;
     if (!m.no_mesh) {
         x = mw__netcdf_output_variable(output, "x", MW_NETCDF_DOUBLE, 1, &node);
@@ -64,6 +72,10 @@ static void write_model(const char *path, model m)
     mw__netcdf_output_number(output, speed, "scale_factor", MW_NETCDF_DOUBLE, 0.25);
     mw__netcdf_output_defined(output);
     put(output, t, 1, &m.steps, m.times);
+    if (m.exact) {
+        put(output, days, 1, &m.steps, (double[]){58849, 58849, 58850});
+        put(output, parts, 1, &m.steps, (double[]){0, 43200000, 21600000});
+    }
     if (!m.no_mesh) {
         put(output, x, 1, (size_t[]){4}, (double[]){0, 1, 0, 1});
         put(output, y, 1, (size_t[]){4}, (double[]){0, 0, 1, 1});
@@ -100,7 +112,7 @@ static void test_fields(void **state)
 {
     (void)state;
     need_libnetcdf();
-    write_model("a.nc", (model){"noleap", {3, 4, 6}, 3, false});
+    write_model("a.nc", (model){"noleap", {3, 4, 6}, 3, false, false});
     mw_series *series = open_series("a.nc", NULL);
     const mw_series_info *info = mw_series_describe(series);
     assert_int_equal(info->step_count, 3);
@@ -138,14 +150,19 @@ static void test_axis(void **state)
 {
     (void)state;
     need_libnetcdf();
-    write_model("a.nc", (model){"mayan", {3, 4, 6}, 3, false});
+    write_model("a.nc", (model){"mayan", {3, 4, 6}, 3, false, false});
     expect_refused(NULL, "a.nc: variable time: the calendar 'mayan' is not one of CF");
-    write_model("a.nc", (model){NULL, {3, 6, 4}, 3, false});
+    write_model("a.nc", (model){NULL, {3, 6, 4}, 3, false, false});
     expect_refused(NULL, "a.nc: variable time: times do not increase: step 1 has 6, step 2 4");
-    write_model("a.nc", (model){NULL, {3, 3, 4}, 3, false});
+    write_model("a.nc", (model){NULL, {3, 3, 4}, 3, false, false});
     expect_refused(NULL, "times do not increase");
-    write_model("a.nc", (model){NULL, {3, NAN, 4}, 3, false});
+    write_model("a.nc", (model){NULL, {3, NAN, 4}, 3, false, false});
     expect_refused(NULL, "a.nc: variable time: step 1 has no time");
+    write_model("a.nc", (model){NULL, {58849, 58849.5, 58850.25}, 3, false, true});
+    mw_series *series = open_series("a.nc", NULL);
+    const double *times = mw_series_describe(series)->times;
+    assert_true(times[0] == 58849 && times[1] == 58849.5 && times[2] == 58850.25);
+    mw_series_close(series);
     files_clear();
 }
 
@@ -154,7 +171,7 @@ static void test_counts(void **state)
 {
     (void)state;
     need_libnetcdf();
-    write_model("a.nc", (model){NULL, {3, 4, 6}, 3, true});
+    write_model("a.nc", (model){NULL, {3, 4, 6}, 3, true, false});
     expect_refused(NULL, "no mesh in a known layout");
     mw_series_options options = {.vertex_count = 4, .face_count = 2};
     mw_series *series = open_series("a.nc", &options);
@@ -163,7 +180,7 @@ static void test_counts(void **state)
     options.vertex_count = 5;
     options.face_count = 0;
     expect_refused(&options, "no values over the vertices");
-    write_model("a.nc", (model){NULL, {3, 4, 6}, 3, false});
+    write_model("a.nc", (model){NULL, {3, 4, 6}, 3, false, false});
     expect_refused(&options, "a.nc: it has values of 4 vertices; the mesh has 5");
     files_clear();
 }
@@ -172,8 +189,8 @@ static void test_several(void **state)
 {
     (void)state;
     need_libnetcdf();
-    write_model("a.nc", (model){NULL, {3, 4}, 2, false});
-    write_model("b.nc", (model){NULL, {5, 6, 7}, 3, false});
+    write_model("a.nc", (model){NULL, {3, 4}, 2, false, false});
+    write_model("b.nc", (model){NULL, {5, 6, 7}, 3, false, false});
     const char *more[] = {"b.nc"};
     mw_series_options options = {.more_paths = more, .more_count = 1};
     mw_series *series = open_series("a.nc", &options);
@@ -181,10 +198,10 @@ static void test_several(void **state)
     expect_values(series, "zeta", 2, 4, (double[]){1, 2, 3, 4});
     expect_values(series, "zeta", 4, 4, (double[]){9, 10, 11, 12});
     mw_series_close(series);
-    write_model("b.nc", (model){NULL, {4, 6}, 2, false});
+    write_model("b.nc", (model){NULL, {4, 6}, 2, false, false});
     expect_refused(&options,
                    "b.nc: its first time, 4, is not later than the last one of the file before, 4");
-    write_model("b.nc", (model){"julian", {5, 6}, 2, false});
+    write_model("b.nc", (model){"julian", {5, 6}, 2, false, false});
     expect_refused(&options, "b.nc: its times are");
     files_write_text("a.nc", "x y\n");
     expect_refused(NULL, "a.nc: not values over time in a known format");

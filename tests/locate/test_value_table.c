@@ -232,6 +232,9 @@ static void test_arguments(void **state)
     assert_int_equal(mw_interpolate_table(c.mesh, &tight, c.at, POINTS, NULL, result, &error),
                      MW_ERROR_ARGUMENT);
     assert_string_equal(error.message, "a stride of 2 for 3 values");
+    tight.step = 1;
+    assert_int_equal(mw_interpolate_table(c.mesh, &tight, c.at, POINTS, NULL, result, &error),
+                     MW_ERROR_ARGUMENT);
     tight.step = 8; /* values may be anywhere then */
     assert_int_equal(mw_interpolate_table(c.mesh, &tight, c.at, 1, NULL, result, &error), MW_OK);
     case_release(&c);

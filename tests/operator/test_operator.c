@@ -428,6 +428,8 @@ static void test_arguments(void **state)
     assert_int_equal(mw_operator_apply(c.weights, &unknown, NULL, result, &error),
                      MW_ERROR_ARGUMENT);
     assert_int_equal(mw_operator_apply(c.weights, &tight, NULL, result, &error), MW_ERROR_ARGUMENT);
+    tight.step = 1;
+    assert_int_equal(mw_operator_apply(c.weights, &tight, NULL, result, &error), MW_ERROR_ARGUMENT);
     mw_operator_apply_options rule = {.missing = (mw_missing_rule)9}, reserved = {.reserved = {1}};
     assert_int_equal(mw_operator_apply(c.weights, &good, &rule, result, &error), MW_ERROR_ARGUMENT);
     assert_int_equal(mw_operator_apply(c.weights, &good, &reserved, result, &error),

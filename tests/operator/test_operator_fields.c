@@ -1,6 +1,7 @@
 /* test_operator_fields.c - many fields one after another, scattered rows and columns: the bits of
  * one field after the other, of doubles and floats, of narrow and wide rows, with missing values,
- * and without memory. */
+ * and without memory. The same for values side by side, in rows long enough to be written past the
+ * caches. */
 /* wrap: malloc calloc realloc aligned_alloc */
 #include <stdarg.h>
 #include <stddef.h>
@@ -15,7 +16,8 @@
 
 #include <meshwalk/operator.h>
 
-enum { ROWS = 70000, COLUMNS = 66000, FIELDS = 11, WIDEST = 5 };
+/* Two whole groups of doubles, one of floats, and a rest; fields begin at any address. */
+enum { ROWS = 70001, COLUMNS = 66000, FIELDS = 19, WIDEST = 5 };
 
 static uint32_t next_number(uint64_t *state, uint32_t below)
 {
@@ -97,8 +99,43 @@ static void test_fields(void **state)
     }
 }
 
+static void expect_rows_equal(const mw_operator *weights, mw_value_type type, size_t count)
+{
+    const size_t size = type == MW_FLOAT32 ? 4 : 8;
+    char *values = malloc(size * COLUMNS * count), *all = malloc(size * (ROWS * count + 1)),
+         *one = malloc(size * ROWS), *results = all + size; /* not at the begin of a line */
+    const mw_value_table table = {values, type, count, 0, 1};
+    assert_true(values && all && one);
+    for (size_t i = 0; i < COLUMNS * count; i++)
+        if (type == MW_FLOAT32)
+            ((float *)(void *)values)[i] = (float)(i % 1000003) / 7;
+        else
+            ((double *)(void *)values)[i] = (double)(i % 1000003) / 7;
+    assert_int_equal(mw_operator_apply(weights, &table, NULL, results, NULL), MW_OK);
+    for (size_t k = 0; k < count; k += count / 3) {
+        const mw_value_table field = {values + k * size, type, 1, count, 0};
+        assert_int_equal(mw_operator_apply(weights, &field, NULL, one, NULL), MW_OK);
+        for (size_t i = 0; i < ROWS; i++)
+            assert_memory_equal(one + i * size, results + (i * count + k) * size, size);
+    }
+    free(values);
+    free(all);
+    free(one);
+}
+
+static void test_rows(void **state)
+{
+    (void)state;
+    mw_operator *weights = make_operator(3, 11);
+    expect_rows_equal(weights, MW_FLOAT64, 33);
+    expect_rows_equal(weights, MW_FLOAT64, 5);
+    expect_rows_equal(weights, MW_FLOAT32, 67);
+    expect_rows_equal(weights, MW_FLOAT32, 64);
+    mw_operator_destroy(weights);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_fields)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_fields), cmocka_unit_test(test_rows)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -64,7 +64,7 @@ static void look_at_triangle(touch_oracle *o, uint32_t i, mpq_t p[3][3])
     mpq_clears(sum, side, NULL);
 }
 
-touch_oracle touch_oracle_make(const shape *s, const double query[6])
+static touch_oracle oracle_make(const shape *s, const double query[6], bool through)
 {
     size_t n = s->triangle_count;
     touch_oracle o = {.s = s, .count = s->triangle_count};
@@ -78,6 +78,7 @@ touch_oracle touch_oracle_make(const shape *s, const double query[6])
         mpq_inits(o.m[k], o.q[k], p[k][0], p[k][1], p[k][2], NULL);
         mpq_set_d(o.q[k], query[k]);
         mpq_set_d(o.m[k], query[3 + k]);
+        if (through) mpq_sub(o.m[k], o.m[k], o.q[k]);
     }
     exact_dot(o.square, o.m, o.m);
     for (uint32_t i = 0; i < n; i++) {
@@ -95,6 +96,16 @@ touch_oracle touch_oracle_make(const shape *s, const double query[6])
     }
     for (int k = 0; k < 3; k++) mpq_clears(p[k][0], p[k][1], p[k][2], NULL);
     return o;
+}
+
+touch_oracle touch_oracle_make(const shape *s, const double query[6])
+{
+    return oracle_make(s, query, false);
+}
+
+touch_oracle touch_oracle_through(const shape *s, const double ends[6])
+{
+    return oracle_make(s, ends, true);
 }
 
 void touch_oracle_free(touch_oracle *o)

@@ -23,6 +23,8 @@ typedef struct touch_oracle {
 /* All triangles of the shape, which has to outlive the result, against the line query: a point,
  * then a motion, finite. The caller frees it with touch_oracle_free. */
 touch_oracle touch_oracle_make(const shape *s, const double query[6]);
+/* The same against the line from one point to another: t is 0 and 1 there. */
+touch_oracle touch_oracle_through(const shape *s, const double ends[6]);
 void touch_oracle_free(touch_oracle *o);
 
 /* Is triangle i, which the line meets, at most d away from q? 0: no limit. */

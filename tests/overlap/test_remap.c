@@ -322,6 +322,72 @@ static void test_degrees(void **state)
     plot_release(&a);
 }
 
+/* The area that a pixel and the whole source have in common. */
+static double common_area(const mw_remap *r, size_t pixel)
+{
+    return r->target_fraction[pixel] * r->target_area[pixel];
+}
+
+/* Across the meridian of 180 degrees: the same mesh, raster and mesh in other turns. */
+static void test_seam(void **state)
+{
+    (void)state;
+    uint64_t random = environment_print_seed("test_remap seam", 7);
+    const mw_remap_options options = {.degrees = 1};
+    mw_remap_pixels west = {-180, 90, 1.5, 1.5, 240, 120}, east = {0, 90, 1.5, 1.5, 240, 120};
+    mw_remap r, s;
+    mw_error error;
+    for (int turn = -1; turn <= 1; turn++) {
+        uint64_t same = random;
+        arrays m = arrays_grid(9, 0.7, &same), n = arrays_grid(5, 0.7, &same);
+        arrays_transform(&m, 3, 165.3 + 360 * turn, -13);
+        arrays_transform(&n, 9, -202.1, -21);
+        plot a = plot_make(m, 0, &same), b = plot_make(n, 0, &same);
+        mw_remap_mesh source = plot_view(&a), target = plot_view(&b);
+        expect_ok(mw_remap_to_pixels(&source, &west, &options, &r, &error), "weights", &error);
+        expect_ok(mw_remap_to_pixels(&source, &east, &options, &s, &error), "weights", &error);
+        for (uint32_t j = 0; j < a.cells; j++) {
+            assert_true(fabs(r.source_fraction[j] - 1) < 1e-11);
+            assert_true(fabs(s.source_fraction[j] - 1) < 1e-11);
+        }
+        for (size_t i = 0; i < 240 * 120; i++) {
+            size_t k = i / 240 * 240 + (i % 240 + 120) % 240;
+            assert_true(fabs(common_area(&r, i) - common_area(&s, k)) < 1e-14);
+        }
+        assert_true(common_area(&r, 60 * 240) > 0 && common_area(&r, 60 * 240 + 239) > 0);
+        mw_remap_release(&r);
+        mw_remap_release(&s);
+        expect_ok(mw_remap_to_mesh(&source, &target, &options, &r, &error), "weights", &error);
+        for (uint32_t j = 0; j < a.cells; j++) assert_true(fabs(r.source_fraction[j] - 1) < 1e-11);
+        mw_remap_release(&r);
+        plot_release(&a);
+        plot_release(&b);
+    }
+    /* More than once round the sphere, and triangles that are too wide to be sure of. */
+    arrays n = arrays_grid(2, 0, &random), m = arrays_grid(41, 0, &random);
+    for (uint32_t i = 0; i < n.point_count; i++) n.points[2 * i] *= 91;
+    for (uint32_t i = 0; i < m.point_count; i++) m.points[2 * i] *= 9;
+    plot a = plot_make(n, 0, &random), b = plot_make(m, 0, &random);
+    mw_remap_mesh wide = plot_view(&a), round = plot_view(&b);
+    expect_ok(mw_remap_to_pixels(&wide, &west, &options, &r, &error), "weights", &error);
+    mw_remap_release(&r);
+    assert_int_equal(mw_remap_to_pixels(&round, &west, &options, &r, &error), MW_ERROR_INPUT);
+    assert_non_null(strstr(error.message, "more than once"));
+    west.columns = 241;
+    assert_int_equal(mw_remap_to_pixels(&wide, &west, &options, &r, &error), MW_ERROR_INPUT);
+    west = (mw_remap_pixels){721, 90, 1.5, 1.5, 10, 120};
+    assert_int_equal(mw_remap_to_pixels(&wide, &west, &options, &r, &error), MW_ERROR_INPUT);
+    plot_release(&a);
+    plot_release(&b);
+    n = arrays_grid(1, 0, &random);
+    for (uint32_t i = 0; i < n.point_count; i++) n.points[2 * i] *= 181;
+    a = plot_make(n, 0, &random);
+    wide = plot_view(&a);
+    assert_int_equal(mw_remap_to_pixels(&wide, &east, &options, &r, &error), MW_ERROR_INPUT);
+    assert_non_null(strstr(error.message, "meridian of 180 degrees"));
+    plot_release(&a);
+}
+
 static void test_memory(void **state)
 {
     (void)state;
@@ -377,7 +443,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_meshes),    cmocka_unit_test(test_pixels),
         cmocka_unit_test(test_conserves), cmocka_unit_test(test_degrees),
-        cmocka_unit_test(test_memory),    cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_seam),      cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_refusals),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -165,6 +165,45 @@ def test_flips(octahedron: meshwalk.Surface) -> None:
         meshwalk.Surface([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]).flip(0, 0)
 
 
+def test_rays(octahedron: meshwalk.Surface) -> None:
+    prober = meshwalk.Prober(octahedron, boxes=True)
+    up = prober.probe([0.1, 0.2, 0], [0, 0, 1], certain=True, extent="ray", faces="both")
+    assert up.distance == pytest.approx(0.7)
+    assert bool(up.back)
+    assert prober.probe([0.1, 0.2, 0], [0, 0, 1], certain=True, extent="ray").triangle == -1
+    for top, state in ((0.5, TouchState.NONE), (0.75, TouchState.HIT)):
+        end = prober.probe(
+            [0.1, 0.2, 0], [0.1, 0.2, top], certain=True, extent="segment", faces="both"
+        )
+        assert end.state == state
+    both = prober.probe_all([0.1, 0.2, -5], [0, 0, 1])
+    assert both.distance == pytest.approx([4.3, 5.7])
+    assert both.back.tolist() == [False, True]
+    assert len(prober.probe_all([0, 0, -5], [0, 0, 1]).triangle) == 8
+    assert prober.probe_all([0.1, 0.2, -5], [0, 0, 1], 5).distance == pytest.approx([4.3])
+    assert prober.probe_all([9, 9, 9], [0, 0, 1]).shape == (0,)
+    wrong: Any
+    for wrong in ({"extent": "curve"}, {"faces": "none"}, {"min_distance": -1}):
+        with pytest.raises(ValueError, match=r"no extent|no faces|least distance"):
+            prober.probe_all([0, 0, -5], [0, 0, 1], **wrong)
+    with pytest.raises(ValueError, match="motion is zero"):
+        prober.probe_all([0, 0, -5], [0, 0, 0])
+    with pytest.raises(ValueError, match="need certain probes"):
+        prober.probe([0, 0, -5], [0, 0, 1], extent="ray")
+
+
+def test_inside(octahedron: meshwalk.Surface) -> None:
+    points = np.array([[[0, 0, 0], [1, 0, 0]], [[1, 1, 1], [np.nan, 0, 0]]])
+    side = meshwalk.SurfaceSide
+    expected = [[side.INSIDE, side.ON], [side.OUTSIDE, side.BAD]]
+    assert meshwalk.Prober(octahedron, boxes=True).inside(points).tolist() == expected
+    with pytest.raises(ValueError, match="boxes"):
+        meshwalk.Prober(octahedron).inside(points)
+    sheet = meshwalk.Surface(OCTAHEDRON, FACETS[:5])
+    with pytest.raises(meshwalk.InputError):
+        meshwalk.Prober(sheet, boxes=True).inside(points)
+
+
 def test_probes(octahedron: meshwalk.Surface) -> None:
     prober = meshwalk.Prober(octahedron, boxes=True)
     points = np.array([[0.1, 0.2, 5], [5, 5, 5], [np.nan, 0, 0]])

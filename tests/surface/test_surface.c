@@ -12,176 +12,12 @@
 #include "support/allocations.h"
 #include "support/files.h"
 #include "support/meshes.h"
+#include "support/solids.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* --- small surfaces --------------------------------------------------------------------------- */
-
-typedef struct solid {
-    double *points; /* x y z */
-    uint32_t *triangles;
-    uint32_t point_count, triangle_count;
-} solid;
-
-static solid solid_make(uint32_t point_room, uint32_t triangle_room)
-{
-    solid s = {.points = calloc(3 * (size_t)point_room + 1, sizeof *s.points),
-               .triangles = calloc(3 * (size_t)triangle_room + 1, sizeof *s.triangles)};
-    assert_true(s.points && s.triangles);
-    return s;
-}
-
-static void solid_free(solid *s)
-{
-    free(s->points);
-    free(s->triangles);
-}
-
-static uint32_t solid_point(solid *s, double x, double y, double z)
-{
-    double *p = s->points + 3 * (size_t)s->point_count;
-    p[0] = x;
-    p[1] = y;
-    p[2] = z;
-    return s->point_count++;
-}
-
-static void solid_triangle(solid *s, uint32_t u, uint32_t v, uint32_t w)
-{
-    uint32_t *t = s->triangles + 3 * (size_t)s->triangle_count++;
-    t[0] = u;
-    t[1] = v;
-    t[2] = w;
-}
-
-static mw_arrays solid_view(const solid *s)
-{
-    return (mw_arrays){.points = s->points,
-                       .point_count = s->point_count,
-                       .triangles = s->triangles,
-                       .triangle_count = s->triangle_count};
-}
-
-static mw_surface *solid_surface(const solid *s, mw_surface_options options)
-{
-    mw_arrays view = solid_view(s);
-    mw_surface *surface;
-    mw_error error;
-    expect_ok(mw_surface_create(&view, &options, &surface, &error), "surface", &error);
-    return surface;
-}
-
-/* The corners of the unit cube by bits x, y, z; fronts face out. */
-static const uint32_t cube_triangles[12][3] = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6},
-                                               {0, 1, 4}, {1, 5, 4}, {2, 6, 3}, {3, 6, 7},
-                                               {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
-
-/* A box with a corner at `at`; `soup`: each triangle with vertices of its own, and zeros of either
- * sign. */
-static void add_box(solid *s, const double at[3], double size, int soup)
-{
-    uint32_t first = s->point_count;
-    for (uint32_t i = 0; i < 8 && !soup; i++)
-        solid_point(s, at[0] + size * (i & 1), at[1] + size * (i >> 1 & 1),
-                    at[2] + size * (i >> 2));
-    for (uint32_t t = 0; t < 12; t++) {
-        uint32_t v[3];
-        for (int k = 0; k < 3; k++) {
-            uint32_t i = cube_triangles[t][k];
-            double p[3] = {at[0] + size * (i & 1), at[1] + size * (i >> 1 & 1),
-                           at[2] + size * (i >> 2)};
-            for (int c = 0; c < 3; c++)
-                if (p[c] == 0 && t % 2) p[c] = -0.0;
-            v[k] = soup ? solid_point(s, p[0], p[1], p[2]) : first + i;
-        }
-        solid_triangle(s, v[0], v[1], v[2]);
-    }
-}
-
-static solid box(double x, double y, double z, double size, int soup)
-{
-    solid s = solid_make(36, 12);
-    add_box(&s, (const double[]){x, y, z}, size, soup);
-    return s;
-}
-
-/* Triangles taken at random; of the vertices some share their coordinates, some are not finite. */
-static solid random_soup(uint32_t points, uint32_t triangles, int bad, uint64_t *random)
-{
-    solid s = solid_make(points, triangles);
-    for (uint32_t i = 0; i < points; i++) {
-        double p[3];
-        for (int k = 0; k < 3; k++) p[k] = (double)mw__random_below(random, 3) - 1;
-        if (p[0] == 0 && mw__random_below(random, 2)) p[0] = -0.0;
-        if (bad && mw__random_below(random, 8) == 0)
-            p[mw__random_below(random, 3)] = mw__random_below(random, 2) ? NAN : INFINITY;
-        solid_point(&s, p[0], p[1], p[2]);
-    }
-    while (s.triangle_count < triangles) {
-        uint32_t v[3];
-        for (int k = 0; k < 3; k++) v[k] = mw__random_below(random, points);
-        if (bad || (v[0] != v[1] && v[1] != v[2] && v[2] != v[0]))
-            solid_triangle(&s, v[0], v[1], v[2]);
-    }
-    return s;
-}
-
-/* A sphere of 8 * 4^levels triangles, somewhat uneven. */
-static solid sphere(int levels, uint64_t *random)
-{
-    uint32_t n = 8u << 2 * levels;
-    solid s = solid_make(n, n);
-    for (int i = 0; i < 6; i++)
-        solid_point(&s,
-                    i == 0   ? 1
-                    : i == 1 ? -1
-                             : 0,
-                    i == 2   ? 1
-                    : i == 3 ? -1
-                             : 0,
-                    i == 4   ? 1
-                    : i == 5 ? -1
-                             : 0);
-    for (uint32_t i = 0; i < 8; i++) {
-        uint32_t x = i & 1, y = 2 + (i >> 1 & 1), z = 4 + (i >> 2), odd = (i ^ i >> 1 ^ i >> 2) & 1;
-        solid_triangle(&s, x, odd ? z : y, odd ? y : z);
-    }
-    for (; levels > 0; levels--) {
-        uint32_t count = s.triangle_count, *pairs = malloc(3 * sizeof *pairs * 3 * count),
-                 pair_count = 0;
-        assert_non_null(pairs);
-        for (uint32_t t = 0; t < count; t++) {
-            uint32_t v[3], m[3];
-            memcpy(v, s.triangles + 3 * (size_t)t, sizeof v);
-            for (int k = 0; k < 3; k++) {
-                uint32_t a = v[k], b = v[(k + 1) % 3], low = a < b ? a : b, high = a < b ? b : a,
-                         i = 0;
-                while (i < pair_count && (pairs[3 * i] != low || pairs[3 * i + 1] != high)) i++;
-                if (i == pair_count) {
-                    double p[3], length = 0;
-                    for (int c = 0; c < 3; c++) {
-                        p[c] = s.points[3 * a + (uint32_t)c] + s.points[3 * b + (uint32_t)c];
-                        p[c] += 0.01 * random_unit(random);
-                        length += p[c] * p[c];
-                    }
-                    pairs[3 * i] = low;
-                    pairs[3 * i + 1] = high;
-                    length = sqrt(length);
-                    pairs[3 * i + 2] = solid_point(&s, p[0] / length, p[1] / length, p[2] / length);
-                    pair_count++;
-                }
-                m[k] = pairs[3 * i + 2];
-            }
-            memcpy(s.triangles + 3 * (size_t)t, m, sizeof m);
-            for (int k = 0; k < 3; k++) solid_triangle(&s, v[k], m[k], m[(k + 2) % 3]);
-        }
-        free(pairs);
-    }
-    return s;
-}
 
 /* --- brute force ------------------------------------------------------------------------------ */
 
@@ -386,7 +222,7 @@ static void test_random_soups(void **state)
     for (int round = 0; round < 600; round++) {
         uint32_t points = 3 + mw__random_below(&random, round % 3 ? 12 : 60),
                  triangles = 1 + mw__random_below(&random, 40);
-        solid s = random_soup(points, triangles, round % 2, &random);
+        solid s = solid_soup(points, triangles, round % 2, &random);
         for (int weld = 0; weld < 2; weld++) {
             naive *n = count_naively(&s, weld);
             mw_surface *surface =
@@ -451,7 +287,7 @@ static mw_error refused(mw_arrays a, mw_surface_options options, mw_status statu
 static void test_arguments(void **state)
 {
     (void)state;
-    solid s = box(0, 0, 0, 1, 0);
+    solid s = solid_box(0, 0, 0, 1, 0);
     mw_arrays good = solid_view(&s), a = good;
     mw_surface_options none = {0}, borrow = {.borrow = 1};
     mw_error error;
@@ -493,7 +329,7 @@ static void test_arguments(void **state)
 static void test_defects_are_named(void **state)
 {
     (void)state;
-    solid s = box(0, 0, 0, 1, 0);
+    solid s = solid_box(0, 0, 0, 1, 0);
     mw_error error;
     s.triangles[7] = 8;
     error = refused(solid_view(&s), (mw_surface_options){0}, MW_ERROR_INPUT);
@@ -538,7 +374,7 @@ static void test_shared_by_place(void **state)
 static void test_weld(void **state)
 {
     (void)state;
-    solid whole = box(0, -1, -1, 1, 0), soup = box(0, -1, -1, 1, 1);
+    solid whole = solid_box(0, -1, -1, 1, 0), soup = solid_box(0, -1, -1, 1, 1);
     mw_surface *one = solid_surface(&whole, (mw_surface_options){0});
     mw_surface *other = solid_surface(&soup, (mw_surface_options){.weld = 1});
     for (uint32_t t = 0; t < 12; t++)
@@ -582,7 +418,7 @@ static void test_update(void **state)
 {
     (void)state;
     for (int kind = 0; kind < 4; kind++) {
-        solid s = box(0, 0, 0, 1, 0);
+        solid s = solid_box(0, 0, 0, 1, 0);
         mw_surface *surface =
             solid_surface(&s, (mw_surface_options){.borrow = kind & 1, .shared = kind >> 1});
         assert_int_equal(mw_surface_points(surface) == s.points, kind & 1);
@@ -665,7 +501,7 @@ static void test_flips(void **state)
     uint64_t random = seed;
     print_message("seed %llu\n", (unsigned long long)seed);
     for (int kind = 0; kind < 3; kind++) { /* 0: closed, 1: open and with clashes, 2: welded */
-        solid s = kind == 2 ? box(0, 0, 0, 1, 1) : sphere(1, &random);
+        solid s = kind == 2 ? solid_box(0, 0, 0, 1, 1) : solid_sphere(1, &random);
         if (kind == 1) {
             /* the last face: 7 and 29 to 31 */
             memcpy(s.triangles + 21, s.triangles + 84, 3 * sizeof *s.triangles);
@@ -754,7 +590,7 @@ static void test_measures(void **state)
     const uint64_t seed = 3;
     uint64_t random = seed;
     mw_surface_info info;
-    solid s = box(1e8, -1e8, 1e8, 0.5, 0); /* small and far away */
+    solid s = solid_box(1e8, -1e8, 1e8, 0.5, 0); /* small and far away */
     mw_surface *surface = solid_surface(&s, (mw_surface_options){0});
     assert_int_equal(mw_surface_describe(surface, &info, NULL), MW_OK);
     assert_true(info.volume == 0.125 && info.area == 1.5);
@@ -770,7 +606,7 @@ static void test_measures(void **state)
     assert_true(info.volume == -0.125);
     mw_surface_destroy(surface);
     solid_free(&s);
-    s = sphere(3, &random);
+    s = solid_sphere(3, &random);
     surface = solid_surface(&s, (mw_surface_options){0});
     assert_int_equal(mw_surface_describe(surface, &info, NULL), MW_OK);
     assert_true(fabs(info.volume / 4.18879 - 1) < 0.03 && fabs(info.area / 12.56637 - 1) < 0.02);
@@ -886,7 +722,7 @@ static void test_memory(void **state)
 {
     (void)state;
     uint64_t random = 5;
-    solid s = box(0, 0, 0, 1, 1), t = random_soup(20, 60, 1, &random);
+    solid s = solid_box(0, 0, 0, 1, 1), t = solid_soup(20, 60, 1, &random);
     mw_arrays sound = solid_view(&s), damaged = solid_view(&t);
     assert_int_equal(exhaust(describe_job, &sound), 12);
     assert_true(exhaust(check_job, &sound) > 6);

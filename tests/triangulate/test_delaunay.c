@@ -213,10 +213,27 @@ static void test_stride(void **state)
     mw_mesh_destroy(mesh);
 }
 
-/* Triangles that follow each other lie near each other, whatever the order of the points. */
-/* Multiplied by a power of two the points have the same triangles, in the same order, and that
- * takes no more steps: also where every product leaves the doubles. Where that would cost bits of
- * small coordinates, the triangulation is right all the same. */
+/* Points of a fine lattice, far from the origin: many lie nearly, but not exactly, on one circle.
+ */
+static void test_lattices(void **state)
+{
+    (void)state;
+    enum { N = 500 };
+    static const double steps[] = {0.125, 1, 0x1p-20, 0x1p-30};
+    uint64_t random = 43;
+    for (size_t s = 0; s < sizeof steps / sizeof *steps; s++)
+        for (int shift = -1; shift <= 1; shift += 2) {
+            mw_point points[N];
+            for (uint32_t i = 0; i < N; i++)
+                points[i] = (mw_point){shift * (1024 + mw__random_below(&random, 64) * steps[s]),
+                                       2048 + mw__random_below(&random, 64) * steps[s]};
+            triangulate(points, N);
+        }
+}
+
+/* Multiplied by a power of two, the points have the same triangles in the same order, in the same
+ * number of steps, even if every product overflows or underflows. If the factor costs bits of small
+ * coordinates, the triangulation is still correct. */
 static void test_scales(void **state)
 {
     (void)state;
@@ -253,6 +270,7 @@ static void test_scales(void **state)
     triangulate(scaled, 40);
 }
 
+/* Consecutive triangles lie near each other, whatever the order of the points. */
 static void test_order_of_triangles(void **state)
 {
     (void)state;
@@ -306,6 +324,7 @@ int main(void)
         cmocka_unit_test(test_refused_points),
         cmocka_unit_test(test_refused_calls),
         cmocka_unit_test(test_stride),
+        cmocka_unit_test(test_lattices),
         cmocka_unit_test(test_scales),
         cmocka_unit_test(test_order_of_triangles),
         cmocka_unit_test(test_memory_failures),

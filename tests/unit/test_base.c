@@ -17,18 +17,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Cells that follow one another on the curve are neighbours, and each cell comes once. */
-static void test_curve(void **state)
+/* Consecutive cells on the curve are neighbours, and each cell comes once, wherever the extent is.
+ */
+static void curve_check(double x0, double y0)
 {
-    (void)state;
     enum { SIDE = 256, SHIFT = 16 }; /* 256 x 256 cells: keys that are multiples of 2^16 */
     static uint32_t at[SIDE * SIDE];
-    const double low[2] = {0, 0}, high[2] = {SIDE, SIDE};
+    const double low[2] = {x0, y0}, high[2] = {x0 + SIDE, y0 + SIDE};
     mw_hilbert hilbert = mw__hilbert(low, high);
     memset(at, 0xff, sizeof at);
     for (uint32_t x = 0; x < SIDE; x++)
         for (uint32_t y = 0; y < SIDE; y++) {
-            uint32_t rank = mw__hilbert_key(&hilbert, x + 0.5, y + 0.5) >> SHIFT;
+            uint32_t rank = mw__hilbert_key(&hilbert, x0 + x + 0.5, y0 + y + 0.5) >> SHIFT;
             assert_int_equal(at[rank], UINT32_MAX);
             at[rank] = x << 8 | y;
         }
@@ -37,6 +37,13 @@ static void test_curve(void **state)
             dy = (int)(at[i] & 255) - (int)(at[i - 1] & 255);
         assert_int_equal(abs(dx) + abs(dy), 1);
     }
+}
+
+static void test_curve(void **state)
+{
+    (void)state;
+    curve_check(0, 0);
+    curve_check(-100, 5000);
 }
 
 /* Points on the rim, beyond it, not finite, and extents without width or of the whole range. */

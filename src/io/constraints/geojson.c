@@ -94,7 +94,7 @@ static bool same_xy(const double *a, const double *b)
     return a[0] == b[0] && a[1] == b[1];
 }
 
-/* How many positions a ring has without those at its end that repeat the first one; 0 if fewer
+/* The number of positions of a ring, without those at its end that repeat the first; 0 if fewer
  * than three differ in x or y. */
 static mw_status ring_count_open(const geojson_reader *g, const json_t *ring, size_t *count)
 {
@@ -241,8 +241,8 @@ static bool points_are_lonlat(const mw_constraint_file *file)
     return file->point_count > 0;
 }
 
-/* The coordinate system: that of the member `crs` [GeoJSON 2008], where one of null says that it
- * is not known; else longitudes and latitudes [RFC 7946, 4], if the numbers can be such. */
+/* The coordinate system: that of the member `crs` [GeoJSON 2008], whose value null means unknown.
+ * Without `crs` they are longitudes and latitudes [RFC 7946, 4], if the numbers are in range. */
 static mw_status geojson_read_crs(geojson_reader *g, const json_t *root)
 {
     mw_constraint_file *file = g->builder->file;
@@ -259,7 +259,7 @@ typedef struct geojson_input {
     mw_error *error;
 } geojson_input;
 
-/* What Jansson calls for the next bytes of the text. */
+/* Callback of Jansson: gives it the next bytes of the text. */
 static size_t geojson_next_bytes(void *buffer, size_t size, void *data)
 {
     geojson_input *in = data;

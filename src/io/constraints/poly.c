@@ -22,7 +22,7 @@ static char *poly_stem(const char *path)
     return stem;
 }
 
-/* The vertices stand in the .node file; what this one said of them does not count. */
+/* The vertices are in the .node file; what the .poly said about them is ignored. */
 static mw_status poly_read_node_file(mw_source *source, mw_mesh_builder *builder, mw_error *error)
 {
     mw_mesh_file *mesh = builder->file;

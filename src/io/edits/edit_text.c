@@ -1,5 +1,5 @@
-/* Edits as lines of text, in both directions: what the editor's log is written as, and what the
- * program carries out. */
+/* Edits as lines of text, read and written: the editor's log, and the streams that `meshwalk edit`
+ * carries out. */
 #include "io/edits/edit_text.h"
 #include "base/options.h"
 #include "io/text/delimited.h"
@@ -79,8 +79,8 @@ static MW_INLINE bool edit_ends_word(char c)
     return c == 0 || c == ',' || mw__is_blank(c);
 }
 
-/* The next word, and what separates it from the one behind it. A cell with nothing in it is a
- * word of length 0; behind the last word there is none. */
+/* The next word, and the separator after it. An empty cell is a word of length 0; NULL after the
+ * last word. */
 static bool edit_next_word(edit_scan *s, mw_text_cell *word)
 {
     const char *p = mw__skip_blanks(s->p), *begin = p;
@@ -121,7 +121,7 @@ static mw_status edit_read_double(edit_scan *s, const char *what, double *value)
                : edit_no_number(s, what, word);
 }
 
-/* Tables that were kept as numbers with a point have 17.0 for 17. */
+/* Some tables write 17.0 for 17. */
 static bool word_is_whole_number(mw_text_cell word, int64_t *number)
 {
     double value;
@@ -161,7 +161,7 @@ static size_t edit_find_field(const mw_edit_text_options *options, const char *n
     return options->field_count;
 }
 
-/* The field that is meant where none is named; MW_NONE: there is no such. */
+/* The default field if none is named; MW_NONE: there is none. */
 static uint32_t edit_usual_field(const mw_edit_text_options *options)
 {
     if (!options->fields) return 0;
@@ -273,8 +273,7 @@ mw_status mw_edit_parse(const char *text, const mw_edit_text_options *options, m
     return status ? status : edit_parse(text, options ? options : &by_number, line, error);
 }
 
-/* Can a name stand in a line, and does it lead back to its field? *quotes: it has to stand in
- * quotes. */
+/* Can a name be written in a line and be read back as the same field? *quotes: it needs quotes. */
 static bool field_name_is_word(const mw_edit_text_options *options, uint32_t field, bool *quotes)
 {
     if (!options->fields || field >= options->field_count) return false;

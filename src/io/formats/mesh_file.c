@@ -13,7 +13,7 @@
 #include <string.h>
 #include <strings.h>
 
-/* Read from a source whose format the contents tell, or else the name. */
+/* Read from a source. Its contents decide the format, or else its name. */
 static mw_status mesh_read_source(mw_source *source, mw_mesh_builder *builder, mw_error *error)
 {
     const char *head;
@@ -91,6 +91,7 @@ void mw_mesh_file_release(mw_mesh_file *file)
     free(file->triangles);
     free(file->faces);
     free(file->crs);
+    free(file->repeat);
     *file = (mw_mesh_file){0};
 }
 

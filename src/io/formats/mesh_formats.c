@@ -7,6 +7,7 @@
 #include "io/mesh/mesh_readers.h"
 #include "io/mesh/mesh_writers.h"
 #include "io/text/file_head.h"
+#include "prepared/prepared_read.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -145,6 +146,10 @@ static const mw_mesh_format formats[] = {
      .read = mw__read_selafin},
     {.name = "su2", .endings = ".su2\0", .first_word = is_su2, .read = mw__read_su2},
     {.name = "npz", .endings = ".npz\0", .first_bytes = begins_npz, .read = mw__read_npz},
+    {.name = "mwm",
+     .endings = ".mwm\0",
+     .first_bytes = mw__prepared_begins,
+     .read = mw__read_prepared},
 };
 enum { FORMAT_COUNT = sizeof formats / sizeof *formats };
 

@@ -18,7 +18,8 @@ typedef struct mw_mesh_format {
     bool (*first_word)(const char *word);
     /* The same of the first bytes of any file, whose name does not matter then. */
     bool (*first_bytes)(const char *head, size_t size);
-    bool common_words; /* a table of points may begin so, too; then the name of the file decides */
+    /* a table of points may begin like this; then the name of the file decides */
+    bool common_words;
     mw_status (*read)(mw_source *source, mw_mesh_builder *builder, mw_error *error);
     /* Instead of `read`, for formats of two files. */
     mw_status (*read_path)(const char *path, mw_mesh_builder *builder, mw_error *error);
@@ -28,7 +29,7 @@ typedef struct mw_mesh_format {
 /* The first format of that name, or ending of the path; NULL if there is none. */
 const mw_mesh_format *mw__mesh_format_by_name(const char *name);
 const mw_mesh_format *mw__mesh_format_by_path(const char *path);
-/* The format that the beginning of a file tells, NULL if it tells none. */
+/* The format recognised from the beginning of a file; NULL if none is. */
 const mw_mesh_format *mw__mesh_format_by_content(const char *head, size_t size);
 
 /* Names of the formats that can be read or written, "off, ply, ...". */

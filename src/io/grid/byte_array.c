@@ -32,7 +32,7 @@ mw_status mw__bytes_read(mw_byte_array *array, mw_source *source, mw_error *erro
         const unsigned char *bytes;
         size_t size;
         mw_status status = mw__source_peek(source, MW_BYTES_LIMIT, &next, &size, error);
-        /* at the end of a damaged input one byte more tells what is wrong */
+        /* at the end of a damaged input, asking for one more byte gives its error */
         if (!status && size == 0 && !source->damage) return MW_OK;
         if (!status) status = mw__source_bytes(source, size ? size : 1, &bytes, error);
         if (!status) status = mw__bytes_add(array, bytes, size, error);

@@ -40,8 +40,10 @@ static mw_status corner_add(corner_reading *reading, size_t face, size_t column,
                             mw_error *error)
 {
     if (number >= INT32_MAX || number != (double)(int64_t)number)
-        return corner_refuse(reading, face, error, "no number of a vertex is",
-                             number < 1e18 ? (int64_t)number : INT64_MAX);
+        return mw__netcdf_fail(reading->file, reading->layout->corners, error,
+                               "face %" PRIu64 " (from %d): %g is no number of a vertex",
+                               (uint64_t)face + (uint64_t)reading->layout->first_number,
+                               reading->layout->first_number, number);
     int64_t corner = (int64_t)number;
     if (corner < reading->lowest) {
         reading->lowest = corner;
@@ -90,7 +92,7 @@ static mw_status corner_read_block(corner_reading *reading, size_t from, size_t 
     return status;
 }
 
-/* Corners behind the number that `counts` tells are none. */
+/* Corners beyond the number in `counts` do not exist. */
 static mw_status corner_apply_counts(corner_reading *reading, mw_error *error)
 {
     const mw_netcdf_variable *counts = reading->layout->counts;
@@ -111,7 +113,7 @@ static mw_status corner_apply_counts(corner_reading *reading, mw_error *error)
     return status;
 }
 
-/* What the corners are counted from, and whether all of them are then vertices. */
+/* Choose the first number such that all corners are vertices. */
 static mw_status corner_settle(corner_reading *reading, size_t vertex_count, mw_error *error)
 {
     const mw_layout *layout = reading->layout;

@@ -1,4 +1,4 @@
-/* layout_axis.h - what the attributes of a coordinate tell. Private; for this room only. */
+/* layout_axis.h - what a coordinate is, by its attributes. Private; for this room only. */
 #ifndef MW_SRC_IO_LAYOUTS_LAYOUT_AXIS_H
 #define MW_SRC_IO_LAYOUTS_LAYOUT_AXIS_H
 

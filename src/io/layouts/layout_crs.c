@@ -29,8 +29,8 @@ static bool layout_crs_has(const mw_netcdf *file, const mw_netcdf_variable *vari
     return has;
 }
 
-/* A grid mapping: that of the coordinates or of a variable over the mesh; or the only variable
- * that looks like one. */
+/* The grid mapping: that of the coordinates, or of a variable over the mesh; otherwise the only
+ * variable that looks like one. */
 static mw_status layout_crs_variable(const mw_netcdf *file, const mw_layout *layout,
                                      const mw_netcdf_variable **out, mw_error *error)
 {

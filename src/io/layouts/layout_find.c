@@ -10,8 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A layout by the names of its variables. The first pair of coordinates that is there and not
- * constant is taken. */
+/* A layout, recognised by the names of its variables. The first pair of coordinates that exists and
+ * is not constant is used. */
 typedef struct named_layout {
     const char *name, *corners, *counts;
     const char *pairs[2][2];
@@ -82,7 +82,7 @@ static mw_status layout_units(const mw_netcdf *file, mw_layout *layout, bool rad
     return MW_OK;
 }
 
-/* Are all values equal? Then this is no coordinate: a run in metres has longitudes of zeros. */
+/* Are all values equal? Then this is not a coordinate: a run in metres has zeros as longitudes. */
 static mw_status layout_constant(const mw_netcdf *file, const mw_netcdf_variable *variable,
                                  bool *constant, mw_error *error)
 {
@@ -134,8 +134,9 @@ static mw_status layout_named(const mw_netcdf *file, const named_layout *named, 
     return status;
 }
 
-/* Which dimension of a table is that of the faces? UGRID puts it first unless attributes say
- * otherwise; but some write the corners first without saying so, and faces have few corners. */
+/* Which dimension of a table is that of the faces? In UGRID it is the first unless attributes say
+ * otherwise. Some programs write the corners first without saying so; then the shorter dimension is
+ * that of the corners. */
 static bool layout_corner_first(const mw_layout *layout, const mw_netcdf_variable *table)
 {
     enum { COMMON_CORNERS = 4, MANY_CORNERS = 12 };

@@ -28,7 +28,7 @@ static mw_status netcdf_mesh_column(const mw_netcdf *file, const mw_netcdf_varia
     return status;
 }
 
-/* Half of pi as a float is a hundred-millionth more than that: a latitude beyond the pole. */
+/* Half of pi rounded to a float is too large by 4e-8: such a latitude would lie beyond the pole. */
 static void netcdf_mesh_clamp(double *latitudes, size_t count)
 {
     const double rounded = 90 * (1 + 1e-7);
@@ -125,7 +125,7 @@ static mw_status netcdf_mesh_faces(const mw_netcdf *file, const mw_layout *layou
 }
 
 /* Variables of real numbers over the faces alone become fields of their triangles; integers are
- * the model's bookkeeping as a rule. */
+ * usually internal data of the model. */
 static mw_status netcdf_mesh_face_fields(const mw_netcdf *file, const mw_layout *layout,
                                          mw_mesh_builder *builder, mw_error *error)
 {
@@ -191,6 +191,7 @@ static mw_status netcdf_mesh_read(const mw_netcdf *file, const mw_layout *layout
     mw_status status = mw__layout_crs(file, layout, &builder->file->crs, error);
     if (status) return status;
     builder->lonlat = layout->lonlat;
+    builder->corner_variable = (layout->corners ? layout->corners : layout->x)->name;
     if (!layout->corners) {
         status = netcdf_mesh_bounds(file, layout, builder, error);
         return status ? status : netcdf_mesh_face_fields(file, layout, builder, error);
@@ -220,6 +221,7 @@ mw_status mw__read_netcdf(mw_source *source, mw_mesh_builder *builder, mw_error 
     source->placeless = true;
     if (!status) status = mw__layout_find(file, builder->layout, &layout, error);
     if (!status) status = netcdf_mesh_read(file, &layout, builder, error);
+    builder->corner_variable = NULL;
     builder->job = job;
     mw__netcdf_close(file);
     free(memory);

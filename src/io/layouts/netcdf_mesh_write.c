@@ -132,7 +132,7 @@ static void write_clean(const char *name, char *text, size_t size)
     text[length] = 0;
 }
 
-/* A name that no variable before has: else the number of the field follows. */
+/* A name that no earlier variable has; if necessary, the number of the field is appended. */
 static void write_unique_name(const mw_mesh_file *file, size_t i, char *text, size_t size)
 {
     enum { NUMBER_ROOM = 24 };
@@ -165,7 +165,7 @@ static bool write_goes_on(mesh_writing *w, size_t count)
     return !mw__netcdf_output_failed(w->output) && mw__job_step(w->job, w->done, w->total);
 }
 
-/* Every `stride`-th of some values. False: the job is to stop, or writing failed. */
+/* Write every `stride`-th value. False: the job is to stop, or writing failed. */
 static bool write_column(mesh_writing *w, int variable, const double *values, size_t count,
                          size_t stride)
 {

@@ -38,7 +38,7 @@ static mw_status ugrid_variable(const mw_netcdf *file, const mw_netcdf_variable 
     return status;
 }
 
-/* UGRID has no name for heights; D-Flow calls them so. NULL: there are none. */
+/* The heights under the name that D-Flow uses; UGRID defines none. NULL: there are none. */
 static const mw_netcdf_variable *ugrid_heights(const mw_netcdf *file, const mw_layout *layout)
 {
     char name[MW_NETCDF_NAME + 8];
@@ -69,7 +69,7 @@ static mw_status ugrid_coordinates(const mw_netcdf *file, mw_layout *layout, mw_
     return status;
 }
 
-/* The dimension of the faces, as far as attributes tell it; -1: they do not. */
+/* The dimension of the faces, if attributes name it; else -1. */
 static mw_status ugrid_face_dimension(const mw_netcdf *file, mw_layout *layout, mw_error *error)
 {
     char *name;

@@ -1,5 +1,5 @@
-/* Writing a mesh as a table: a row for each corner of each triangle, so that nothing but unused
- * vertices is lost. */
+/* Writing a mesh as a table: a row for each corner of each triangle. Only unused vertices are lost.
+ */
 #include "io/mesh/mesh_writers.h"
 #include "io/text/output.h"
 

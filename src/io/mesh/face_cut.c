@@ -35,7 +35,8 @@ static int cut_direction(const cut_view *f, size_t i)
     return (a.y < b.y) - (a.y > b.y);
 }
 
-/* A closed line whose turns are all to one side is convex if it goes there and back once. */
+/* A closed line whose turns are all to one side is convex if it reverses its direction in x only
+ * twice. */
 static cut_shape cut_find_shape(const cut_view *f)
 {
     bool left = false, right = false;
@@ -162,8 +163,8 @@ static double cut_fold(const cut_view *f, size_t i)
     return normal[0][0] * normal[1][0] + normal[0][1] * normal[1][1] + normal[0][2] * normal[1][2];
 }
 
-/* A quadrilateral in space that is warped so much that it is convex from no side is cut along the
- * diagonal at which it folds less, by less than a right angle. */
+/* A quadrilateral in space may be so warped that it is not convex in any projection. It is cut
+ * along the diagonal at which it folds less, if that is less than a right angle. */
 static bool cut_warped(const cut_view *f, uint32_t *triangles)
 {
     if (f->count != 4 || !cut_is_warped(f)) return false;

@@ -5,11 +5,11 @@
  *     |  /    |     from its lowest-numbered vertex. Corners may lie on a straight line between
  *     a-------b     their neighbours; then a cut without flat triangles is preferred.
  *
- * So the triangles depend on the vertices and their numbers only, not on the corner that a file
- * names first, nor on the format of the file. A face is looked at in the plane x, y if it has an
- * area there and is convex, else in that one of the planes of two coordinates where its area is
- * largest. A quadrilateral in space, with corners at different z, need not be convex there: it is
- * cut along the diagonal at which it folds less. Turns are decided exactly. */
+ * So the triangles depend only on the vertices and their numbers, not on the corner that a file
+ * names first or on its format. Convexity is decided in the plane x, y if the face has an area
+ * there and is convex; otherwise in the coordinate plane where its area is largest. A quadrilateral
+ * in space, with corners at different z, need not be convex: it is cut along the diagonal at which
+ * it folds less. Turns are decided exactly. */
 #ifndef MW_SRC_IO_MESH_FACE_CUT_H
 #define MW_SRC_IO_MESH_FACE_CUT_H
 

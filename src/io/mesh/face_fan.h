@@ -5,9 +5,9 @@
 
 #include <meshwalk/io.h>
 
-/* How many triangles, from triangle t on, are one face of at most `corners` corners: so many if
- * they are the whole face, as a fan, which is how faces are cut, and have the same values; else
- * 1. */
+/* How many triangles, from triangle t on, are written as one face. That is the number of triangles
+ * of the face if it has at most `corners` corners, they form a fan, and they have the same values;
+ * else 1. */
 size_t mw__face_triangles(const mw_mesh_file *file, size_t t, size_t corners);
 /* Corner k of the face that begins with triangle t. */
 uint32_t mw__face_corner(const mw_mesh_file *file, size_t t, size_t k);

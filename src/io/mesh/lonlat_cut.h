@@ -4,9 +4,9 @@
 
 #include "base/base.h"
 
-/* As mw__face_cut. A face across 180 degrees, which is wider than that by its numbers, is cut as if
- * all its longitudes were on one side; one that is not convex then, on the plane that touches the
- * globe in its middle. Of a corner at a pole the longitude does not matter. */
+/* As mw__face_cut. The longitudes of a face across 180 degrees seem to differ by more than 180; it
+ * is cut as if all were on one side. If the face is not convex then, it is cut in the plane that
+ * touches the globe in its middle. The longitude of a corner at a pole is ignored. */
 bool mw__lonlat_cut(const double *points, const uint32_t *corners, size_t count,
                     uint32_t *triangles);
 

@@ -5,6 +5,8 @@
 
 #include <inttypes.h>
 #include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -143,10 +145,43 @@ static mw_status triangles_add(mw_mesh_builder *builder, uint32_t a, uint32_t b,
     return MW_OK;
 }
 
+/* An error about the face that is counted next, or about another one at an earlier position. */
+static mw_status face_fail(const mw_mesh_builder *builder, uint64_t position, mw_error *error,
+                           const char *format, ...) __attribute__((format(printf, 4, 5)));
+static mw_status face_fail(const mw_mesh_builder *builder, uint64_t position, mw_error *error,
+                           const char *format, ...)
+{
+    const char *variable = builder->corner_variable;
+    char text[256];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    if (!variable) return mw__source_fail_at(builder->source, position, error, "%s", text);
+    return mw__source_fail_at(builder->source, position, error, "variable %.100s: %s", variable,
+                              text);
+}
+
+/* Note where the first face with a vertex twice stands: later its place is not known. */
+static mw_status repeat_note(mw_mesh_builder *builder, uint32_t vertex, mw_error *error)
+{
+    mw_mesh_file *file = builder->file;
+    mw_error place;
+    face_fail(builder, mw__source_position(builder->source), &place,
+              "face %" PRId64 " has vertex %" PRId64 " twice",
+              (int64_t)file->face_count + builder->first_number, vertex + builder->first_number);
+    file->repeat_triangle = file->triangle_count;
+    file->repeat = strdup(place.message);
+    return file->repeat ? MW_OK : mw__fail_memory(error);
+}
+
 mw_status mw__build_triangle(mw_mesh_builder *builder, uint32_t a, uint32_t b, uint32_t c,
                              mw_error *error)
 {
-    mw_status status = triangles_add(builder, a, b, c, error);
+    mw_status status = MW_OK;
+    if (MW_UNLIKELY(a == b || b == c || c == a) && !builder->file->repeat)
+        status = repeat_note(builder, a == b ? a : c, error);
+    if (!status) status = triangles_add(builder, a, b, c, error);
     builder->file->face_count += !status;
     return status;
 }
@@ -229,12 +264,10 @@ static mw_status polygon_cut(mw_mesh_builder *builder, const build_polygon *poly
     if ((builder->lonlat ? mw__lonlat_cut : mw__face_cut)(file->points, builder->corners,
                                                           builder->corner_count, triangles))
         return MW_OK;
-    return mw__source_fail_at(builder->source, polygon->position, error,
-                              "face %" PRIu64 " of %zu corners is not convex; cut it into convex "
-                              "ones",
-                              (uint64_t)file->faces[polygon->triangle] +
-                                  (uint64_t)builder->first_number,
-                              builder->corner_count);
+    return face_fail(builder, polygon->position, error,
+                     "face %" PRIu64 " of %zu corners is not convex; cut it into convex ones",
+                     (uint64_t)file->faces[polygon->triangle] + (uint64_t)builder->first_number,
+                     builder->corner_count);
 }
 
 static mw_status polygon_postpone(mw_mesh_builder *builder, const build_polygon *polygon,

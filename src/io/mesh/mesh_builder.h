@@ -1,10 +1,10 @@
 /* mesh_builder.h - a mesh_file that grows while a reader reads. Private.
  *
- * Memory is allocated for what a file holds, not for what it announces. A reader adds points,
- * values of fields for the point added last, and faces, corner by corner. Vertex numbers are
- * checked at once if all points are known, else at the end, with the position of the face. Faces
- * with more than three corners are cut into triangles (face_cut.h) as soon as all their corners are
- * known, at the latest at the end. */
+ * Memory is allocated for the contents of a file, not for the counts in its header. A reader adds
+ * points, values of fields for the point added last, and faces, corner by corner. Vertex numbers
+ * are checked at once if all points are known, else at the end, with the position of the face.
+ * Faces with more than three corners are cut into triangles (face_cut.h) as soon as all their
+ * corners are known, at the latest at the end. */
 #ifndef MW_SRC_IO_MESH_MESH_BUILDER_H
 #define MW_SRC_IO_MESH_MESH_BUILDER_H
 
@@ -14,9 +14,10 @@
 
 typedef struct mw_mesh_builder {
     mw_mesh_file *file;
-    mw_source *source;  /* what is read from: for messages */
-    mw_job *job;        /* that watches the reading; may be NULL */
-    const char *layout; /* asked for in netCDF files; NULL: whichever is there */
+    mw_source *source;           /* what is read from: for messages */
+    const char *corner_variable; /* of a netCDF file, the variable with the corners; NULL: none */
+    mw_job *job;                 /* that watches the reading; may be NULL */
+    const char *layout;          /* asked for in netCDF files; NULL: whichever is there */
     size_t point_room, triangle_room;
     int64_t first_number; /* number of the first vertex: 0 or 1 */
     bool points_complete;

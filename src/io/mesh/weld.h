@@ -9,8 +9,7 @@
 typedef struct mw_weld {
     uint32_t *slots; /* vertex or MW_NONE; a power of two of them, at most three quarters in use */
     size_t slot_count;
-    /* Differs from run to run, so that no file can be made to collide; results do not depend
-     * on it. */
+    /* A random seed, so that no file can provoke collisions; results do not depend on it. */
     uint64_t seed;
 } mw_weld;
 

@@ -373,8 +373,8 @@ static void netcdf_rehearse_values(const mw_netcdf *file, const mw_netcdf_variab
         mw__netcdf_doubles(file, variable, starts, variable->lengths, values, NULL);
 }
 
-/* In a child, which has inherited the lock: do all that is done with a file before its values are
- * read, and read the short ones. */
+/* In the child, which has inherited the lock: do everything that is done with a file before its
+ * values are read, and read the short variables. */
 static void netcdf_rehearse(void *work)
 {
     const netcdf_opening *o = work;
@@ -390,8 +390,8 @@ static void netcdf_rehearse(void *work)
     }
 }
 
-/* HDF5 falls over damaged files, in which it follows addresses and counts. So a child falls over
- * them first. Where no child can be made, the file is opened all the same. */
+/* HDF5 follows addresses and counts of damaged files and may crash. So a child tries the file
+ * first. If no child can be made, the file is opened without it. */
 static bool netcdf_opening_is_safe(const netcdf_opening *o)
 {
     mw_rehearsal rehearsal;
@@ -431,7 +431,7 @@ static bool netcdf_head_is_hdf5(const char *head, size_t size)
     return mw__netcdf_begins(head, size) && head[0] != 'C';
 }
 
-/* False also if it cannot be read: opening it tells why. */
+/* False also if it cannot be read; opening it then gives the error. */
 static bool netcdf_path_is_hdf5(const char *path)
 {
     char head[8];

@@ -45,7 +45,7 @@ typedef struct mw_netcdf mw_netcdf;
 /* Do the first bytes of a file tell netCDF, or HDF5, in which netCDF-4 is written? */
 bool mw__netcdf_begins(const char *head, size_t size);
 
-/* Open a regular file, which is not packed. MW_ERROR_SYSTEM: there is no libnetcdf, or no such
+/* Open a regular file that is not compressed. MW_ERROR_SYSTEM: there is no libnetcdf, or no such
  * file; MW_ERROR_INPUT; MW_ERROR_MEMORY. Release with mw__netcdf_close. */
 mw_status mw__netcdf_open(const char *path, mw_netcdf **out, mw_error *error);
 /* Read from memory, which must outlive the file; `name` is for messages. */

@@ -22,7 +22,7 @@ void mw__netcdf_unlock(void)
     pthread_mutex_unlock(&netcdf_mutex);
 }
 
-/* HDF5 does not bear being unloaded, so it stays (RTLD_NODELETE): loading it again costs little. */
+/* HDF5 cannot be unloaded safely, so it stays (RTLD_NODELETE). */
 static void *netcdf_library_open(void)
 {
     enum { FLAGS = RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE };
@@ -43,8 +43,8 @@ static bool netcdf_library_find(void *library, mw_netcdf_functions *functions)
     NETCDF_FUNCTIONS(NETCDF_FIND)
 #undef NETCDF_FIND
     *(void **)&functions->be_quiet = dlsym(library, "H5Eset_auto2");
-    /* Else HDF5 falls over at the end of the program, where a file could not be written. This has
-     * an effect before its first use only. */
+    /* Without this call HDF5 crashes at the end of the program if a file could not be written. It
+     * has an effect only before the first use of HDF5. */
     int (*no_exit)(void);
     *(void **)&no_exit = dlsym(library, "H5dont_atexit");
     if (no_exit) no_exit();

@@ -1,13 +1,13 @@
-/* netcdf_source.h - netCDF files by what they may be: packed by gzip, or a pipe; the headers of
- * classic ones are looked through before libnetcdf reads them. Private. */
+/* netcdf_source.h - opens netCDF files of any kind: plain, compressed by gzip, or a pipe. Headers
+ * of classic files are checked before libnetcdf reads them. Private. */
 #ifndef MW_SRC_IO_NETCDF_NETCDF_SOURCE_H
 #define MW_SRC_IO_NETCDF_NETCDF_SOURCE_H
 
 #include "io/netcdf/netcdf_file.h"
 #include "io/text/byte_source.h"
 
-/* Open what a source reads from: the file itself, or its unpacked contents, which *memory then
- * holds until the file is closed; the caller releases it with free(). */
+/* Open the file of a source, or its uncompressed contents. In the second case *memory holds them
+ * until the file is closed; the caller releases it with free(). */
 mw_status mw__netcdf_open_source(mw_source *source, mw_netcdf **out, void **memory,
                                  mw_error *error);
 

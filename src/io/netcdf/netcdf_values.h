@@ -1,5 +1,5 @@
-/* netcdf_values.h - the values of a variable as they are meant: without the numbers that stand for
- * missing values, and unpacked. Private. */
+/* netcdf_values.h - the values of a variable by the CF conventions: unpacked, and NaN where
+ * missing. Private. */
 #ifndef MW_SRC_IO_NETCDF_NETCDF_VALUES_H
 #define MW_SRC_IO_NETCDF_NETCDF_VALUES_H
 
@@ -20,8 +20,8 @@ mw_netcdf_packing mw__netcdf_packing(const mw_netcdf *file, const mw_netcdf_vari
 /* Stored numbers become values; missing ones become NaN. */
 void mw__netcdf_unpack(const mw_netcdf_packing *packing, double *values, size_t count);
 
-/* An error unless a file of this size can hold the variable's values, however well they are packed:
- * before memory is asked for. */
+/* Returns an error if a file of this size cannot hold the variable's values, even compressed. To be
+ * called before memory is allocated. */
 mw_status mw__netcdf_check_size(const mw_netcdf *file, const mw_netcdf_variable *variable,
                                 mw_error *error);
 

@@ -28,10 +28,10 @@ bool mw__rehearsal_end(mw_rehearsal *r)
 #include <time.h>
 #include <unistd.h>
 
-/* Of the processor, that a child may use; and of the clock, in which it may use none of it. */
+/* Seconds of processor time that a child may use; and seconds on the clock that it may be idle. */
 enum { PROCESSOR_SECONDS = 5, IDLE_SECONDS = 3 };
 
-/* The handlers of the host program are not for its child, nor a file with its memory. */
+/* The child must not run the host's signal handlers or write a core file. */
 static void rehearsal_be_quiet(void)
 {
     static const int fatal[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTRAP, SIGXCPU};
@@ -53,7 +53,8 @@ static _Noreturn void rehearsal_perform(int pipe, void (*perform)(void *), void 
     _exit(written != 1);
 }
 
-/* Above the standard streams, which a host may have closed, and the child takes. */
+/* A descriptor above the standard streams: the host may have closed those, and the child uses them.
+ */
 static int rehearsal_lift(int descriptor)
 {
     const int higher = fcntl(descriptor, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
@@ -83,7 +84,7 @@ static double rehearsal_seconds(const mw_rehearsal *r)
     return (double)used.tv_sec + 1e-9 * (double)used.tv_nsec;
 }
 
-/* Wait until the child says something or ends; false if it does nothing at all. */
+/* Wait until the child reports or ends; false if it is idle. */
 static bool rehearsal_wait(const mw_rehearsal *r)
 {
     struct pollfd end = {.fd = r->pipe, .events = POLLIN};

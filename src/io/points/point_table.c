@@ -134,7 +134,7 @@ static mw_status table_select(mw_point_reader *reader, const size_t *columns, si
     return MW_OK;
 }
 
-/* A row that was refused: say why. `row` may have got points for its decimal commas. */
+/* Say why a row was refused. Its decimal commas may have been replaced by points. */
 static mw_status table_explain_row(mw_point_reader *reader, const char *row, mw_error *error)
 {
     const table_state *t = reader->state;
@@ -221,8 +221,8 @@ static char *table_skip_text(table_state *t, char *p, size_t slot, int64_t line,
     return p + (mw__delimited_skip(p, t->separator) - p);
 }
 
-/* Read a cell of a table where texts may stand in some columns. What looks like a decimal mark in
- * a text is none. */
+/* Read a cell of a table in which some columns may contain text. A decimal mark within text is
+ * ignored. */
 static char *table_read_cell_or_text(table_state *t, char *p, size_t slot, int64_t line,
                                      double *value)
 {
@@ -315,7 +315,7 @@ static mw_status table_name_empty(mw_point_reader *reader, const char *selection
     return MW_OK;
 }
 
-/* Which columns are read from the beginning on. A table may leave it open. */
+/* Choose the columns to read at the beginning. With `table` the choice may come later. */
 static mw_status table_select_first(mw_point_reader *reader, const char *selection, mw_error *error)
 {
     if (reader->header.count == 0) return table_name_empty(reader, selection, error);

@@ -3,7 +3,7 @@
  *
  * A file is read once when it is opened, for its times. Afterwards it stays open after the step
  * that was read last, and all fields of that step are kept. To read an earlier step, reading begins
- * anew. So reading all steps in order takes one more pass, whatever the number of fields. */
+ * anew. So reading all steps in order takes one further pass, for any number of fields. */
 #ifndef MW_SRC_IO_SERIES_STEP_SERIES_H
 #define MW_SRC_IO_SERIES_STEP_SERIES_H
 

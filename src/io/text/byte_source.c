@@ -173,8 +173,8 @@ void mw__source_close(mw_source *source)
     *source = (mw_source){0};
 }
 
-/* What zlib has to say after a read of `got` bytes that was asked for more. Damage is reported
- * when the data before it have been used up, so that the error names the line. */
+/* Check zlib's state after a read that returned fewer bytes than wanted. Damage is reported only
+ * when the data before it are used up, so that the error names the right line. */
 static mw_status source_zlib_error(mw_source *source, int got, mw_error *error)
 {
     int number = Z_OK, system_number = errno;
@@ -205,7 +205,7 @@ double mw__source_fraction(const mw_source *source)
 /* Tell the job how much has been read. Returns false if it is to stop. */
 static bool source_step(mw_source *source)
 {
-    enum { MORE = 1 << 26 }; /* bytes that still come, of an input whose size nobody knows */
+    enum { MORE = 1 << 26 }; /* an estimate of the bytes to come, for an input of unknown size */
     if (!source->job) return true;
     uint64_t done = source_bytes_read(source);
     return mw__job_step(source->job, done, source->size ? source->size : done + MORE);

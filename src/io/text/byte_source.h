@@ -10,8 +10,8 @@
 
 #include "base/job.h"
 
-/* Longest line taken. A line needs memory, so that a small gzip file could otherwise ask for
- * much of it. */
+/* The longest line accepted. Without a limit a small gzip file could make a reader allocate very
+ * much memory. */
 #define MW_LINE_LIMIT ((size_t)1 << 24)
 /* Most bytes that mw__source_bytes and mw__source_peek can be asked for. */
 #define MW_BYTES_LIMIT ((size_t)1 << 16)
@@ -49,8 +49,8 @@ mw_status mw__source_open(mw_source *source, const char *path, mw_error *error);
  * format. The block is small, so that tests with little data reach its borders. */
 mw_status mw__source_memory(mw_source *source, const char *name, const void *bytes, size_t size,
                             mw_error *error);
-/* Reading is a part of the present stage of a job: all of it, or what comes after another source.
- * If the job is to stop, reading fails with MW_ERROR_MEMORY. */
+/* Report reading as progress of the present stage of a job: the whole stage, or the rest after
+ * another source. If the job is to stop, reading fails with MW_ERROR_MEMORY. */
 void mw__source_watch(mw_source *source, mw_job *job);
 /* How much of the file has been read, from 0 to 1; -1: unknown. */
 double mw__source_fraction(const mw_source *source);

@@ -37,7 +37,8 @@ mw_status mw__crs_copy(const char *bytes, size_t size, char **crs, mw_error *err
     return MW_OK;
 }
 
-/* Other programs keep other things in files of this name, so only WKT counts, and EPSG:n. */
+/* Only WKT and EPSG:n are accepted, because other programs use files of this name for other things.
+ */
 static bool crs_begins_as_wkt(const char *text)
 {
     static const char *const words[] = {

@@ -24,8 +24,8 @@ bool mw__delimited_cell(const char **row, char separator, bool *more, mw_text_ce
 /* How many cells a row has. */
 size_t mw__delimited_count(const char *row, char separator);
 
-/* Whether a quoted cell is still open at the end of the row. `open` tells whether one is open at
- * its beginning, which is in the middle of a row then. */
+/* Is a quoted cell still open at the end of the text? `open`: one is open at its beginning, which
+ * is then in the middle of a row. */
 bool mw__delimited_is_open(const char *row, char separator, bool open);
 
 /* What follows the closing quote of a cell that begins with one; the end of the row without one. */

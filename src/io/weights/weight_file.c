@@ -1,4 +1,4 @@
-/* weight_file.c - an operator is written in the format that the name of the file tells. */
+/* weight_file.c - writes an operator; the name of the file decides the format. */
 #include "base/options.h"
 #include "io/weights/weight_rows.h"
 

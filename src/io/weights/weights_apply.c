@@ -14,7 +14,7 @@
 
 enum { ROWS = 8 }; /* rows of a field that are in memory at a time */
 
-/* A variable of the input, and what becomes of it. */
+/* A variable of the input and its counterpart in the output. */
 typedef struct applied_variable {
     const mw_netcdf_variable *in;
     int out;    /* its number in the output */
@@ -27,12 +27,12 @@ typedef struct applied_file {
     const mw_operator *weights;
     mw_operator_info size;
     mw_netcdf *in;
-    void *in_memory; /* what it was unpacked to; NULL: it is read from its file */
+    void *in_memory; /* the unpacked values; NULL: it is read from its file */
     mw_netcdf_output *out;
     mw_missing_rule rule;
-    int source;       /* the dimension that is interpolated away */
+    int source;       /* the dimension that is replaced by the points */
     int *dimension;   /* the number in the output of each dimension of the input; -1: not there */
-    int point;        /* the dimension of the output that stands for it */
+    int point;        /* the dimension of the output in its place */
     int x, y;         /* variables with the positions of the points; -1: not known */
     const double *xy; /* all x, then all y */
     applied_variable *variable;
@@ -49,7 +49,7 @@ static bool variable_is_number(const mw_netcdf_variable *v)
     return v->rank <= MW_NETCDF_RANK && v->type != MW_NETCDF_CHAR && v->type < MW_NETCDF_STRING;
 }
 
-/* Does a variable have a value for each column, in some dimension that is its last? */
+/* Does the last dimension of a variable have the length of the columns? */
 static bool variable_fits(const applied_file *f, const mw_netcdf_variable *v)
 {
     return variable_is_number(v) && v->rank > 0 && v->lengths[v->rank - 1] == f->size.columns;
@@ -62,7 +62,8 @@ static bool name_is_among(const char *name, const char *const *names, size_t cou
     return false;
 }
 
-/* The dimension of the right length that the first named field has last, or most variables. */
+/* The dimension of the right length that the first named field has last; without names, the one
+ * that most variables have last. */
 static int applied_source(const applied_file *f, const mw_apply_weights_options *options)
 {
     const mw_netcdf_variable *named =
@@ -262,7 +263,7 @@ static mw_status applied_rows(const applied_file *f, const applied_variable *v,
     values_decode(v, f->values, rows * f->size.columns);
     const mw_value_table table = {
         .values = f->values, .count = rows, .stride = 1, .step = f->size.columns};
-    /* One row alone has a step of any length. */
+    /* For a single row the step does not matter. */
     const mw_value_table one = {.values = f->values, .count = 1};
     const mw_operator_apply_options options = {.threads = f->job->threads, .missing = f->rule};
     status = mw_operator_apply(f->weights, rows > 1 ? &table : &one, &options, f->result, error);
@@ -332,8 +333,8 @@ static mw_status applied_values(applied_file *f, mw_error *error)
     return status;
 }
 
-/* Does the file hold what it announces? Else nothing is written. netCDF-4 need not hold what was
- * not written. */
+/* Is the file as long as its header says? Otherwise nothing is written. A netCDF-4 file need not
+ * hold values that were never written. */
 static mw_status applied_check_sizes(const applied_file *f, mw_error *error)
 {
     mw_status status = MW_OK;
@@ -358,7 +359,8 @@ static void applied_count(applied_file *f, mw_apply_weights_info *info)
 
 /* --- positions of the points ------------------------------------------------------------------ */
 
-/* All x, then all y, of the rows of a file of weights; *xy is NULL if it does not tell. */
+/* All x, then all y, of the rows of a file of weights; *xy is NULL if the file does not have them.
+ */
 static mw_status positions_read(const mw_netcdf *file, uint32_t rows, double **xy, bool *degrees,
                                 mw_error *error)
 {

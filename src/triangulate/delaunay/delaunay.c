@@ -48,8 +48,8 @@ static void extent_extend(mw_extent *e, const mw_extent *by)
     }
 }
 
-/* Of points from..to - 1. Returns the first of them that is not finite, `to` where there is
- * none. */
+/* The extent of points from..to - 1. Returns the first one that is not finite, or `to` if all are.
+ */
 static uint32_t points_extent(const mw_point *points, uint32_t from, uint32_t to, mw_extent *extent)
 {
     mw_extent e = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
@@ -82,8 +82,8 @@ static int value_last_bit(double x)
     return (exponent > 0 ? exponent : 1) + DBL_MIN_EXP - 1 - DBL_MANT_DIG + zeros;
 }
 
-/* The exponent of the largest power of two that the coordinates of points from..to - 1 are
- * multiples of. For most that are none the first tells. */
+/* The exponent of the largest power of two that divides all coordinates of points from..to - 1. If
+ * the points are not on a lattice, usually the first point shows it. */
 static int points_lattice(const mw_point *points, uint32_t from, uint32_t to)
 {
     int lattice = INT_MAX;

@@ -1,0 +1,122 @@
+/**
+ * @file prepared.h
+ * A mesh and its locator in a file that is mapped: ready for queries at once, and one copy in
+ * memory for all processes of a machine.
+ *
+ * mw_write_prepared() writes the file (.mwm), mw_mesh_map() maps it. Answers are those of the
+ * locator that was written, bit for bit. The format is described in docs/prepared.md.
+ *
+ * A map reads the file when it is needed. So a mapped file must not be changed in place: to replace
+ * it, write a new one, which takes its name in one step; old maps keep the old file.
+ */
+#ifndef MESHWALK_PREPARED_H
+#define MESHWALK_PREPARED_H
+
+#include <meshwalk/io.h>
+#include <meshwalk/locate.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** The version of the format that mw_write_prepared() writes. mw_mesh_map() reads all versions from
+ * 1 to this one. */
+#define MW_PREPARED_VERSION 1
+
+/** Options of a prepared file. Zero-initialised options select the defaults. */
+typedef struct mw_prepare_options {
+    /** What to keep beside the mesh, such as the file it was read from: heights (as the field "z"),
+     * fields, triangle fields, faces, marked edges, coordinate system. It has the vertices and
+     * triangles of the mesh; its coordinates and vertex numbers are not read. NULL: the fields of
+     * the mesh. */
+    const mw_mesh_file *values;
+    const mw_progress *progress; /**< progress and cancelling, see base.h; NULL: none */
+    uint32_t reserved[4];        /**< must be zero */
+} mw_prepare_options;
+
+/**
+ * Write a mesh and its locator as a prepared file.
+ *
+ * The index of the border is written if the locator has one (mw_locator_options.border); stored
+ * areas and the indices of starts are not.
+ *
+ * @param locator  a locator of an embedding, whose pockets and holes are filled, not edited
+ * @param path     the file; "-": standard output
+ * @param options  NULL selects the defaults
+ * @param error    NULL, or receives the message of a failure
+ * @return MW_OK; MW_ERROR_ARGUMENT for NULL, another kind of locator, or values of another mesh;
+ *         MW_ERROR_SYSTEM if the file cannot be written; MW_ERROR_MEMORY; MW_CANCELLED. On failure
+ *         no file is left.
+ *
+ * Thread-safe. O(n).
+ */
+MW_API mw_status mw_write_prepared(const mw_locator *locator, const char *path,
+                                   const mw_prepare_options *options, mw_error *error);
+
+/** A mesh and its locator in a mapped file. Opaque. */
+typedef struct mw_prepared mw_prepared;
+
+/** Options of a map. Zero-initialised options select the defaults. */
+typedef struct mw_map_options {
+    /** 1: check only the header, so that nothing else is read before it is needed. For files of
+     * your own: queries in a damaged file may crash. 0: check all checksums, and that the contents
+     * are a mesh in which every query ends. */
+    int trust;
+    uint32_t threads;            /**< number of threads of the check; 0: one per processor */
+    const mw_progress *progress; /**< progress and cancelling, see base.h; NULL: none */
+    uint32_t reserved[4];        /**< must be zero */
+} mw_map_options;
+
+/**
+ * Map a prepared file.
+ *
+ * @param path     the file, not packed; not "-"
+ * @param options  NULL selects the defaults
+ * @param out      receives the map, owned by the caller (mw_prepared_close()); NULL on failure
+ * @param error    NULL, or receives the message of a failure
+ * @return MW_OK; MW_ERROR_SYSTEM if the file cannot be opened or mapped; MW_ERROR_INPUT if it is no
+ *         prepared file, of another version or byte order, incomplete or damaged;
+ *         MW_ERROR_ARGUMENT, MW_ERROR_MEMORY, MW_CANCELLED.
+ *
+ * Thread-safe. O(n) for n triangles; with `trust` O(1), and memory for the names of fields only.
+ */
+MW_API mw_status mw_mesh_map(const char *path, const mw_map_options *options, mw_prepared **out,
+                             mw_error *error);
+/** Unmap a file. Nothing of its mesh and locator may be used any more. NULL is allowed. */
+MW_API void mw_prepared_close(mw_prepared *prepared);
+
+/** The mesh of a map, owned by the map. Fields may be set (mw_mesh_set_field()), which does not
+ * change the file. Not to be destroyed. O(1). */
+MW_API mw_mesh *mw_prepared_mesh(mw_prepared *prepared);
+
+/** The locator of a map, owned by the map: as safe to share as any other. Not to be destroyed.
+ * O(1). */
+MW_API const mw_locator *mw_prepared_locator(const mw_prepared *prepared);
+
+/** What is kept beside the mesh, owned by the map: fields (heights as "z"), triangle fields, faces,
+ * marked edges, coordinate system. `points` and `triangles` are NULL, since the mesh has them. Not
+ * to be changed or released. O(1). */
+MW_API const mw_mesh_file *mw_prepared_values(const mw_prepared *prepared);
+
+/** What a map knows of its file. */
+typedef struct mw_prepared_info {
+    uint64_t bytes;         /**< size of the file */
+    uint64_t checksum;      /**< of the header, which has those of all parts: names the contents */
+    double low[2], high[2]; /**< extent of the vertices of triangles with an area */
+    uint32_t version;       /**< of the format */
+    int border;             /**< 1: with the index of the border */
+    int trusted;            /**< 1: mapped with mw_map_options.trust */
+    uint32_t reserved;
+} mw_prepared_info;
+
+/** Fill `info`. O(1). */
+MW_API void mw_prepared_describe(const mw_prepared *prepared, mw_prepared_info *info);
+
+/** 1 if a file begins like a prepared file, damaged or not; 0 if not, if it cannot be opened, or
+ * for "-". Thread-safe. */
+MW_API int mw_prepared_known(const char *path);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

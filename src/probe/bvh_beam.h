@@ -1,0 +1,169 @@
+/* bvh_beam.h - a line against the boxes of the eight children of a node, in floats. Private.
+ *
+ * What is computed must not miss a box that contains a point of the line within its limits. The
+ * search then asks exact predicates about the triangles. In the frame of the BVH the line is q + t
+ * m; a power of two scales m so that its largest component is 1/2 to 1. A point of the line lies in
+ * a box if for each axis
+ *
+ *     (low - q) / m <= t <= (high - q) / m    (or the other way round, where m < 0),
+ *
+ * and the line meets the box within its limits if these intervals, and the limits, have a value of
+ * t in common. Let u be 2^-24. The computed intervals contain the true ones for these reasons:
+ *  - If q is far from the surface, floats would say little of q. So q is moved along the line to
+ *    where it is nearest to the centre of the frame, by `shift`, and t counts from there. The
+ *    moved q is off the line by less than 2^-51 of the largest coordinate of q: |shift m| is less
+ *    than twice that, and a product and a sum are rounded. The boxes are widened by w, at least
+ *    2^-50 of that coordinate (mw__bvh_aim).
+ *  - A side less w is low - (q + w). The sum is rounded upwards, to a float; q - w is rounded
+ *    downwards. So an end is off only by the rounding of the difference, of 1 / m and of the
+ *    product: less than 3u + 3u^2 + u^3 + 2^-50 of itself. Ends are moved outwards by END_ERROR =
+ *    8u of themselves, which also covers the rounding of that.
+ *  - 1 / m and a difference have no error by underflow: |1 / m| >= 1, and differences of floats
+ *    are exact where they are denormal. A product is off by less than 2^-149 then. All intervals
+ *    are longer than needed by LEAST_WIDTH on both sides, since |1 / m| >= 1.
+ *  - Components of m below SMALL_COMPONENT count as 0: then t is not limited if q lies between the
+ *    sides, and the interval is empty if not. Sides reach to 2^60 at most (else the box is all of
+ *    space), so t is less than 2^64 and the line moves by less than 2^-62, which is less than
+ *    LEAST_WIDTH. 0 times infinity, for a line along a side, does not narrow the interval: each
+ *    comparison keeps the old end where the new one is NaN.
+ *  - A product that overflows says that the box is beyond 2^127, where no box is.
+ *  - If q is farther than MW_BVH_FAR, or overflows, w is infinite and all boxes are met. */
+#ifndef MW_SRC_PROBE_BVH_BEAM_H
+#define MW_SRC_PROBE_BVH_BEAM_H
+
+#include "predicates/line.h"
+#include "probe/bvh.h"
+
+#include <float.h>
+
+/* The line in the frame of the BVH, and which part of it is searched. */
+typedef struct mw_bvh_beam {
+    float add_low[3], add_high[3]; /* q + w and q - w: what sides are compared with */
+    float inverse[3];              /* 1 / m; infinite where m is 0 */
+    bool down[3];                  /* m < 0: the line enters at the high side */
+    float from, to;                /* t is limited to these */
+    float at_low, at_high;         /* t of the point that distances count from is between these */
+    float reach;                   /* and may be as far from that as this */
+    double at, per_length;         /* the same t; t for a unit of length */
+} mw_bvh_beam;
+
+#define MW_BEAM_END_ERROR 0x1p-21f
+#define MW_BEAM_SMALL_COMPONENT 0x1p-126
+#define MW_BEAM_NEAR 4 /* within this, q is not moved */
+/* Distances are off by 2^-40 of themselves, |m| and the quotient by a few times 2^-53 more. */
+#define MW_BEAM_REACH_ERROR (1 + 0x1p-38)
+
+/* A double rounded to a float that is not greater, or not less. */
+static MW_INLINE float mw__float_down(double x)
+{
+    return (float)(x - fabs(x) * 0x1p-22 - 0x1p-126);
+}
+static MW_INLINE float mw__float_up(double x)
+{
+    return -mw__float_down(-x);
+}
+
+/* Distances from the point, in units of length, that are still of interest: up to `reach`, and from
+ * `least` on ahead of it if the line is one-sided. */
+static MW_INLINE void mw__beam_limit(mw_bvh_beam *b, double reach, bool one_sided, double least)
+{
+    double t = (reach + MW_BVH_TINY_LENGTH) * b->per_length * MW_BEAM_REACH_ERROR +
+               MW_BVH_LEAST_WIDTH,
+           ahead =
+               (one_sided ? least / MW_BEAM_REACH_ERROR * b->per_length : -t) - MW_BVH_LEAST_WIDTH;
+    b->reach = mw__float_up(t);
+    b->to = mw__float_up(b->at + t);
+    b->from = mw__float_down(b->at + ahead);
+}
+
+static inline mw_bvh_beam mw__beam_make(const mw_bvh *bvh, const mw_line *line, double slack)
+{
+    mw_bvh_beam b;
+    double q[3], m[3], square = 0, along = 0, shift = 0;
+    double width = mw__bvh_aim(bvh, line->q, slack, q);
+    double largest = fmax(fabs(line->m[0]), fmax(fabs(line->m[1]), fabs(line->m[2])));
+    int exponent = ilogb(largest) + 1;
+    for (int k = 0; k < 3; k++) {
+        m[k] = ldexp(line->m[k], -exponent);
+        square += m[k] * m[k];
+        along += m[k] * q[k];
+    }
+    if (fmax(fabs(q[0]), fmax(fabs(q[1]), fabs(q[2]))) > MW_BEAM_NEAR) shift = -along / square;
+    for (int k = 0; k < 3; k++) {
+        double p = q[k] + shift * m[k];
+        b.add_low[k] = mw__float_up(p + width);
+        b.add_high[k] = mw__float_down(p - width);
+        bool small = fabs(m[k]) < MW_BEAM_SMALL_COMPONENT;
+        b.inverse[k] = small ? INFINITY : (float)(1 / m[k]);
+        b.down[k] = b.inverse[k] < 0;
+    }
+    b.at = -shift;
+    b.at_low = mw__float_down(b.at);
+    b.at_high = mw__float_up(b.at);
+    b.per_length = bvh->scale / sqrt(square);
+    return b;
+}
+
+/* Test the children of a node against the beam. Returns those that it meets, as bits. No point of
+ * the line in child i is nearer than near[i], in t, to the point that distances count from. */
+typedef uint32_t mw_beam_meets(const mw_bvh_beam *beam, const mw_bvh_node *node,
+                               float near[MW_BVH_WIDTH]);
+
+static MW_INLINE uint32_t mw__beam_meets_portable(const mw_bvh_beam *beam, const mw_bvh_node *node,
+                                                  float near[MW_BVH_WIDTH])
+{
+    uint32_t met = 0;
+    for (uint32_t i = 0; i < MW_BVH_WIDTH; i++) {
+        float low = -INFINITY, high = INFINITY;
+        for (int k = 0; k < 3; k++) {
+            float s = (node->low[k][i] - beam->add_low[k]) * beam->inverse[k],
+                  e = (node->high[k][i] - beam->add_high[k]) * beam->inverse[k];
+            float from = beam->down[k] ? e : s, to = beam->down[k] ? s : e;
+            low = from > low ? from : low;
+            high = to < high ? to : high;
+        }
+        low = fminf(low * (1 - MW_BEAM_END_ERROR), low * (1 + MW_BEAM_END_ERROR));
+        high = fmaxf(high * (1 - MW_BEAM_END_ERROR), high * (1 + MW_BEAM_END_ERROR));
+        float before = low - beam->at_high, after = beam->at_low - high;
+        near[i] = fmaxf(fmaxf(before, after), 0);
+        low = low > beam->from ? low : beam->from;
+        high = high < beam->to ? high : beam->to;
+        met |= (uint32_t)(low <= high) << i;
+    }
+    return met;
+}
+
+#ifdef __x86_64__
+
+#include <immintrin.h>
+
+/* The same, eight at a time. Of two operands, max and min give the second one if one is NaN. */
+__attribute__((target("avx2"))) static inline uint32_t
+mw__beam_meets_avx2(const mw_bvh_beam *beam, const mw_bvh_node *node, float near[MW_BVH_WIDTH])
+{
+    __m256 low = _mm256_set1_ps(-INFINITY), high = _mm256_set1_ps(INFINITY);
+    for (int k = 0; k < 3; k++) {
+        __m256 inverse = _mm256_set1_ps(beam->inverse[k]);
+        __m256 s = _mm256_mul_ps(
+            _mm256_sub_ps(_mm256_load_ps(node->low[k]), _mm256_set1_ps(beam->add_low[k])), inverse);
+        __m256 e = _mm256_mul_ps(
+            _mm256_sub_ps(_mm256_load_ps(node->high[k]), _mm256_set1_ps(beam->add_high[k])),
+            inverse);
+        low = _mm256_max_ps(beam->down[k] ? e : s, low);
+        high = _mm256_min_ps(beam->down[k] ? s : e, high);
+    }
+    const __m256 less = _mm256_set1_ps(1 - MW_BEAM_END_ERROR),
+                 more = _mm256_set1_ps(1 + MW_BEAM_END_ERROR);
+    low = _mm256_min_ps(_mm256_mul_ps(low, less), _mm256_mul_ps(low, more));
+    high = _mm256_max_ps(_mm256_mul_ps(high, less), _mm256_mul_ps(high, more));
+    __m256 before = _mm256_sub_ps(low, _mm256_set1_ps(beam->at_high)),
+           after = _mm256_sub_ps(_mm256_set1_ps(beam->at_low), high);
+    _mm256_storeu_ps(near, _mm256_max_ps(_mm256_max_ps(before, after), _mm256_setzero_ps()));
+    low = _mm256_max_ps(low, _mm256_set1_ps(beam->from));
+    high = _mm256_min_ps(high, _mm256_set1_ps(beam->to));
+    return (uint32_t)_mm256_movemask_ps(_mm256_cmp_ps(low, high, _CMP_LE_OQ));
+}
+
+#endif
+
+#endif

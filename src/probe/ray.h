@@ -1,0 +1,97 @@
+/* ray.h - lines, rays and segments against a surface: what they meet, exactly, and the search of
+ * the BVH for it. Private.
+ *
+ * ray_hit.c decides about one triangle. ray_search.c searches the BVH; what it finds goes to a
+ * function, which may end the search or narrow it. */
+#ifndef MW_SRC_PROBE_RAY_H
+#define MW_SRC_PROBE_RAY_H
+
+#include "probe/bvh_beam.h"
+#include "probe/prober.h"
+
+/* The part of a line that counts: at a distance from q of `least` to `greatest`, which may be
+ * infinite; ahead of q for a ray; up to `end` for a segment. */
+typedef struct mw_ray_query {
+    mw_line line;
+    mw_probe_extent extent;
+    mw_probe_faces faces;
+    double least, greatest;
+    double end[3];
+} mw_ray_query;
+
+/* How a ray meets a triangle. */
+typedef enum mw_ray_side { MW_RAY_MISSES = 0, MW_RAY_FRONT, MW_RAY_BACK } mw_ray_side;
+
+/* --- ray_hit.c --- */
+
+/* Does the ray meet the triangle, on a face that counts, within its extent and limits? Exact. A
+ * triangle along the line is not met, nor is one with a vertex that is not finite. */
+mw_ray_side mw__ray_meets(const mw_ray_query *ray, const mw_corners corners);
+
+/* Compare where along the line two triangles are met, whose sides are known: < 0 if s comes before
+ * t; equal places by their numbers. Exact. */
+int mw__ray_order(const mw_surface *surface, const mw_ray_query *ray, uint32_t s,
+                  mw_ray_side s_side, uint32_t t, mw_ray_side t_side);
+
+/* The answer for a triangle that is met. */
+mw_touch mw__ray_touch(const mw_surface *surface, const mw_ray_query *ray, uint32_t triangle,
+                       mw_ray_side side);
+
+/* --- ray_search.c --- */
+
+typedef struct mw_ray_search mw_ray_search;
+
+/* A triangle that the ray meets was found. Returns whether the search goes on. */
+typedef bool mw_ray_found(mw_ray_search *search, uint32_t triangle, mw_ray_side side);
+
+struct mw_ray_search {
+    const mw_prober *prober;
+    const mw_ray_query *ray;
+    mw_ray_found *found;
+    void *self; /* of `found` */
+    mw_bvh_beam beam;
+    uint32_t nearest; /* of mw__ray_found_nearest; or MW_NONE */
+    mw_ray_side side; /* of that */
+    uint64_t boxes, triangles, hits;
+    /* The node that is visited: which children the beam meets, as bits, and from where on. */
+    const mw_bvh_node *node;
+    uint32_t met;
+    float near[MW_BVH_WIDTH];
+    mw_bvh_stack stack;
+};
+
+/* Begin a search. The prober and the ray must outlive it. The BVH must be up to date. */
+void mw__ray_search_begin(mw_ray_search *search, const mw_prober *prober, const mw_ray_query *ray,
+                          mw_ray_found *found, void *self);
+
+/* Look at one triangle first: a good guess narrows the search. */
+void mw__ray_search_guess(mw_ray_search *search, uint32_t triangle);
+
+/* Run `count` searches of one prober to their ends, at most MW_RAYS_AT_A_TIME. Several take turns,
+ * so that one goes on while another waits for memory. One with an empty stack has ended. */
+#define MW_RAYS_AT_A_TIME 8
+void mw__ray_search_run(const mw_prober *prober, mw_ray_search *search, uint32_t count);
+
+/* Keeps the triangle nearest to q, of equally near ones the lowest. */
+mw_ray_found mw__ray_found_nearest;
+
+/* The answer of a search for the nearest triangle. */
+mw_touch mw__ray_touch_found(const mw_ray_search *search);
+
+void mw__ray_search_count(const mw_ray_search *search, mw_probe_counters *counters);
+
+/* --- hit_list.c --- */
+
+/* The triangles that a ray meets, in the caller's array; if there are more than fit, the first ones
+ * along the line. */
+typedef struct mw_hit_list {
+    mw_touch *touches;
+    size_t capacity, count; /* count: of all that were found */
+} mw_hit_list;
+
+/* `self` of the search is the list. */
+mw_ray_found mw__hit_list_found;
+/* Sort the list and complete its touches. */
+void mw__hit_list_finish(const mw_ray_search *search);
+
+#endif

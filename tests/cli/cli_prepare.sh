@@ -1,0 +1,78 @@
+#!/usr/bin/env bash
+# prepare: a mesh in a file that is ready for queries; each command takes it as a mesh.
+# shellcheck source=driver.sh disable=SC2154
+. "$(dirname "$0")/driver.sh"
+
+# Nine cells without the middle one; the height is x + 10 y.
+{
+    printf 'ply\nformat ascii 1.0\ncomment crs EPSG:2056\nelement vertex 16\n'
+    printf 'property double x\nproperty double y\nproperty double z\nproperty double depth\n'
+    printf 'element face 16\nproperty list uchar int vertex_indices\nend_header\n'
+    for y in 0 2 3 5; do for x in 0 2 3 5; do echo "$x $y $((x + 10 * y)) $((-x))"; done; done
+    for a in 0 1 2 4 6 8 9 10; do
+        echo "3 $a $((a + 1)) $((a + 5))"
+        echo "3 $a $((a + 5)) $((a + 4))"
+    done
+} >m.ply
+printf 'x,y\n0.5,0.25\n2.5,2.5\n4,5\n2,2\n-1,1\n5,2.5\n' >q.csv
+
+run prepare m.ply -o m.mwm; exits 0; says_nothing
+run prepare m.ply --border -o b.mwm; exits 0; says_nothing
+cp b.mwm kept
+run prepare m.ply --border -o b.mwm; exits 0
+holds "the same mesh gives the same file" cmp -s b.mwm kept
+holds "it is that of version 1 in the tests" cmp -s b.mwm \
+    "$source_tree/tests/prepared/version_1.mwm"
+
+# Every command answers as from the mesh itself.
+for m in m.mwm b.mwm; do
+    for c in 'locate -q' 'locate -q --details' 'locate -q --tolerance 1 --walk straight' \
+        'locate -q --walk border' 'locate -q --start grid --areas' 'sample -q --outside nearest' \
+        'sample -q --field depth'; do
+        # shellcheck disable=SC2086 # words
+        run $c m.ply q.csv; exits 0
+        cp "$logs/out" wanted
+        # shellcheck disable=SC2086 # words
+        run $c "$m" q.csv; exits 0
+        holds "$c $m is that of the mesh" cmp -s "$logs/out" wanted
+    done
+    run info -q "$m"; exits 0; prints_line '^holes +1$'; prints_line '^crs +EPSG:2056$'
+    run check "$m"; exits 0
+    run convert -q "$m" back.ply; exits 0
+    run convert -q m.ply there.ply; exits 0
+    holds "the mesh comes back" cmp -s back.ply there.ply
+done
+cp m.mwm hidden
+run locate -q hidden q.csv; exits 0
+gzip -kf m.mwm
+run sample -q m.mwm.gz q.csv; exits 0; prints_line '^0.5,0.25,3$'
+run prepare m.mwm --border -o again.mwm; exits 0
+holds "a prepared mesh can be prepared" cmp -s again.mwm b.mwm
+
+# Fields.
+run prepare m.ply --fields depth -o d.mwm; exits 0
+run sample -q d.mwm q.csv; exits 3; says "has no field 'z'"
+run prepare m.ply --fields none -o n.mwm; exits 0
+run sample -q n.mwm q.csv; exits 3; says 'neither heights nor fields'
+run prepare m.ply --fields depth,soil -o x.mwm; exits 3; says "m.ply: has no field 'soil'"
+
+# Refused: nothing is left behind.
+run prepare m.ply; exits 2; says 'needs -o FILE'
+run prepare m.ply -o m.ply; exits 2; says 'is input and output'
+printf 'OFF\n4 2 0\n0 0 0\n4 0 0\n2 3 0\n2 2 0\n3 0 1 2\n3 0 1 3\n' >overlap.off
+run prepare overlap.off -o x.mwm; exits 3; says "'meshwalk check overlap.off' lists every defect"
+run prepare m.ply -o none/x.mwm; exits 4
+if [[ -w /dev/full ]]; then
+    run prepare m.ply -o /dev/full; exits 4; says 'No space left'
+fi
+holds "nothing is written" test ! -e x.mwm
+
+# Damaged files.
+head -c 1000 m.mwm >short.mwm
+run locate short.mwm q.csv; exits 3; says 'short.mwm: a damaged prepared mesh: it has 1000 bytes'
+{ head -c 1000 m.mwm; printf 'x'; tail -c +1002 m.mwm; } >changed.mwm
+run locate changed.mwm q.csv; exits 3
+says "changed.mwm: a damaged prepared mesh: the checksum of part 'points' is wrong"
+{ head -c 8 m.mwm; printf '\2'; tail -c +10 m.mwm; } >later.mwm
+run info later.mwm; exits 3; says 'format version 2.*prepare it again'
+finish
