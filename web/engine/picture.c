@@ -325,8 +325,7 @@ static void sides_prepare(const web_picture *p, web_sides *s, uint32_t number)
     const uint32_t *v = p->mesh->file.triangles + 3 * (size_t)number;
     s->number = number;
     for (int k = 0; k < 3; k++) {
-        const double *a = p->screen + 3 * (size_t)v[k],
-                     *b = p->screen + 3 * (size_t)v[(k + 1) % 3];
+        const double *a = p->screen + 3 * (size_t)v[k], *b = p->screen + 3 * (size_t)v[(k + 1) % 3];
         double across = b[0] - a[0], down = b[1] - a[1], length = hypot(across, down);
         double part = length > 0 ? 1 / length : 0;
         s->side[k][1] = part * down;

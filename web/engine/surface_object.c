@@ -151,9 +151,10 @@ web_trace *WEB_EXPORT(web_ray_walk)(const web_surface *s, int walk, double seed,
                                     const double *to)
 {
     mw_star_cursor cursor;
-    mw_star_query_options options = {
-        .walk = (mw_star_walk_kind)walk, .start = MW_STAR_START_LAST, .seed = (uint64_t)seed,
-        .counters = 1};
+    mw_star_query_options options = {.walk = (mw_star_walk_kind)walk,
+                                     .start = MW_STAR_START_LAST,
+                                     .seed = (uint64_t)seed,
+                                     .counters = 1};
     if (mw_star_cursor_init(s->star, &options, &cursor, &web_error) != MW_OK) return NULL;
     mw_star_locate(s->star, &cursor, from);
     web_trace *t = calloc(1, sizeof *t);
