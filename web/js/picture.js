@@ -66,8 +66,8 @@ export class Picture {
     });
   }
 
-  /** Draw by a matrix of three rows of four; a copy of the pixels, for ImageData. `lines`, in space:
-   * edges where at most `most` triangles have a part, and borders; hidden ones stay hidden. */
+  /** Draw by a matrix of three rows of four; a copy of the pixels, for ImageData. In space `lines`
+   * adds borders, and edges where at most `most` triangles have a part; hidden ones stay hidden. */
   draw(matrix, inSpace, lines = null) {
     const { engine } = this;
     engine.withDoubles(matrix, (address) =>
