@@ -143,8 +143,8 @@ static void run_print(space_run *r, const rounds_results *results, size_t leader
     for (size_t i = 0; i < r->entries; i++) {
         const space_entry *e = &r->entry[i];
         bool builds = ways == ways_to_build;
-        double bytes =
-            builds ? (double)r->bytes[e->number] / (double)r->model->triangle_count : NAN;
+        double bytes = (double)r->bytes[e->number] / (double)r->model->triangle_count;
+        if (!builds || bytes == 0) bytes = NAN; /* not known */
         run_print_row(r, e, ways(e->engine)[e->way], ns[i], base, bytes, judged);
     }
 }

@@ -14,12 +14,13 @@ holds 'all rows' test "$(tail -n +2 "$logs/out" | cut -f 1-5 | sort -u | wc -l)"
 holds 'certain answers and stars are right' test -z "$(tail -n +2 "$logs/out" | awk -F '\t' \
     '$3 != "build" && $4 != "meshwalk-walk" && $9 + $10 + $11 > 0')"
 holds 'every row has a time' test -z "$(tail -n +2 "$logs/out" | awk -F '\t' '!($6 > 0)')"
-run bench space --data "$source_tree/data/trap.off" --rounds 1 --queries 100 --tasks random,move-one \
+trap=$source_tree/data/trap.off
+run bench space --data "$trap" --rounds 1 --queries 100 --tasks random,move-one \
     --engines meshwalk; exits 0
 prints_line '^trap\.off +[0-9]+ random +meshwalk +single( +[0-9.]+)( +0){3}$'
 run bench space cube; refused 2 "unknown model 'cube'"
 run bench space --tasks fly; refused 2 "unknown task 'fly'"
 run bench space --engines abacus; refused 2 "unknown engine 'abacus'"
-run bench space knot --data "$source_tree/data/trap.off"; refused 2 'takes files or makes models'
+run bench space knot --data "$trap"; refused 2 'takes files or makes models'
 run bench space --plot a.svg; refused 2 'has no plot'
 finish
