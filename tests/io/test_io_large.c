@@ -1,4 +1,4 @@
-/* test_io_large.c - meshes that are longer than the blocks in which files are read and written. They
+/* test_io_large.c - meshes that are longer than the blocks in which files are read and written
  * come back bit for bit, in every format. */
 #define _GNU_SOURCE /* memmem */
 #include <stdarg.h>
