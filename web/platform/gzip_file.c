@@ -1,6 +1,6 @@
 /* gzip_file.c - reads gzip files [RFC 1952], one member after another, and hands other files
- * through. A browser's files are in memory anyway, so a packed one is read as a whole; one of 4 GiB
- * and more is out of memory for it. */
+ * through. A browser's files are in memory anyway, so a packed one is read as a whole; one of 2 GiB
+ * and more from a pipe, or of 4 GiB, is out of memory for it. */
 #include <errno.h>
 #include <limits.h>
 #include <stdbool.h>
@@ -14,9 +14,9 @@ enum { MAGIC = 2, ROOM = 1 << 16 };
 
 typedef struct gzFile_s {
     int descriptor, error, system_error; /* zlib's number; errno, if that is Z_ERRNO */
-    bool packed, open; /* open: in a member */
-    Bytef magic[MAGIC]; /* the first bytes; a single one stands at the end */
-    unsigned waiting;   /* how many of them, at the end, a reader of a pipe has not got yet */
+    bool packed, open;                   /* open: in a member */
+    Bytef magic[MAGIC];                  /* the first bytes; a single one stands at the end */
+    unsigned waiting; /* how many of them, at the end, a reader of a pipe has not got yet */
     Bytef *bytes;
     size_t size;
     z_stream stream;
@@ -60,7 +60,7 @@ static int gzip_file_read_all(gzip_file *file)
         if (got < 0) return Z_ERRNO;
         size += (size_t)got;
         if (size < room) break;
-        Bytef *larger = room > UINT_MAX ? NULL : realloc(file->bytes, 2 * room);
+        Bytef *larger = room > UINT_MAX / 2 ? NULL : realloc(file->bytes, 2 * room);
         if (!larger) return Z_MEM_ERROR;
         file->bytes = larger;
         room *= 2;

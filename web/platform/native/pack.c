@@ -37,7 +37,8 @@ int compress2(Bytef *packed, uLong *packed_size, const Bytef *bytes, uLong size,
         if (count > 0) sum = adler32(sum, bytes + done, count);
         done += count;
     } while (done < size);
-    for (unsigned shift = 32; shift > 0; shift -= 8) at = pack_byte(at, (unsigned)(sum >> (shift - 8)));
+    for (unsigned shift = 32; shift > 0; shift -= 8)
+        at = pack_byte(at, (unsigned)(sum >> (shift - 8)));
     *packed_size = (uLong)(at - packed);
     return Z_OK;
 }

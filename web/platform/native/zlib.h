@@ -1,5 +1,5 @@
-/* zlib.h - the project's own unpacking in place of zlib, in a build without zlib. Its functions have
- * names of the library's, so that a program can use zlib beside it. */
+/* zlib.h - the project's own unpacking in place of zlib, in a build without zlib. Its functions
+ * have names of the library's, so that a program can use zlib beside it. */
 #ifndef MW_WEB_NATIVE_ZLIB_H
 #define MW_WEB_NATIVE_ZLIB_H
 
