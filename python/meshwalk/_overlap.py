@@ -308,17 +308,16 @@ def remap(
     if at_vertices and source_cells is not None:
         raise ValueError("source_cells are for values of triangles")
     given = (first, *_cells(source_cells, "source_cells", first.mesh))
-    options = (at_vertices, degrees, covered, threads, progress)
+    kind = (at_vertices, degrees, covered)
     if isinstance(target, Pixels):
         if target_cells is not None:
             raise ValueError("target_cells are for a mesh")
-        raw = _core.remap_to_pixels(*given, target, *options)
+        raw = _core.remap_to_pixels(*given, target, *kind, threads, progress)
         shape: tuple[int, ...] = (target.rows, target.columns)
     else:
         second = filled(target, "target")
-        raw = _core.remap_to_mesh(
-            *given, second, *_cells(target_cells, "target_cells", second.mesh), *options
-        )
+        cells = _cells(target_cells, "target_cells", second.mesh)
+        raw = _core.remap_to_mesh(*given, second, *cells, *kind, threads, progress)
         shape = (raw[0].describe()[0],)
     weights = Operator._of(raw[0], shape, "vertices" if at_vertices else "cells")
     area, fraction = (np.frombuffer(part, np.float64) for part in raw[1:3])

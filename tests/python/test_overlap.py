@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import pickle
 import subprocess
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -37,8 +38,8 @@ def test_volumes_are_those_of_the_program(
         mesh.write(name)
     info = meshwalk.volume(*hills)
     told = json.loads(_run(program, "volume", names[0], "--against", names[1], "--json"))
-    for name in ("cut", "fill", "area", "cut_area", "fill_area", "level_area"):
-        assert getattr(info, name) == told[name]
+    for key in ("cut", "fill", "area", "cut_area", "fill_area", "level_area"):
+        assert getattr(info, key) == told[key]
     assert info.area == pytest.approx(81)
     above = meshwalk.volume(meshwalk.Locator(hills[0], fill="yes"), 0.5, threads=2)
     told = json.loads(_run(program, "volume", names[0], "--base", 0.5, "--json"))
@@ -144,16 +145,21 @@ def test_weights_pickle_and_print(
     np.testing.assert_array_equal(matrix, weights.weights.tocsr().toarray())
 
 
+Call = Callable[[Any], object]
+VOLUME: Callable[..., Any] = meshwalk.volume  # not only with what their types allow
+REMAP: Callable[..., Any] = meshwalk.remap
+
+
 @pytest.mark.parametrize(
     ("call", "error", "message"),
     [
-        (lambda m: meshwalk.volume(m, "low"), TypeError, "other must be a Mesh, a Locator or a n"),
+        (lambda m: VOLUME(m, "low"), TypeError, "other must be a Mesh, a Locator or a n"),
         (lambda m: meshwalk.volume(m, np.nan), ValueError, "base"),
-        (lambda m: meshwalk.volume(7, m), TypeError, "surface must be a Mesh or a Lo"),
+        (lambda m: VOLUME(7, m), TypeError, "surface must be a Mesh or a Lo"),
         (lambda m: meshwalk.volume(m, 1, heights="h"), KeyError, "no field 'h'; it has z"),
         (lambda m: meshwalk.volume(m, 1, heights=[1, 2]), ValueError, "heights must have the sh"),
-        (lambda m: meshwalk.remap(m, m, "faces"), ValueError, "values must be 'triangles' or"),
-        (lambda m: meshwalk.remap(m, 3), TypeError, "target must be a Mesh or a Locator, not int"),
+        (lambda m: REMAP(m, m, "faces"), ValueError, "values must be 'triangles' or"),
+        (lambda m: REMAP(m, 3), TypeError, "target must be a Mesh or a Locator, not int"),
         (lambda m: meshwalk.remap(m, m, source_cells=[0]), ValueError, "source_cells must have"),
         (
             lambda m: meshwalk.remap(m, m, source_cells=np.full(len(m), -1)),
@@ -178,7 +184,7 @@ def test_weights_pickle_and_print(
     ],
 )
 def test_refusals(
-    hills: tuple[meshwalk.Mesh, meshwalk.Mesh], call: Any, error: type[Exception], message: str
+    hills: tuple[meshwalk.Mesh, meshwalk.Mesh], call: Call, error: type[Exception], message: str
 ) -> None:
     mesh = meshwalk.delaunay(np.column_stack([hills[0].points, hills[0].fields["z"]])[:204])
     assert len(mesh) == 402

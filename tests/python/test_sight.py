@@ -45,7 +45,7 @@ def test_a_wall_hides() -> None:
     """A wall along x = 5, which the line passes at half its height."""
     points = [[0, 0, 0], [5, 0, 4], [9, 0, 0], [0, 9, 0], [5, 9, 4], [9, 9, 0]]
     mesh = meshwalk.Mesh(points, [[0, 1, 4], [0, 4, 3], [1, 2, 5], [1, 5, 4]])
-    looks = [[[4, 4], [9, 4]], [[7, 4], [np.nan, 4]]]
+    looks: Any = [[[4, 4], [9, 4]], [[7, 4], [np.nan, 4]]]
     seen = meshwalk.visible(mesh, [0, 4], looks, height=1)
     assert seen.shape == (2, 2)
     assert seen.visible.tolist() == [[True, False], [False, False]]
