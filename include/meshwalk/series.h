@@ -35,6 +35,9 @@ typedef struct mw_series_field {
      * in the order of the file */
     const char *name;
     const char *unit; /**< "" = the file does not tell */
+    /** As the file describes it, and its name by CF: "sea_surface_height_above_geoid"; "" = the
+     * file does not tell. */
+    const char *long_name, *standard_name;
     mw_series_location location;
     int constant;       /**< 1 = the field does not depend on time; all steps are equal */
     size_t value_count; /**< vertices or faces */

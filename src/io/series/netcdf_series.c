@@ -15,6 +15,11 @@ typedef struct netcdf_axes {
     size_t layer_index;
 } netcdf_axes;
 
+/* What a file says of a variable; NULL: nothing. */
+typedef struct netcdf_texts {
+    char *unit, *long_name, *standard_name;
+} netcdf_texts;
+
 typedef struct netcdf_content {
     mw_netcdf *file;
     void *memory;
@@ -104,8 +109,23 @@ static bool netcdf_series_axes(const netcdf_content *c, const mw_netcdf_variable
     return axes->values >= 0 && !table;
 }
 
+/* "temperature, siglay 3", allocated; NULL if the file has no text. False: there is no memory. */
+static bool netcdf_series_long_name(const netcdf_content *c, const netcdf_axes *axes,
+                                    const char *text, char **out)
+{
+    *out = NULL;
+    if (!text || !*text) return true;
+    const int layer = axes->variable->dimensions[axes->layer];
+    const char *dimension = mw__netcdf_dimension_at(c->file, layer, NULL);
+    const size_t size = strlen(text) + strlen(dimension) + 32;
+    *out = mw__alloc(size, 1);
+    if (*out) snprintf(*out, size, "%s, %s %zu", text, dimension, axes->layer_index);
+    return *out != NULL;
+}
+
 static mw_status netcdf_series_field(netcdf_content *c, mw_series_part *part,
-                                     const netcdf_axes *axes, const char *unit, mw_error *error)
+                                     const netcdf_axes *axes, const netcdf_texts *texts,
+                                     mw_error *error)
 {
     const mw_netcdf_variable *variable = axes->variable;
     char name[MW_NETCDF_NAME + 24];
@@ -115,30 +135,59 @@ static mw_status netcdf_series_field(netcdf_content *c, mw_series_part *part,
     axes_of[part->field_count] = *axes;
     bool layers = axes->layer >= 0 && variable->lengths[axes->layer] > 1;
     snprintf(name, sizeof name, layers ? "%s:%zu" : "%s", variable->name, axes->layer_index);
-    mw_series_field field = {.location = variable->dimensions[axes->values] == c->vertex_dimension
+    char *long_name;
+    if (!netcdf_series_long_name(c, axes, layers ? texts->long_name : NULL, &long_name))
+        return mw__fail_memory(error);
+    mw_series_field field = {.name = name,
+                             .unit = texts->unit,
+                             .long_name = long_name ? long_name : texts->long_name,
+                             .standard_name = texts->standard_name,
+                             .location = variable->dimensions[axes->values] == c->vertex_dimension
                                              ? MW_SERIES_VERTEX
                                              : MW_SERIES_FACE,
                              .constant = axes->time < 0,
                              .value_count = variable->lengths[axes->values]};
-    return mw__series_part_add(part, name, unit, field, error);
+    mw_status status = mw__series_part_add(part, field, error);
+    free(long_name);
+    return status;
+}
+
+/* What the file says of a variable. Release them in any case. */
+static mw_status netcdf_series_texts(const netcdf_content *c, const mw_netcdf_variable *variable,
+                                     netcdf_texts *texts, mw_error *error)
+{
+    *texts = (netcdf_texts){0};
+    mw_status status = mw__netcdf_text(c->file, variable, "units", &texts->unit, error);
+    if (!status && !texts->unit)
+        status = mw__netcdf_text(c->file, variable, "unit", &texts->unit, error);
+    if (!status) status = mw__netcdf_text(c->file, variable, "long_name", &texts->long_name, error);
+    return status
+               ? status
+               : mw__netcdf_text(c->file, variable, "standard_name", &texts->standard_name, error);
+}
+
+static void netcdf_texts_release(netcdf_texts *texts)
+{
+    free(texts->unit);
+    free(texts->long_name);
+    free(texts->standard_name);
 }
 
 static mw_status netcdf_series_variable(netcdf_content *c, mw_series_part *part, netcdf_axes *axes,
                                         mw_error *error)
 {
     enum { MOST_LAYERS = 4096 };
-    char *unit;
+    netcdf_texts texts;
     if (mw__netcdf_check_size(c->file, axes->variable, error)) return MW_ERROR_INPUT;
     size_t layers = axes->layer >= 0 ? axes->variable->lengths[axes->layer] : 1;
     if (layers > MOST_LAYERS) return MW_OK;
-    mw_status status = mw__netcdf_text(c->file, axes->variable, "units", &unit, error);
-    if (!status && !unit) status = mw__netcdf_text(c->file, axes->variable, "unit", &unit, error);
+    mw_status status = netcdf_series_texts(c, axes->variable, &texts, error);
     axes->packing = mw__netcdf_packing(c->file, axes->variable);
     for (size_t k = 0; k < layers && !status; k++) {
         axes->layer_index = k;
-        status = netcdf_series_field(c, part, axes, unit, error);
+        status = netcdf_series_field(c, part, axes, &texts, error);
     }
-    free(unit);
+    netcdf_texts_release(&texts);
     return status;
 }
 
