@@ -4,7 +4,7 @@
 _meshwalk_options() {
     local query='--walk --start --arithmetic --finish --fill --steps --areas --sample --cells --layers --descent --tolerance'
     query="$query --columns --crs --points-crs"
-    query="$query --any"
+    query="$query --any --trust"
     local stream='--strict --stats --json --layer --where --only-answers'
     local common='-o --output --threads --seed --layout -q --quiet -h --help'
     case $1 in

@@ -124,6 +124,7 @@ static int prepare_mesh(const prepare_settings *s, const char *path, const char 
                         const mw_mesh_file *file)
 {
     mw_error error;
+    extent_box extent = {0};
     mw_mesh *mesh = NULL;
     mw_locator *locator = NULL;
     const mw_arrays arrays = mw_mesh_file_arrays(file);
@@ -137,6 +138,10 @@ static int prepare_mesh(const prepare_settings *s, const char *path, const char 
                       mw_locator_create(mesh, &locators, &locator, &error) == MW_OK
                   ? 0
                   : prepare_fail_mesh(path, &error);
+    if (end == 0 && !s->common.quiet) {
+        extent_add(&extent, file->points, file->point_count, 3);
+        extent_warn_of_seam(path, &extent, mesh);
+    }
     if (end == 0) end = prepare_write(output, file, locator);
     mw_locator_destroy(locator);
     mw_mesh_destroy(mesh);
@@ -147,7 +152,6 @@ static int prepare_file(const prepare_settings *s, const char *path, const char 
                         mw_mesh_file *file)
 {
     char *crs = NULL;
-    extent_box extent = {0};
     int end = prepare_choose_fields(s, path, file);
     if (end == 0) end = mesh_crs_settle(path, s->crs, file->crs, s->common.quiet, &crs);
     if (end) return end;
@@ -155,10 +159,6 @@ static int prepare_file(const prepare_settings *s, const char *path, const char 
     file->crs = crs;
     end = files_try_output(output, NULL);
     if (end) return end;
-    if (!s->common.quiet) {
-        extent_add(&extent, file->points, file->point_count, 3);
-        extent_warn_of_seam(path, &extent, file);
-    }
     return prepare_mesh(s, path, output, file);
 }
 
@@ -188,8 +188,9 @@ const command prepare_command = {
     .description =
         "Reads MESH, prepares it for queries, and writes all of that to the file of -o (.mwm): "
         "with fields, faces, marked edges and coordinate system. Each command takes this file in "
-        "place of a mesh. Those that locate points map it: they begin at once, and processes "
-        "that use one file share one copy of it in memory. '-' is standard input or output.",
+        "place of a mesh. Those that locate points map it: it is checked, and processes "
+        "that use one file share one copy of it in memory. With --trust it is not checked, and "
+        "'locate', 'sample' and 'weights' begin at once. '-' is standard input or output.",
     .options = tables,
     .essential = "border fields crs output threads",
     .settings_size = sizeof(prepare_settings),

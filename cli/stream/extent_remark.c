@@ -108,24 +108,25 @@ void extent_remark(const char *mesh_path, const extent_box *mesh, const char *po
              suspicion ? suspicion : "");
 }
 
-static bool triangle_is_wide(const mw_mesh_file *file, const uint32_t *corner)
+static bool triangle_is_wide(const mw_mesh *mesh, uint32_t triangle)
 {
-    for (int k = 0; k < 3; k++) {
-        const double *a = file->points + 3 * (size_t)corner[k],
-                     *b = file->points + 3 * (size_t)corner[(k + 1) % 3];
-        if (fabs(a[0] - b[0]) > 180) return true;
-    }
-    return false;
+    uint32_t corner[3];
+    double x[3][2];
+    mw_mesh_triangle(mesh, triangle, corner);
+    for (int k = 0; k < 3; k++) mw_mesh_vertex(mesh, corner[k], x[k]);
+    return fabs(x[0][0] - x[1][0]) > 180 || fabs(x[1][0] - x[2][0]) > 180 ||
+           fabs(x[2][0] - x[0][0]) > 180;
 }
 
-void extent_warn_of_seam(const char *mesh_path, const extent_box *mesh, const mw_mesh_file *file)
+void extent_warn_of_seam(const char *mesh_path, const extent_box *extent, const mw_mesh *mesh)
 {
-    size_t wide = 0;
-    if (mesh->count == 0 || !extent_is_lonlat(mesh) || mesh->high[0] - mesh->low[0] <= 180) return;
-    for (size_t t = 0; t < file->triangle_count; t++)
-        wide += triangle_is_wide(file, file->triangles + 3 * t);
-    if (wide == 0 || wide > file->triangle_count / 10) return;
-    complain("%s: warning: %zu of its triangles are wider than 180 degrees: in the plane a mesh "
+    uint32_t wide = 0, count = mw_mesh_triangle_count(mesh);
+    if (extent->count == 0 || !extent_is_lonlat(extent) || extent->high[0] - extent->low[0] <= 180)
+        return;
+    for (uint32_t t = 0; t < count; t++) wide += triangle_is_wide(mesh, t);
+    if (wide == 0 || wide > count / 10) return;
+    complain("%s: warning: %" PRIu32
+             " of its triangles are wider than 180 degrees: in the plane a mesh "
              "cannot cross that "
              "meridian; 'meshwalk star --lonlat' locates on the sphere",
              mesh_path, wide);

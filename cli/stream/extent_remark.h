@@ -20,12 +20,12 @@ void extent_add(extent_box *e, const double *points, size_t count, size_t stride
 /* Tell on standard error that most points lie outside of the mesh, with both extents, and what the
  * reason may be: degrees, feet, exchanged coordinates, longitudes counted from another meridian.
  * Says nothing if half of the points were found, or if there are only a few and no reason is in
- *   sight. found  how many points lie in the mesh */
+ * sight. `found` is how many points lie in the mesh. */
 void extent_remark(const char *mesh_path, const extent_box *mesh, const char *points_path,
                    const extent_box *points, uint64_t found);
 
 /* Warn of a mesh of longitudes that crosses the meridian of 180 degrees: one of its edges is wider
  * than 180. */
-void extent_warn_of_seam(const char *mesh_path, const extent_box *mesh, const mw_mesh_file *file);
+void extent_warn_of_seam(const char *mesh_path, const extent_box *extent, const mw_mesh *mesh);
 
 #endif

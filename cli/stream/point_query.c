@@ -120,6 +120,10 @@ const option point_query_options[] = {
      "WGS 84). "
      "Points in another system than MESH are transformed",
      NULL},
+    {"trust", 0, OPTION_FLAG, offsetof(point_query_settings, trust), NULL,
+     "do not check a prepared MESH (.mwm): only what is needed is read. For files of your own: "
+     "with a damaged one the program may crash",
+     NULL},
     {"any", 0, OPTION_FLAG, offsetof(point_query_settings, any), NULL,
      "accept a mesh that is not an embedding; a warning says which promise is void", NULL},
     {0},
@@ -156,9 +160,9 @@ static int point_query_make_mesh(point_query *q, const char *path, const mw_mesh
                                .threads = q->settings->stream.common.threads,
                                .progress = progress_of_call()};
     progress_phase("preparing", path);
-    if (mw_mesh_create(&arrays, &options, &q->own, &error) != MW_OK)
+    if (mw_mesh_create(&arrays, &options, &q->own_mesh, &error) != MW_OK)
         return point_query_fail_mesh(q, path, area, &error);
-    q->mesh = q->own;
+    q->mesh = q->own_mesh;
     return 0;
 }
 
@@ -174,8 +178,9 @@ static int point_query_make_locator(point_query *q, const char *path, bool borde
                                   .progress = progress_of_call()};
     if (settings->walk == MW_WALK_BORDER && settings->fill == MW_FILL_AUTO)
         options.fill = MW_FILL_NO;
-    if (mw_locator_create(q->mesh, &options, &q->locator, &error) != MW_OK)
+    if (mw_locator_create(q->mesh, &options, &q->own_locator, &error) != MW_OK)
         return point_query_fail_mesh(q, path, area, &error);
+    q->locator = q->own_locator;
     point_query_warn(q, path);
     return 0;
 }
@@ -241,37 +246,115 @@ int point_query_prepare(point_query *q, const mw_mesh *mesh, const char *path, c
     return end ? end : point_query_make_index(q);
 }
 
+/* --- a mesh from a file ----------------------------------------------------------------------- */
+
+/* What is the same for all files, once the mesh is there. `file` has no points in a map. */
+static int point_query_settle(point_query *q, mw_mesh *mesh, const mw_mesh_file *file,
+                              point_query_load *load, const void *self)
+{
+    const point_query_settings *s = q->settings;
+    const bool quiet = s->stream.common.quiet;
+    if (!quiet) extent_warn_of_seam(q->path, &q->extent, mesh);
+    q->first_number = file->first_number;
+    int end = mesh_crs_settle(q->path, s->crs, file->crs, quiet, &q->crs);
+    return end || !load ? end : load(mesh, q->path, file, self);
+}
+
+static int point_query_open_mesh(point_query *q, bool border, point_query_load *load,
+                                 const void *self)
+{
+    mw_mesh_file file;
+    int end = files_read_mesh(q->path, &file);
+    if (end) return end;
+    bool area = files_has_area(&file);
+    extent_add(&q->extent, file.points, file.point_count, 3);
+    end = point_query_make_mesh(q, q->path, &file, area);
+    if (end == 0) end = point_query_settle(q, q->own_mesh, &file, load, self);
+    q->faces = q->own_faces = file.faces;
+    file.faces = NULL;
+    mw_mesh_file_release(&file);
+    return end ? end : point_query_make_locator(q, q->path, border, area);
+}
+
+/* Is it a prepared file whose locator is the one that is asked for? */
+static bool point_query_takes_map(const point_query_settings *s, const char *path)
+{
+    return !s->any && !s->areas && s->fill != MW_FILL_NO && s->walk != MW_WALK_BORDER &&
+           mw_prepared_known(path);
+}
+
+static int point_query_fail_trust(const point_query_settings *s, const char *path)
+{
+    if (!mw_prepared_known(path)) {
+        complain("%s: is no prepared mesh (.mwm), which --trust needs; 'meshwalk prepare' writes "
+                 "one",
+                 path);
+        return END_INPUT;
+    }
+    if (point_query_takes_map(s, path)) {
+        complain("%s: was prepared without --border, but the border is needed here: leave out "
+                 "--trust, or prepare it with --border",
+                 path);
+        return END_INPUT;
+    }
+    complain("--trust takes a mesh as it was prepared: not with --any, --areas, --fill no or "
+             "--walk border");
+    return END_USAGE;
+}
+
+/* Map a prepared file. `map` stays NULL if its locator lacks a border that is needed. */
+static int point_query_map(point_query *q, const char *path, bool border)
+{
+    mw_error error;
+    mw_prepared_info info;
+    const point_query_settings *s = q->settings;
+    const mw_map_options options = {
+        .trust = s->trust, .threads = s->stream.common.threads, .progress = progress_of_call()};
+    progress_phase("checking", path);
+    if (mw_mesh_map(path, &options, &q->map, &error) != MW_OK) return fail_reading(&error);
+    mw_prepared_describe(q->map, &info);
+    q->extent = (extent_box){.low = {info.low[0], info.low[1]},
+                             .high = {info.high[0], info.high[1]},
+                             .count = mw_mesh_vertex_count(mw_prepared_mesh(q->map))};
+    if ((border || s->tolerance > 0) && !info.border) {
+        mw_prepared_close(q->map);
+        q->map = NULL;
+    }
+    return 0;
+}
+
+static int point_query_open_map(point_query *q, point_query_load *load, const void *self)
+{
+    const mw_mesh_file *values = mw_prepared_values(q->map);
+    q->mesh = mw_prepared_mesh(q->map);
+    q->locator = mw_prepared_locator(q->map);
+    q->faces = values->faces;
+    return point_query_settle(q, mw_prepared_mesh(q->map), values, load, self);
+}
+
 int point_query_open(point_query *q, const point_query_settings *settings,
                      const char *const *operands, bool border, point_query_load *load,
                      const void *self)
 {
     const char *path = operands[0];
-    mw_mesh_file file;
     int end = point_query_begin(q, settings, operands, 2);
     q->path = path;
-    if (end == 0) end = files_read_mesh(path, &file);
-    if (end) return end;
-    bool area = files_has_area(&file);
-    extent_add(&q->extent, file.points, file.point_count, 3);
-    if (!settings->stream.common.quiet) extent_warn_of_seam(path, &q->extent, &file);
-    end = mesh_crs_settle(path, settings->crs, file.crs, settings->stream.common.quiet, &q->crs);
-    if (end == 0) end = point_query_make_mesh(q, path, &file, area);
-    if (end == 0 && load) end = load(q->own, path, &file, self);
-    q->faces = file.faces;
-    q->first_number = file.first_number;
-    file.faces = NULL;
-    mw_mesh_file_release(&file);
-    if (end == 0) end = point_query_make_locator(q, path, border, area);
+    if (end == 0 && point_query_takes_map(settings, path)) end = point_query_map(q, path, border);
+    if (end == 0 && !q->map && settings->trust) end = point_query_fail_trust(settings, path);
+    if (end == 0)
+        end = q->map ? point_query_open_map(q, load, self)
+                     : point_query_open_mesh(q, border, load, self);
     return end ? end : point_query_make_index(q);
 }
 
 void point_query_release(point_query *q)
 {
     mw_index_destroy(q->index);
-    mw_locator_destroy(q->locator);
-    mw_mesh_destroy(q->own);
+    mw_locator_destroy(q->own_locator);
+    mw_mesh_destroy(q->own_mesh);
+    mw_prepared_close(q->map);
     free(q->crs);
-    free(q->faces);
+    free(q->own_faces);
 }
 
 /* What the callbacks of the query stream need. */

@@ -17,6 +17,7 @@ typedef struct point_query_settings {
     int finish, fill;            /* numbers of the names of --finish and --fill */
     int descent;                 /* mw_descent */
     bool areas, any;
+    bool trust; /* a prepared mesh is not checked */
     bool lines; /* of a command about lines, which has no --any */
 } point_query_settings;
 
@@ -48,16 +49,19 @@ static inline double point_query_value(const point_query_values *v, const mw_loc
 /* A mesh that is ready for queries. */
 typedef struct point_query {
     const point_query_settings *settings;
-    mw_mesh *own; /* the mesh, where it was read from a file */
+    mw_prepared *map;        /* of a prepared file, which has mesh, locator and faces; or NULL */
+    mw_mesh *own_mesh;       /* made from a file of another kind, or NULL */
+    mw_locator *own_locator; /* NULL if it is that of `map` */
     const mw_mesh *mesh;
-    mw_locator *locator;
-    mw_index *index;   /* NULL if the start has none */
-    const char *path;  /* of the mesh */
-    char *crs;         /* its coordinate system; NULL: not known */
-    uint32_t *faces;   /* of its file, per triangle; NULL: they are the triangles */
-    int first_number;  /* what its file counts from: 0 or 1 */
-    extent_box extent; /* of its vertices */
-    double begin;      /* monotonic_seconds when the command began */
+    const mw_locator *locator;
+    mw_index *index;       /* NULL if the start has none */
+    const char *path;      /* of the mesh */
+    char *crs;             /* its coordinate system; NULL: not known */
+    uint32_t *own_faces;   /* of a file that is not mapped */
+    const uint32_t *faces; /* of its file, per triangle; NULL: they are the triangles */
+    int first_number;      /* what its file counts from: 0 or 1 */
+    extent_box extent;     /* of its vertices */
+    double begin;          /* monotonic_seconds when the command began */
     point_query_count_rows *count_rows; /* NULL: tell how many points got which mw_where */
     point_query_values *values;         /* NULL: no values are asked for */
 } point_query;
@@ -72,7 +76,8 @@ typedef bool point_query_row(const point_query *q, const void *self, const doubl
 typedef int point_query_load(mw_mesh *mesh, const char *path, const mw_mesh_file *file,
                              const void *self);
 
-/* Read the mesh operands[0] and prepare it for queries. `border` tells that rows use
+/* Read the mesh operands[0] and prepare it for queries; or map it, if it is prepared and the
+ * options leave it as it was prepared. `border` tells that rows use
  * mw_nearest_border; `load` may be NULL. Returns 0, or an exit code after a complaint. Release it
  * in both cases. */
 int point_query_open(point_query *q, const point_query_settings *settings,

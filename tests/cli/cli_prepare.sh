@@ -49,6 +49,29 @@ run sample -q m.mwm.gz q.csv; exits 0; prints_line '^0.5,0.25,3$'
 run prepare m.mwm --border -o again.mwm; exits 0
 holds "a prepared mesh can be prepared" cmp -s again.mwm b.mwm
 
+# Commands that locate points map the file. --trust leaves its records unchecked, and answers stay.
+for c in 'locate -q' 'locate -q --details --tolerance 1' 'locate -q --start layers' \
+    'sample -q --field depth' 'sample -q --outside linear'; do
+    # shellcheck disable=SC2086 # words
+    run $c m.ply q.csv; exits 0
+    cp "$logs/out" wanted
+    # shellcheck disable=SC2086 # words
+    run $c --trust b.mwm q.csv; exits 0
+    holds "$c --trust is that of the mesh" cmp -s "$logs/out" wanted
+done
+run locate -q --trust --tolerance 1 m.mwm q.csv; exits 3
+says 'm.mwm: was prepared without --border'
+run locate -q --trust m.ply q.csv; exits 3; says 'm.ply: is no prepared mesh'
+run locate -q --trust --any m.mwm q.csv; exits 2; says 'not with --any'
+sed 's/EPSG:2056/EPSG:2057/' m.mwm >changed.mwm
+run locate -q changed.mwm q.csv; exits 3; says 'a damaged prepared mesh'
+run locate -q --trust changed.mwm q.csv; exits 0
+if command -v strace >/dev/null && strace -o trace true 2>/dev/null; then
+    strace -o trace "$meshwalk" locate -q --trust m.mwm q.csv >out
+    holds "the file is mapped, not read" \
+        grep -q "mmap(NULL, $(stat -c %s m.mwm), PROT_READ, MAP_SHARED" trace
+fi
+
 # Fields.
 run prepare m.ply --fields depth -o d.mwm; exits 0
 run sample -q d.mwm q.csv; exits 3; says "has no field 'z'"

@@ -2,6 +2,7 @@
 #include "engine/engine.h"
 
 #include <stdlib.h>
+#include <string.h>
 #include <zlib.h>
 
 mw_error web_error;
@@ -24,6 +25,17 @@ int WEB_EXPORT(web_error_status)(void)
 const char *WEB_EXPORT(web_error_message)(void)
 {
     return web_error.message;
+}
+
+void web_count(const mw_counters *c, double numbers[WEB_COUNTERS])
+{
+    const double all[] = {(double)c->triangles_visited,
+                          (double)(c->orient_init + c->orient + c->orient_final + c->orient_border),
+                          (double)c->implicit,
+                          (double)c->comparisons,
+                          (double)c->cycles,
+                          (double)c->handovers};
+    memcpy(numbers, all, sizeof all);
 }
 
 /* Where the error is: 0 triangle, 1 vertex, 2 line; -1 if that does not apply. */

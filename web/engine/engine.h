@@ -12,4 +12,8 @@
 /* Of the last call that failed. */
 extern mw_error web_error;
 
+/* What a walk did: triangles, orientation tests, implicit tests, comparisons, rings, handovers. */
+enum { WEB_COUNTERS = 6 };
+void web_count(const mw_counters *c, double numbers[WEB_COUNTERS]);
+
 #endif

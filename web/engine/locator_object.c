@@ -95,7 +95,7 @@ typedef struct web_walk {
     mw_walk_way way;
     size_t count;
     mw_location location;
-    double counters[6];
+    double counters[WEB_COUNTERS];
     double line[7]; /* its points; their number */
 } web_walk;
 
@@ -119,13 +119,7 @@ static int walk_room(web_walk *w, size_t count)
 
 static void walk_count(web_walk *w, const mw_counters *c)
 {
-    const double all[] = {(double)c->triangles_visited,
-                          (double)(c->orient_init + c->orient + c->orient_final + c->orient_border),
-                          (double)c->implicit,
-                          (double)c->comparisons,
-                          (double)c->cycles,
-                          (double)c->handovers};
-    memcpy(w->counters, all, sizeof all);
+    web_count(c, w->counters);
     memcpy(w->line, w->way.line, 6 * sizeof(double));
     w->line[6] = w->way.line_points;
 }

@@ -23,6 +23,7 @@ typedef struct web_picture {
     bool of_triangles;
     double low, high;
     float *shade;              /* light on each triangle, 0 to 1; NULL: none */
+    uint8_t *borders;          /* of each triangle 1 << k for each edge k on a border */
     uint32_t palette[PALETTE]; /* as canvases have them: red is the lowest byte */
     int width, height;
     uint32_t *pixels, *numbers;
@@ -36,6 +37,7 @@ void WEB_EXPORT(web_picture_free)(web_picture *p)
 {
     if (!p) return;
     free(p->shade);
+    free(p->borders);
     free(p->pixels);
     free(p->numbers);
     free(p->depth);
@@ -49,7 +51,8 @@ web_picture *WEB_EXPORT(web_picture_make)(web_mesh *mesh)
     if (!p) return NULL;
     p->mesh = mesh;
     p->screen = malloc((mesh->file.point_count + 1) * 3 * sizeof *p->screen);
-    if (p->screen) return p;
+    p->borders = calloc(mesh->file.triangle_count + 1, 1);
+    if (p->screen && p->borders) return p;
     web_picture_free(p);
     return NULL;
 }
@@ -82,6 +85,12 @@ void WEB_EXPORT(web_picture_values)(web_picture *p, const double *values, int of
     p->of_triangles = of_triangles;
     p->low = low;
     p->high = high;
+}
+
+/* Of each triangle 1 << k for each edge k on a border; 0 until the caller says so. */
+uint8_t *WEB_EXPORT(web_picture_borders)(web_picture *p)
+{
+    return p->borders;
 }
 
 uint32_t *WEB_EXPORT(web_picture_pixels)(web_picture *p)
@@ -295,6 +304,77 @@ void WEB_EXPORT(web_picture_draw)(web_picture *p, const double *matrix, int in_s
         for (int k = 0; k < 3; k++) f.corner[k] = p->screen + 3 * (size_t)v[k];
         facet_draw(p, &f);
     }
+}
+
+/* --- edges in space --------------------------------------------------------------------------- */
+
+/* The lines of a picture: half their widths in pixels, and how much of the ink edges take. */
+typedef struct web_pen {
+    uint32_t ink;
+    double edge, border, alpha;
+} web_pen;
+
+/* The edges of one triangle on the screen: side[k] is the distance of a pixel from edge k. */
+typedef struct web_sides {
+    uint32_t number;
+    double side[3][3]; /* at the origin, per pixel to the right, per pixel down */
+} web_sides;
+
+static void sides_prepare(const web_picture *p, web_sides *s, uint32_t number)
+{
+    const uint32_t *v = p->mesh->file.triangles + 3 * (size_t)number;
+    s->number = number;
+    for (int k = 0; k < 3; k++) {
+        const double *a = p->screen + 3 * (size_t)v[k], *b = p->screen + 3 * (size_t)v[(k + 1) % 3];
+        double across = b[0] - a[0], down = b[1] - a[1], length = hypot(across, down);
+        double part = length > 0 ? 1 / length : 0;
+        s->side[k][1] = part * down;
+        s->side[k][2] = -part * across;
+        s->side[k][0] = -s->side[k][1] * a[0] - s->side[k][2] * a[1];
+    }
+}
+
+/* How much ink a pixel gets, 0 to 1: each of two neighbours draws half of their common edge. */
+static double sides_ink(const web_sides *s, const web_pen *pen, unsigned borders, double x,
+                        double y)
+{
+    double ink = 0;
+    for (int k = 0; k < 3; k++) {
+        bool border = borders >> k & 1 && pen->border > 0;
+        double half = border ? pen->border : pen->edge;
+        if (half <= 0) continue;
+        double away = fabs(s->side[k][0] + s->side[k][1] * x + s->side[k][2] * y);
+        ink = greatest(ink, (border ? 1 : pen->alpha) * least(1, half + 0.5 - away));
+    }
+    return ink;
+}
+
+static uint32_t picture_mixed(uint32_t colour, uint32_t ink, double part)
+{
+    uint32_t mixed = colour & 0xff000000u;
+    for (int shift = 0; shift < 24; shift += 8) {
+        double from = colour >> shift & 255, to = ink >> shift & 255;
+        mixed |= (uint32_t)(from + part * (to - from) + 0.5) << shift;
+    }
+    return mixed;
+}
+
+/* Draw the edges of all triangles that are seen in the last picture, and stronger the borders, in
+ * lines of the given widths; 0: none. Hidden edges stay hidden. */
+void WEB_EXPORT(web_picture_edges)(web_picture *p, uint32_t ink, double edge, double border,
+                                   double alpha)
+{
+    const web_pen pen = {.ink = ink, .edge = edge / 2, .border = border / 2, .alpha = alpha};
+    web_sides s = {.number = MW_NONE};
+    for (int y = 0; y < p->height; y++)
+        for (int x = 0; x < p->width; x++) {
+            size_t at = (size_t)y * (size_t)p->width + (size_t)x;
+            uint32_t number = p->numbers[at];
+            if (number == MW_NONE || (edge <= 0 && !p->borders[number])) continue;
+            if (number != s.number) sides_prepare(p, &s, number);
+            double part = sides_ink(&s, &pen, p->borders[number], x + 0.5, y + 0.5);
+            if (part > 0) p->pixels[at] = picture_mixed(p->pixels[at], pen.ink, part);
+        }
 }
 
 /* The triangles that the last picture has a part of, at most `room`. Returns how many. */

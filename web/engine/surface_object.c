@@ -16,6 +16,7 @@ typedef struct web_trace {
     uint32_t *triangles, *iterations;
     size_t count, room;
     double answer[8];
+    double counters[WEB_COUNTERS];
 } web_trace;
 
 /* --- surfaces --------------------------------------------------------------------------------- */
@@ -82,10 +83,10 @@ size_t WEB_EXPORT(web_trace_count)(const web_trace *t)
 }
 
 /* 0 triangles, 1 numbers of walks, 2 the answer: state (0 hit, 1 none, 2 limit, 3 bad), triangle,
- * where, local, weights, distance. */
+ * where, local, weights, distance; 3 the counters of a walk from ray to ray. */
 const void *WEB_EXPORT(web_trace_part)(const web_trace *t, int part)
 {
-    const void *const parts[] = {t->triangles, t->iterations, t->answer};
+    const void *const parts[] = {t->triangles, t->iterations, t->answer, t->counters};
     return parts[part];
 }
 
@@ -128,11 +129,14 @@ static int trace_ray(web_trace *t, const mw_star *star, const mw_star_cursor *be
                      const double to[3])
 {
     mw_location at;
+    mw_star_cursor cursor;
     do {
-        mw_star_cursor cursor = *begin;
         if (!trace_room(t, t->count)) return 0;
+        cursor = *begin;
+        memset(&cursor.counters, 0, sizeof cursor.counters);
         t->count = mw_star_path(star, &cursor, to, t->triangles, t->room, &at);
     } while (t->count > t->room);
+    web_count(&cursor.counters, t->counters);
     mw_touch touch = {.state = at.triangle == MW_NONE ? MW_TOUCH_BAD : MW_TOUCH_HIT,
                       .triangle = at.triangle,
                       .where = at.where,
@@ -147,8 +151,10 @@ web_trace *WEB_EXPORT(web_ray_walk)(const web_surface *s, int walk, double seed,
                                     const double *to)
 {
     mw_star_cursor cursor;
-    mw_star_query_options options = {
-        .walk = (mw_star_walk_kind)walk, .start = MW_STAR_START_LAST, .seed = (uint64_t)seed};
+    mw_star_query_options options = {.walk = (mw_star_walk_kind)walk,
+                                     .start = MW_STAR_START_LAST,
+                                     .seed = (uint64_t)seed,
+                                     .counters = 1};
     if (mw_star_cursor_init(s->star, &options, &cursor, &web_error) != MW_OK) return NULL;
     mw_star_locate(s->star, &cursor, from);
     web_trace *t = calloc(1, sizeof *t);

@@ -19,6 +19,13 @@ function readLocation(engine, address) {
   };
 }
 
+/** What a walk did, from the engine's memory. */
+export function takeCounters(engine, address) {
+  const [visited, orientations, implicit, comparisons, cycles, handovers] =
+    engine.doubles(address, 6);
+  return { visited, orientations, implicit, comparisons, cycles, handovers };
+}
+
 /** Where many points lie: an array for each member. */
 export class Locations {
   constructor(bytes) {
@@ -138,14 +145,12 @@ export class Locator {
       engine.call.web_walk_make(this.address, kind, seed, from[0], from[1], to[0], to[1]));
     const part = (which) => engine.call.web_walk_part(way, which);
     const count = engine.call.web_walk_count(way);
-    const [visited, orientations, implicit, comparisons, cycles, handovers] =
-      engine.doubles(part(3), 6);
     const line = engine.doubles(part(4), 7);
     const result = {
       triangles: engine.numbers(part(0), count).slice(),
       stages: Array.from(engine.bytes(part(1), count), (stage) => STAGES[stage]),
       location: readLocation(engine, part(2)),
-      counters: { visited, orientations, implicit, comparisons, cycles, handovers },
+      counters: takeCounters(engine, part(3)),
       line: Array.from({ length: line[6] }, (_, i) => [line[2 * i], line[2 * i + 1]]),
     };
     engine.call.web_walk_free(way);

@@ -134,21 +134,24 @@ export interface QueryOptions {
   tolerance?: number;
 }
 
+/** What a walk did. */
+export interface Counters {
+  visited: number;
+  orientations: number;
+  implicit: number;
+  comparisons: number;
+  /** Walks that ran out of steps: in a ring, or on a long way in a thin mesh. */
+  cycles: number;
+  /** Walks that one with a proof of its end had to finish. */
+  handovers: number;
+}
+
 /** One walk, as it went. */
 export interface Walk {
   triangles: Uint32Array;
   stages: Stage[];
   location: Location;
-  counters: {
-    visited: number;
-    orientations: number;
-    implicit: number;
-    comparisons: number;
-    /** Walks that ran out of steps: in a ring, or on a long way in a thin mesh. */
-    cycles: number;
-    /** Walks that one with a proof of its end had to finish. */
-    handovers: number;
-  };
+  counters: Counters;
   /** The line that the walk follows: no points, 2, or 3 of two legs. */
   line: [number, number][];
 }
@@ -197,11 +200,25 @@ export class Surface {
   /** Rays come from here; throws if the surface is not star-shaped about it. */
   setCentre(centre: Point): void;
   /** Walk from the ray through `from` to the ray through `to`. */
-  followRay(from: Point, to: Point, options?: { walk?: string; seed?: number }): Touch;
+  followRay(from: Point, to: Point, options?: { walk?: string; seed?: number }):
+    Touch & { counters: Counters };
   free(): void;
 }
 
 export type Colour = [number, number, number];
+
+/** Lines in a picture in space; what lies behind a triangle is not seen. */
+export interface Lines {
+  ink: Colour;
+  /** Width of edges in pixels; 0: none. */
+  edge?: number;
+  /** Width of edges on borders; 0: as other edges. */
+  border?: number;
+  /** How much of the ink edges take, 0 to 1. */
+  alpha?: number;
+  /** No edges if more triangles than these have a part in the picture. */
+  most?: number;
+}
 
 /** A picture of a mesh, drawn into pixels. */
 export class Picture {
@@ -212,9 +229,12 @@ export class Picture {
   setValues(values: ArrayLike<number> | null, ofTriangles: boolean, low: number, high: number):
     void;
   setLight(direction: [number, number, number] | null, inSpace: boolean, lift?: number): void;
+  /** Which edges are on borders, for pictures in space: those whose link is 4294967295, as
+   * Mesh.links() tells. */
+  setBorders(links: Uint32Array): void;
   /** Three rows of four: pixel x, pixel y, depth from x, y, z, 1. Returns red, green, blue, alpha
    * of each pixel. */
-  draw(matrix: number[], inSpace: boolean): Uint8ClampedArray;
+  draw(matrix: number[], inSpace: boolean, lines?: Lines): Uint8ClampedArray;
   /** How many triangles have a part in the last picture. */
   readonly visible: number;
   list(most: number): Uint32Array;

@@ -3,6 +3,8 @@ import { NONE, numberOrNull } from "./numbers.js";
 
 const COLOURS = 256;
 
+const pixelOf = ([r, g, b]) => (0xff000000 | (b << 16) | (g << 8) | r) >>> 0;
+
 /** A picture of one mesh. Release it with free(), before the mesh. */
 export class Picture {
   constructor(mesh) {
@@ -31,9 +33,8 @@ export class Picture {
   /** Colours as [red, green, blue] from 0 to 255: 256 of values, of missing ones, of none. */
   setPalette(colours, missing, plain) {
     const address = this.engine.call.web_picture_palette(this.address);
-    const pixel = ([r, g, b]) => (0xff000000 | (b << 16) | (g << 8) | r) >>> 0;
     const all = this.engine.numbers(address, COLOURS + 2);
-    [...colours, missing, plain].forEach((colour, i) => { all[i] = pixel(colour); });
+    [...colours, missing, plain].forEach((colour, i) => { all[i] = pixelOf(colour); });
   }
 
   /** Colour by values of vertices or triangles; null: by none. */
@@ -56,11 +57,26 @@ export class Picture {
       x, y, z);
   }
 
-  /** Draw by a matrix of three rows of four; a copy of the pixels, for ImageData. */
-  draw(matrix, inSpace) {
+  /** The edges on borders, as links of the mesh tell them: NONE. */
+  setBorders(links) {
+    const address = this.engine.call.web_picture_borders(this.address);
+    const masks = this.engine.bytes(address, Math.floor(links.length / 3)).fill(0);
+    links.forEach((link, i) => {
+      if (link === NONE) masks[Math.floor(i / 3)] |= 1 << (i % 3);
+    });
+  }
+
+  /** Draw by a matrix of three rows of four; a copy of the pixels, for ImageData. In space `lines`
+   * adds borders, and edges where at most `most` triangles have a part; hidden ones stay hidden. */
+  draw(matrix, inSpace, lines = null) {
     const { engine } = this;
     engine.withDoubles(matrix, (address) =>
       engine.call.web_picture_draw(this.address, address, inSpace ? 1 : 0));
+    if (inSpace && lines) {
+      const { ink, edge = 0, border = 0, alpha = 1, most = Infinity } = lines;
+      engine.call.web_picture_edges(this.address, pixelOf(ink), this.visible > most ? 0 : edge,
+        border, alpha);
+    }
     const count = 4 * this.width * this.height;
     const pixels = engine.bytes(engine.call.web_picture_pixels(this.address), count);
     return new Uint8ClampedArray(pixels);

@@ -1,12 +1,12 @@
 // surface.js - surfaces in space: what a probe touches, and rays from a centre.
 import { NONE, numberOrNull } from "./numbers.js";
-import { Locations } from "./locator.js";
+import { Locations, takeCounters } from "./locator.js";
 
 const STATES = ["hit", "none", "limit", "bad"];
 const NOWHERE = 255;
 
 /** Copy a trace of the engine: triangles visited and the answer. */
-function takeTrace(engine, trace) {
+function takeTrace(engine, trace, counted) {
   const count = engine.call.web_trace_count(trace);
   const part = (which) => engine.call.web_trace_part(trace, which);
   const [state, triangle, where, local, a, b, c, distance] = engine.doubles(part(2), 8);
@@ -20,6 +20,7 @@ function takeTrace(engine, trace) {
     weights: [a, b, c],
     distance,
   };
+  if (counted) result.counters = takeCounters(engine, part(3));
   engine.call.web_trace_free(trace);
   return result;
 }
@@ -56,6 +57,6 @@ export class Surface {
     const kind = this.walkNames.indexOf(walk);
     if (kind < 0) throw new RangeError(`there is no walk '${walk}' on a star`);
     return engine.withDoubles([...from, ...to], (room) => takeTrace(engine,
-      engine.need(engine.call.web_ray_walk(address, kind, seed, room, room + 24))));
+      engine.need(engine.call.web_ray_walk(address, kind, seed, room, room + 24)), true));
   }
 }

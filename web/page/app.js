@@ -14,9 +14,10 @@ class App {
     this.tool = "look";
     this.hint = "";
     this.lineNotes = [];
-    this.stage = new Stage((context, camera) => drawLines(this, context, camera),
-      (context, camera) => drawAll(this, context, camera),
-      { click: (at) => this.click(at), hover: (at) => this.hover(at) });
+    this.stage = new Stage({ spaceLines: () => spaceLines(this),
+      lines: (context, camera) => drawLines(this, context, camera),
+      above: (context, camera) => drawAll(this, context, camera) },
+    { click: (at) => this.click(at), hover: (at) => this.hover(at) });
     this.here = new HerePanel(this);
     this.loopPanel = new LoopPanel(this);
     this.colours = new ColourPanel(this);
@@ -57,6 +58,7 @@ class App {
     this.locators.clear();
     if (this.taken) this.taken.free();
     this.taken = null;
+    this.starCentre = null;
     this.locator = null;
     this.race.close();
     for (const panel of [this.walkPanel, this.points, this.profile, this.here]) panel.clear();
@@ -128,6 +130,16 @@ class App {
   surface() {
     if (!this.taken) this.taken = this.meshwalk.createSurface(this.mesh, { weld: true });
     return this.taken;
+  }
+
+  /** The mesh taken as a polyhedron that is star-shaped about a centre. */
+  star(centre) {
+    const surface = this.surface();
+    if (this.starCentre === centre.join()) return surface;
+    this.starCentre = null;
+    surface.setCentre(centre);
+    this.starCentre = centre.join();
+    return surface;
   }
 
   /** Where a point lies; null if that has no answer. */

@@ -16,6 +16,10 @@ class PlaneCamera {
     this.scale = 0.88 * Math.min(this.size[0] / extent[0], this.size[1] / extent[1]);
   }
 
+  copy() {
+    return Object.assign(new PlaneCamera(), this);
+  }
+
   toScreen([x, y]) {
     return [this.size[0] / 2 + this.scale * (x - this.centre[0]),
       this.size[1] / 2 - this.scale * (y - this.centre[1])];
@@ -62,6 +66,10 @@ class SpaceCamera {
     this.middle = [0, 1, 2].map((k) => (low[k] + high[k]) / 2);
     this.scale = (0.95 * Math.min(...this.size)) / Math.max(extent, SMALLEST);
     this.shift = [0, 0];
+  }
+
+  copy() {
+    return Object.assign(new SpaceCamera(), this);
   }
 
   axes() {

@@ -2,6 +2,8 @@
 
 const POINTS_DRAWN = 100000;
 const BORDER_DRAWN = 150000; // edges
+const EDGE = 0.7; // pixels
+const BORDER = 1.8;
 
 /** Draws in the pixels of the style. */
 class Pen {
@@ -107,6 +109,12 @@ class Pen {
   }
 }
 
+/** Edges and borders in space, which the engine draws, so that hidden ones stay hidden. */
+function spaceLines({ stage: { ratio } }) {
+  return { ink: styleColour("--ink"), edge: byId("edges").checked ? EDGE * ratio : 0,
+    border: byId("borders").checked ? BORDER * ratio : 0, alpha: 0.45, most: EDGES };
+}
+
 /** What belongs to the picture and changes with it only: edges and borders. */
 function drawLines(app, context, camera) {
   const pen = new Pen(context, camera, app.topology);
@@ -132,11 +140,11 @@ function drawAll(app, context, camera) {
 }
 
 function drawEdges(app, pen, ink) {
-  if (app.stage.space === "space") return "";
   const list = app.stage.edgeTriangles();
+  if (list && app.stage.space === "space") return "";
   if (!list)
     return `${readable(app.stage.picture.visible)} triangles in sight: edges appear as you zoom in`;
-  pen.triangles(list, { stroke: ink, width: 0.7, alpha: list.length > 4000 ? 0.25 : 0.45 });
+  pen.triangles(list, { stroke: ink, width: EDGE, alpha: list.length > 4000 ? 0.25 : 0.45 });
   return "";
 }
 
@@ -145,7 +153,7 @@ function drawBorders(app, pen, ink) {
   const { border } = app.topology;
   const step = Math.ceil(border.length / 2 / BORDER_DRAWN);
   const drawn = step > 1 ? border.filter((_, i) => (i >> 1) % step === 0) : border;
-  pen.edges(drawn, ink, 1.8);
+  pen.edges(drawn, ink, BORDER);
   return step > 1 ? `one border edge of ${step} is drawn` : "";
 }
 

@@ -5,12 +5,14 @@ const CHART = { left: 46, right: 8, top: 8, bottom: 22 };
 class ProfilePanel {
   constructor(app) {
     this.app = app;
+    byId("profile-save").addEventListener("click", () =>
+      saveText(`${byId("file-name").textContent}-profile.csv`, this.table()));
     this.clear();
   }
 
   clear() {
     this.from = this.to = null;
-    byId("profile-chart").hidden = true;
+    byId("profile-chart").hidden = byId("profile-save").hidden = true;
     byId("profile-command").textContent = "";
   }
 
@@ -41,19 +43,52 @@ class ProfilePanel {
     const pieces = app.locatorFor("straight").segment(this.from, this.to);
     const { name, values } = this.field();
     const value = (v) => (values.at ? values.at(v) : values[v]);
-    const length = Math.hypot(this.to[0] - this.from[0], this.to[1] - this.from[1]);
+    this.name = name;
+    const length = this.length();
     this.rows = pieces.map(({ from, to, triangle }) => ({
-      from: from * length, to: to * length,
+      from: from * length, to: to * length, triangle,
       begin: this.valueAt(triangle, from, value), end: this.valueAt(triangle, to, value),
     }));
     this.tell(name, length, pieces.length);
+    byId("profile-save").hidden = false;
     if (pieces.length) this.chart(name, length);
+  }
+
+  /** The profile as CSV: rows where the line begins, enters a triangle, leaves the mesh, or ends.
+   * The triangle is that in which the line goes on, or -1, as in `meshwalk profile`. */
+  table() {
+    const length = this.length();
+    const lines = [];
+    const add = (at, value, triangle) => {
+      const [x, y] = this.pointAt(at / length);
+      lines.push([at, x, y, value, triangle].join());
+    };
+    let end = 0;
+    let last = "";
+    for (const { from, to, begin, end: value, triangle } of this.rows) {
+      if (from > end) add(end, last, -1);
+      add(from, begin, triangle);
+      [end, last] = [to, value];
+    }
+    if (end < length) add(end, last, -1);
+    add(length, end < length ? "" : last, -1);
+    const name = /[",\n]/.test(this.name) ? `"${this.name.replaceAll('"', '""')}"` : this.name;
+    return `chainage,x,y,${name},triangle\n${lines.join("\n")}\n`;
+  }
+
+  length() {
+    return Math.hypot(this.to[0] - this.from[0], this.to[1] - this.from[1]);
+  }
+
+  pointAt(part) {
+    if (part === 1) return this.to;
+    return [0, 1].map((k) => this.from[k] + part * (this.to[k] - this.from[k]));
   }
 
   /** The linear function of a triangle at a parameter of the line. */
   valueAt(triangle, part, value) {
     const { topology } = this.app;
-    const point = [0, 1].map((k) => this.from[k] + part * (this.to[k] - this.from[k]));
+    const point = this.pointAt(part);
     const [a, b, c] = topology.corners(triangle);
     const area = topology.area(triangle);
     const cross = (p, q) =>

@@ -78,8 +78,9 @@ class Race {
   run(from, to) {
     this.from = from;
     this.to = to;
-    this.lanes = this.app.meshwalk.walks.map(({ name }) =>
-      new Lane(name, this.app.locatorFor(name).follow(from, to, { walk: name }), this));
+    this.inSpace = from.length === 3;
+    this.lanes = this.app.walkPanel.walks.map(({ name }) =>
+      new Lane(name, this.app.walkPanel.follow(name, from, to), this));
     byId("race-lanes").replaceChildren(...this.lanes.map((lane) => lane.element));
     byId("race").hidden = false;
     this.makeView();
@@ -101,20 +102,37 @@ class Race {
 
   /** The part of the mesh that all walks visit, drawn once for all lanes. */
   makeView() {
-    const ratio = this.app.stage.ratio;
+    const { stage } = this.app;
+    const { ratio } = stage;
     const width = this.lanes[0].element.clientWidth - 16;
-    const size = [Math.max(120, width), Math.max(120, width) / 1.25];
-    const camera = new PlaneCamera();
-    camera.size = size;
-    const { low, high } = this.box();
-    camera.fit(low, high);
+    const camera = stage.camera.copy();
+    camera.size = [Math.max(120, width), Math.max(120, width) / 1.25];
     const background = document.createElement("canvas");
-    [background.width, background.height] = size.map((side) => Math.round(side * ratio));
+    [background.width, background.height] = camera.size.map((side) => Math.round(side * ratio));
     const context = background.getContext("2d");
-    context.setTransform(ratio, 0, 0, ratio, 0, 0);
-    const pen = new Pen(context, camera, this.app.topology);
-    pen.triangles(this.near(low, high), { stroke: styleText("--soft"), width: 0.5, alpha: 0.6 });
+    const { low, high } = this.box();
+    if (this.inSpace) {
+      camera.face(this.direction());
+      camera.fit(low, high);
+      context.putImageData(stage.shoot(camera, background.width, background.height), 0, 0);
+    } else {
+      camera.fit(low, high);
+      context.setTransform(ratio, 0, 0, ratio, 0, 0);
+      new Pen(context, camera, this.app.topology).triangles(this.near(low, high),
+        { stroke: styleText("--soft"), width: 0.5, alpha: 0.6 });
+    }
     this.view = { camera, background, ratio };
+  }
+
+  /** From the centre between the two rays: what the walks visit is seen from there. */
+  direction() {
+    const centre = this.app.walkPanel.centre();
+    const ways = [this.from, this.to].map((point) => {
+      const way = point.map((value, k) => value - centre[k]);
+      const length = Math.hypot(...way) || 1;
+      return way.map((part) => part / length);
+    });
+    return ways[0].map((part, k) => part + ways[1][k]);
   }
 
   box() {
@@ -122,7 +140,7 @@ class Race {
     const visited = new Set(this.lanes.flatMap((lane) => Array.from(lane.walk.triangles)));
     const { low, high } = topology.box([...visited]);
     for (const point of [this.from, this.to])
-      for (let k = 0; k < 2; k++) {
+      for (let k = 0; k < point.length && !this.inSpace; k++) {
         low[k] = Math.min(low[k], point[k]);
         high[k] = Math.max(high[k], point[k]);
       }

@@ -6,13 +6,14 @@ const CLICK = 5; // pixels that a finger may slip
 const EDGES = 12000; // triangles whose edges are drawn
 const SUN = [-0.5, 0.5, 0.7071]; // from the north-west, 45 degrees high
 
-/** The picture with its camera. `drawLines` draws lines into it, `draw` what lies above it. */
+/** The picture with its camera. */
 class Stage {
-  constructor(drawLines, draw, acts) {
+  /** `layers`: spaceLines() are the lines that the engine draws in space, lines() draws those into
+   * the picture in the plane, above() what lies above the picture. */
+  constructor(layers, acts) {
     this.canvas = byId("picture");
     this.overlay = byId("overlay");
-    this.drawLines = drawLines;
-    this.drawAbove = draw;
+    this.layers = layers;
     this.acts = acts; // click(point), hover(point)
     this.cameras = { plane: new PlaneCamera(), space: new SpaceCamera() };
     this.space = "plane";
@@ -28,6 +29,7 @@ class Stage {
   show(mesh, topology) {
     if (this.picture) this.picture.free();
     this.picture = new Picture(mesh);
+    this.picture.setBorders(topology.links);
     this.topology = topology;
     this.shot = null;
     this.resize();
@@ -97,17 +99,27 @@ class Stage {
   drawFull() {
     const begin = performance.now();
     const { width, height } = this.canvas;
-    const pixels = this.picture.draw(this.camera.matrix(this.ratio), this.space === "space");
+    const pixels = this.picture.draw(this.camera.matrix(this.ratio), this.space === "space",
+      this.layers.spaceLines());
     const image = new ImageData(pixels, width, height);
     const context = this.canvas.getContext("2d");
     context.putImageData(image, 0, 0);
     context.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
-    this.drawLines(context, this.camera);
+    this.layers.lines(context, this.camera);
     context.resetTransform();
     this.took = performance.now() - begin;
     this.keepShot();
     this.moving = false;
     this.drawOverlay();
+  }
+
+  /** The mesh in space as another camera sees it: ImageData of a size. */
+  shoot(camera, width, height) {
+    this.picture.resize(width, height);
+    const pixels = this.picture.draw(camera.matrix(this.ratio), true, this.layers.spaceLines());
+    this.picture.resize(this.canvas.width, this.canvas.height);
+    this.redraw();
+    return new ImageData(pixels, width, height);
   }
 
   keepShot() {
@@ -137,7 +149,7 @@ class Stage {
     const context = this.overlay.getContext("2d");
     context.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
     context.clearRect(0, 0, this.overlay.width, this.overlay.height);
-    this.drawAbove(context, this.camera);
+    this.layers.above(context, this.camera);
   }
 
   /** The triangles whose edges are worth drawing; null: too many. */

@@ -38,7 +38,6 @@ class WalkPanel {
     this.dimension = inSpace ? 3 : 2;
     byId("walk-name").replaceChildren(...this.walks.map(({ name }) => new Option(name)));
     byId("walk-centre-row").hidden = !inSpace;
-    byId("walk-race").hidden = inSpace;
     for (const id of ["walk-from", "walk-to"])
       byId(id).placeholder = inSpace ? "x, y, z" : "x, y";
     byId("walk-hint").textContent = inSpace ? SPACE_HINT : PLANE_HINT;
@@ -92,19 +91,27 @@ class WalkPanel {
     this.app.attempt(() => (this.dimension === 3 ? this.goByRays(name) : this.goInPlane(name)));
   }
 
+  /** The walk of a name between two points, or between the rays through them. */
+  follow(name, from, to) {
+    if (this.dimension === 2) return this.app.locatorFor(name).follow(from, to, { walk: name });
+    return this.asWalk(this.app.star(this.centre()).followRay(from, to, { walk: name }));
+  }
+
+  /** Where rays come from. */
+  centre() {
+    return parsePoint(byId("walk-centre").value, 3) || [0, 0, 0];
+  }
+
   goInPlane(name) {
-    const walk = this.app.locatorFor(name).follow(this.from, this.to, { walk: name });
+    const walk = this.follow(name, this.from, this.to);
     this.show(walk, tellWalk(name, walk), `--walk ${name}`);
   }
 
   goByRays(name) {
-    const centre = parsePoint(byId("walk-centre").value, 3) || [0, 0, 0];
-    const surface = this.app.surface();
-    surface.setCentre(centre);
-    const walk = this.asWalk(surface.followRay(this.from, this.to, { walk: name }));
+    const walk = this.follow(name, this.from, this.to);
     this.show(walk, `The ${name} walk comes from ray to ray in ` +
       `${plural(walk.triangles.length, "facet")}, to facet ${walk.location.triangle}.`,
-    `--as star --centre ${centre.join()} --walk ${name}`);
+    `--as star --centre ${this.centre().join()} --walk ${name}`);
   }
 
   /** A probe at one point that moves towards another. */
@@ -122,9 +129,9 @@ class WalkPanel {
   }
 
   /** A trace in space in the form of a walk in the plane. */
-  asWalk({ triangles, triangle }) {
+  asWalk({ triangles, triangle, counters }) {
     return { triangles, stages: Array(triangles.length).fill("walk"), line: [],
-      location: { triangle } };
+      location: { triangle }, counters };
   }
 
   /** Play a walk; `words` tell it, `options` repeat it on the command line. */

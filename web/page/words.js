@@ -72,6 +72,15 @@ function fillTable(table, rows) {
   }));
 }
 
+/** Save a text as a file, as the browser does with downloads. */
+function saveText(name, text) {
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(new Blob([text], { type: "text/csv" }));
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+}
+
 /** A button with a text and what it does. */
 function makeButton(text, act) {
   const button = document.createElement("button");

@@ -77,14 +77,18 @@ static int member_open(gzip_file *file)
     const Bytef *head = s->next_in;
     bool first = head == file->bytes;
     if (!first && (s->avail_in < 2 || head[0] != 0x1f || head[1] != 0x8b)) return Z_STREAM_END;
-    if (!member_skip(s, HEAD)) return Z_BUF_ERROR;
+    if (s->avail_in < 4) return Z_BUF_ERROR;
     if (head[2] != 8 || head[3] & RESERVED) return Z_DATA_ERROR;
+    if (!member_skip(s, HEAD)) return Z_BUF_ERROR;
     if (head[3] & HAS_EXTRA &&
         (s->avail_in < 2 || !member_skip(s, s->next_in[0] + 256u * s->next_in[1] + 2)))
         return Z_BUF_ERROR;
     if (head[3] & HAS_NAME && !member_skip_text(s)) return Z_BUF_ERROR;
     if (head[3] & HAS_COMMENT && !member_skip_text(s)) return Z_BUF_ERROR;
+    uint32_t sum = (uint32_t)crc32(0, head, (uInt)(s->next_in - head));
     if (head[3] & HAS_SUM && !member_skip(s, 2)) return Z_BUF_ERROR;
+    if (head[3] & HAS_SUM && (s->next_in[-2] | (uint32_t)s->next_in[-1] << 8) != (sum & 0xffff))
+        return Z_DATA_ERROR;
     file->crc = file->made = 0;
     file->open = true;
     return inflateInit2(s, -MAX_WBITS);
@@ -93,12 +97,14 @@ static int member_open(gzip_file *file)
 static int member_close(gzip_file *file)
 {
     z_stream *s = &file->stream;
-    const Bytef *sums = s->next_in;
+    const uint32_t sums[] = {file->crc, file->made};
     inflateEnd(s);
     file->open = false;
-    if (!member_skip(s, 8)) return Z_BUF_ERROR;
-    bool right = member_number(sums) == file->crc && member_number(sums + 4) == file->made;
-    return right ? Z_OK : Z_DATA_ERROR;
+    for (int i = 0; i < 2; i++) {
+        if (!member_skip(s, 4)) return Z_BUF_ERROR;
+        if (member_number(s->next_in - 4) != sums[i]) return Z_DATA_ERROR;
+    }
+    return Z_OK;
 }
 
 /* Unpack what fits, of one member. */

@@ -119,8 +119,8 @@ static uint32_t code_reversed(uint32_t code, unsigned length)
 }
 
 /* The canonical code of the lengths. Returns false if there are more codes than bits allow, or
- * fewer, but for a single one. */
-static bool code_table_make(code_table *table, const uint8_t *lengths, unsigned count)
+ * fewer. As in zlib a code may be without symbols, and, if `lone`, of one symbol with one bit. */
+static bool code_table_make(code_table *table, const uint8_t *lengths, unsigned count, bool lone)
 {
     uint32_t used[LONGEST_CODE + 1] = {0}, next[LONGEST_CODE + 2] = {0}, codes = 0;
     memset(table, 0, sizeof *table);
@@ -131,7 +131,8 @@ static bool code_table_make(code_table *table, const uint8_t *lengths, unsigned 
         if (next[length] + used[length] > 1u << length) return false;
         codes += used[length];
     }
-    if (codes > 1 && next[LONGEST_CODE] + used[LONGEST_CODE] != 1u << LONGEST_CODE) return false;
+    bool complete = next[LONGEST_CODE] + used[LONGEST_CODE] == 1u << LONGEST_CODE;
+    if (!complete && codes > 0 && !(lone && codes == used[1])) return false;
     for (unsigned i = 0; i < count; i++) {
         unsigned length = lengths[i];
         if (length == 0) continue;
@@ -142,14 +143,16 @@ static bool code_table_make(code_table *table, const uint8_t *lengths, unsigned 
     return true;
 }
 
-static bool code_take(inflater *z, z_stream *in, const code_table *table, uint32_t *symbol)
+/* Only a code of no symbols or one has bits without a symbol: a single bit tells. */
+static int code_take(inflater *z, z_stream *in, const code_table *table, uint32_t *symbol)
 {
     bits_fill(z, in, LONGEST_CODE);
     unsigned entry = table->entry[z->bits & (TABLE - 1)], length = entry & 15;
-    if (length == 0 || length > z->bit_count) return false;
+    if (length > z->bit_count || z->bit_count == 0) return Z_BUF_ERROR;
+    if (length == 0) return Z_DATA_ERROR;
     bits_drop(z, length);
     *symbol = entry >> 4;
-    return true;
+    return Z_OK;
 }
 
 static bool codes_make_fixed(inflater *z)
@@ -158,31 +161,28 @@ static bool codes_make_fixed(inflater *z)
     for (unsigned i = 0; i < LENGTH_SYMBOLS; i++)
         lengths[i] = i < 144 ? 8 : i < 256 ? 9 : i < 280 ? 7 : 8;
     memset(distances, 5, sizeof distances);
-    return code_table_make(&z->lengths, lengths, LENGTH_SYMBOLS) &&
-           code_table_make(&z->distances, distances, DISTANCE_SYMBOLS + 2);
+    return code_table_make(&z->lengths, lengths, LENGTH_SYMBOLS, false) &&
+           code_table_make(&z->distances, distances, DISTANCE_SYMBOLS + 2, false);
 }
 
 /* The lengths of both codes, themselves coded, with runs of equal ones. */
-static bool codes_read_lengths(inflater *z, z_stream *in, uint8_t *lengths, unsigned count)
+static int codes_read_lengths(inflater *z, z_stream *in, uint8_t *lengths, unsigned count)
 {
     for (unsigned i = 0; i < count;) {
         uint32_t symbol, run = 1, more = 0;
-        uint8_t value = 0;
-        if (!code_take(z, in, &z->lengths, &symbol)) return false;
-        if (symbol == 16 && i == 0) return false;
-        if (symbol < 16) value = (uint8_t)symbol;
-        if (symbol == 16) value = lengths[i - 1];
+        int result = code_take(z, in, &z->lengths, &symbol);
+        if (result != Z_OK) return result;
         if (symbol >= 16 && !bits_take(z, in, symbol == 16 ? 2 : symbol == 17 ? 3 : 7, &more))
-            return false;
+            return Z_BUF_ERROR;
         if (symbol >= 16) run = more + (symbol == 18 ? 11 : 3);
-        if (run > count - i) return false;
-        memset(lengths + i, value, run);
+        if (run > count - i || (symbol == 16 && i == 0)) return Z_DATA_ERROR;
+        memset(lengths + i, symbol < 16 ? (int)symbol : symbol == 16 ? lengths[i - 1] : 0, run);
         i += run;
     }
-    return true;
+    return Z_OK;
 }
 
-static bool codes_read(inflater *z, z_stream *in)
+static int codes_read(inflater *z, z_stream *in)
 {
     static const uint8_t order[] = {16, 17, 18, 0, 8,  7, 9,  6, 10, 5,
                                     11, 4,  12, 3, 13, 2, 14, 1, 15};
@@ -190,19 +190,21 @@ static bool codes_read(inflater *z, z_stream *in)
     uint32_t length_count, distance_count, coded_count, value;
     if (!bits_take(z, in, 5, &length_count) || !bits_take(z, in, 5, &distance_count) ||
         !bits_take(z, in, 4, &coded_count))
-        return false;
+        return Z_BUF_ERROR;
     length_count += 257;
     distance_count += 1;
-    if (length_count > 286 || distance_count > DISTANCE_SYMBOLS) return false;
+    if (length_count > 286 || distance_count > DISTANCE_SYMBOLS) return Z_DATA_ERROR;
     for (unsigned i = 0; i < coded_count + 4; i++) {
-        if (!bits_take(z, in, 3, &value)) return false;
+        if (!bits_take(z, in, 3, &value)) return Z_BUF_ERROR;
         coded[order[i]] = (uint8_t)value;
     }
-    return code_table_make(&z->lengths, coded, 19) &&
-           codes_read_lengths(z, in, lengths, length_count + distance_count) &&
-           lengths[END_OF_BLOCK] > 0 &&
-           code_table_make(&z->distances, lengths + length_count, distance_count) &&
-           code_table_make(&z->lengths, lengths, length_count);
+    if (!code_table_make(&z->lengths, coded, 19, false)) return Z_DATA_ERROR;
+    int result = codes_read_lengths(z, in, lengths, length_count + distance_count);
+    if (result != Z_OK) return result;
+    bool sound = lengths[END_OF_BLOCK] > 0 &&
+                 code_table_make(&z->distances, lengths + length_count, distance_count, true) &&
+                 code_table_make(&z->lengths, lengths, length_count, true);
+    return sound ? Z_OK : Z_DATA_ERROR;
 }
 
 /* --- output ----------------------------------------------------------------------------------- */
@@ -228,8 +230,8 @@ static int stage_header(inflater *z, z_stream *s)
     if (z->wrapped) {
         if (!bits_take(z, s, 16, &head)) return Z_BUF_ERROR;
         uint32_t first = head & 255, second = head >> 8;
-        if ((first & 15) != 8 || (first * 256 + second) % 31 != 0 || second & 32)
-            return Z_DATA_ERROR;
+        bool deflate = (first & 15) == 8 && first >> 4 <= MAX_WBITS - 8;
+        if (!deflate || (first * 256 + second) % 31 != 0 || second & 32) return Z_DATA_ERROR;
     }
     z->stage = STAGE_BLOCK;
     return Z_OK;
@@ -246,7 +248,7 @@ static int stage_block(inflater *z, z_stream *s)
     z->last = last;
     z->stage = kind == 0 ? STAGE_STORED : STAGE_CODES;
     if (kind == 1) return codes_make_fixed(z) ? Z_OK : Z_DATA_ERROR;
-    if (kind == 2) return codes_read(z, s) ? Z_OK : s->avail_in ? Z_DATA_ERROR : Z_BUF_ERROR;
+    if (kind == 2) return codes_read(z, s);
     if (kind == 3) return Z_DATA_ERROR;
     bits_drop(z, z->bit_count % 8);
     if (!bits_take(z, s, 32, &size)) return Z_BUF_ERROR;
@@ -265,18 +267,24 @@ static int stage_stored(inflater *z, z_stream *s)
     return Z_OK;
 }
 
-static bool stage_codes_copy(inflater *z, z_stream *s, uint32_t symbol)
+static int stage_codes_copy(inflater *z, z_stream *s, uint32_t symbol)
 {
-    uint32_t more, distance;
+    uint32_t more, length, distance;
     symbol -= END_OF_BLOCK + 1;
-    if (symbol >= sizeof length_bits || !bits_take(z, s, length_bits[symbol], &more)) return false;
-    z->left = length_base[symbol] + more;
-    if (!code_take(z, s, &z->distances, &distance) || distance >= DISTANCE_SYMBOLS) return false;
+    if (symbol >= sizeof length_bits) return Z_DATA_ERROR;
+    if (!bits_take(z, s, length_bits[symbol], &more)) return Z_BUF_ERROR;
+    length = length_base[symbol] + more;
+    int result = code_take(z, s, &z->distances, &distance);
+    if (result != Z_OK) return result;
+    if (distance >= DISTANCE_SYMBOLS) return Z_DATA_ERROR;
     unsigned extra = distance < 4 ? 0 : distance / 2 - 1;
     uint32_t base = distance < 4 ? distance + 1 : ((2 + distance % 2) << extra) + 1;
-    if (!bits_take(z, s, extra, &more)) return false;
+    if (!bits_take(z, s, extra, &more)) return Z_BUF_ERROR;
+    if (base + more > z->at || base + more > WINDOW) return Z_DATA_ERROR;
     z->distance = base + more;
-    return z->distance <= z->at && z->distance <= WINDOW;
+    z->left = length;
+    output_copy(z, s);
+    return Z_OK;
 }
 
 static int stage_codes(inflater *z, z_stream *s)
@@ -284,17 +292,16 @@ static int stage_codes(inflater *z, z_stream *s)
     uint32_t symbol;
     output_copy(z, s);
     while (s->avail_out > 0) {
-        if (!code_take(z, s, &z->lengths, &symbol)) return s->avail_in ? Z_DATA_ERROR : Z_BUF_ERROR;
-        if (symbol == END_OF_BLOCK) {
+        int result = code_take(z, s, &z->lengths, &symbol);
+        if (result == Z_OK && symbol == END_OF_BLOCK) {
             z->stage = STAGE_BLOCK;
             return Z_OK;
         }
-        if (symbol < END_OF_BLOCK)
+        if (result == Z_OK && symbol < END_OF_BLOCK)
             output_put(z, s, (uint8_t)symbol);
-        else if (stage_codes_copy(z, s, symbol))
-            output_copy(z, s);
-        else
-            return s->avail_in ? Z_DATA_ERROR : Z_BUF_ERROR;
+        else if (result == Z_OK)
+            result = stage_codes_copy(z, s, symbol);
+        if (result != Z_OK) return result;
     }
     return Z_OK;
 }

@@ -1,6 +1,6 @@
 // browser.mjs - a headless Chromium that tests drive, by the DevTools protocol over a pipe.
 import { spawn } from "node:child_process";
-import { mkdtempSync, rmSync } from "node:fs";
+import { existsSync, mkdtempSync, readdirSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 
@@ -104,6 +104,23 @@ export class Browser {
 
   async press(selector) {
     await this.value(`document.querySelector(${JSON.stringify(selector)}).click()`);
+  }
+
+  /** Press what saves a file; returns its text. */
+  async save(selector) {
+    const folder = join(this.home, "saved");
+    await this.send("Page.setDownloadBehavior", { behavior: "allow", downloadPath: folder });
+    await this.press(selector);
+    const end = Date.now() + WAIT;
+    const saved = () => (existsSync(folder) ? readdirSync(folder) : []);
+    while (!saved().length || saved().some((name) => name.endsWith(".crdownload"))) {
+      if (Date.now() > end) throw new Error("nothing is saved");
+      await new Promise((resolve) => setTimeout(resolve, 30));
+    }
+    const [name] = saved();
+    const text = readFileSync(join(folder, name), "utf8");
+    rmSync(folder, { recursive: true });
+    return { name, text };
   }
 
   /** Two frames: what was asked for is drawn. */

@@ -151,13 +151,33 @@ async function testTerrain() {
   run("triangulate", join(data, "jacksboro.csv"), "-q", "-o", "terrain.ply");
   await openPage("terrain.ply");
   await compareClicks("terrain.ply", [[15000, 16000], [4000, 9000], [29000, 30000]]);
-  await browser.value("meshwalkPage.profile.click([1000, 1000])");
-  await browser.value("meshwalkPage.profile.click([29000, 31000])");
-  assert.match(await browser.value("document.getElementById('profile-about').textContent"),
-    /^z along [\d.]+ through \d+ triangles/);
+  await compareProfile("terrain.ply", [1000, 1000], [29000, 31000]);
+  await compareProfile("terrain.ply", [-1000, 1500], [2000, -2500]); // in and out again
+  await compareProfile("terrain.ply", [-1000, 1500], [-2000, 2500]); // outside
   await browser.value("meshwalkPage.setSpace('space')");
   await browser.frame();
   assert.ok(await browser.value("meshwalkPage.stage.picture.visible > 1000"));
+}
+
+// What is saved is the table of `profile`, but for the names of places.
+async function compareProfile(mesh, from, to) {
+  for (const point of [from, to]) await browser.value(`meshwalkPage.profile.click([${point}])`);
+  const { name, text } = await browser.save("#profile-save");
+  assert.equal(name, `${mesh}-profile.csv`);
+  writeFileSync(join(scratch, "line.csv"), `x,y\n${from}\n${to}\n`);
+  const table = (lines) => lines.trimEnd().split("\n").map((line) => line.split(","));
+  const [head, ...rows] = table(text);
+  const [, ...expected] = table(run("profile", mesh, "line.csv"));
+  assert.deepEqual(head, ["chainage", "x", "y", "z", "triangle"]);
+  assert.equal(rows.length, expected.length);
+  rows.forEach((row, i) => row.forEach((cell, k) => {
+    const told = expected[i][k + 2];
+    assert.ok(cell === told || (cell && told && Math.abs(cell - told) < 1e-7),
+      `${row} is ${expected[i]}`);
+  }));
+  const crossed = rows.filter(([, , , , triangle]) => triangle !== "-1").length;
+  assert.match(await browser.value("document.getElementById('profile-about').textContent"),
+    crossed ? new RegExp(`^z along [\\d,.]+ through ${crossed} triangles`) : /outside/);
 }
 
 // Two rays and a probe: the triangles that `walk` lists in space.
@@ -177,7 +197,47 @@ async function testSpace() {
       "--to", walk.to);
     assert.deepEqual(walk.triangles,
       listed.trimEnd().split("\n").slice(1).map((line) => Number(line.split(",")[1])), tool);
+    if (tool === "ray") await compareSpaceRace("octahedron.off", walk);
   }
+  await compareEdges();
+}
+
+// Every walk from ray to ray has the triangles that `walk` lists.
+async function compareSpaceRace(mesh, { from, to }) {
+  await browser.press("#walk-race");
+  const lanes = await browser.value(`meshwalkPage.race.lanes.map(({ name, walk }) =>
+    ({ name, triangles: Array.from(walk.triangles), tests: walk.counters.orientations }))`);
+  assert.deepEqual(lanes.map(({ name }) => name),
+    ["stochastic", "forgetful", "barycentric", "orthogonal", "straight"]);
+  for (const { name, triangles, tests } of lanes) {
+    const listed = run("walk", mesh, "--as", "star", "--walk", name, "--from", from, "--to", to);
+    assert.deepEqual(triangles,
+      listed.trimEnd().split("\n").slice(1).map((line) => Number(line.split(",")[1])), name);
+    assert.ok(tests >= triangles.length - 1, `${name} has ${tests} tests`);
+  }
+  await browser.press("#race-close");
+}
+
+// Edges are dark pixels in front only: fewer colours without them.
+async function compareEdges() {
+  const shades = async () => {
+    await browser.value("meshwalkPage.setSpace('space')");
+    await browser.frame();
+    return browser.value(`(() => {
+      const { width, height } = document.getElementById("picture");
+      const { data } = document.getElementById("picture").getContext("2d")
+        .getImageData(0, 0, width, height);
+      return new Set(new Uint32Array(data.buffer)).size;
+    })()`);
+  };
+  const counts = [];
+  await browser.value("document.getElementById('colour-field').value = 'none'");
+  await browser.value("meshwalkPage.colours.apply()");
+  for (const on of [true, false]) {
+    await browser.value(`document.getElementById("edges").checked = ${on}`);
+    counts.push(await shades());
+  }
+  assert.ok(counts[1] <= 9 && counts[0] > 20, `shades with edges, without: ${counts}`);
 }
 
 /** Something is drawn in the middle of the picture. */
