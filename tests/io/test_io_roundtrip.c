@@ -10,6 +10,7 @@
 
 #include <math.h>
 #include <stdbool.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -229,15 +230,25 @@ static void test_stl(void **state)
 static void test_stl_normals(void **state)
 {
     (void)state;
-    double points[] = {0, 0, 0, 2, 0, 0, 0, 3, 0};
-    uint32_t triangles[] = {0, 1, 2, 0, 0, 1};
+    double points[] = {0, 0, 0, 2, 0, 0, 0, 3, 0, 4, 0, -3, 0, 4, 3};
+    uint32_t triangles[] = {0, 1, 2, 0, 0, 1, 0, 3, 2, 0, 2, 3, 0, 1, 4};
     mw_mesh_file file = {
-        .points = points, .triangles = triangles, .point_count = 3, .triangle_count = 2};
+        .points = points, .triangles = triangles, .point_count = 5, .triangle_count = 5};
     assert_int_equal(mw_write_mesh("n.stl", &file, NULL, NULL, NULL), MW_OK);
     char *text = files_read("n.stl", NULL);
     assert_non_null(text);
-    assert_non_null(strstr(text, "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 2 0 0\n"));
-    assert_non_null(strstr(text, "facet normal 0 0 0\n"));
+    assert_non_null(strstr(text, "\nouter loop\nvertex 0 0 0\nvertex 2 0 0\n"));
+    static const double wanted[5][3] = {
+        {0, 0, 1}, {0, 0, 0}, {0.6, 0, 0.8}, {-0.6, 0, -0.8}, {0, -0.6, 0.8}};
+    const char *at = text;
+    for (int t = 0; t < 5; t++) {
+        double n[3];
+        at = strstr(at, "facet normal ");
+        assert_non_null(at);
+        assert_int_equal(sscanf(at, "facet normal %lf %lf %lf", &n[0], &n[1], &n[2]), 3);
+        for (int k = 0; k < 3; k++) assert_true(n[k] == wanted[t][k]);
+        at++;
+    }
     free(text);
     files_clear();
 }
