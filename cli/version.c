@@ -64,6 +64,11 @@ static void version_of_netcdf(text *t)
 
 void version_write(text *t)
 {
+#ifdef MW_ZLIB_VERSION
+    const char *zlib = MW_ZLIB_VERSION ", built in: files packed by gzip";
+#else
+    const char *zlib = NULL;
+#endif
 #ifdef MW_JANSSON_VERSION
     const char *jansson = MW_JANSSON_VERSION ", built in: constraints from GeoJSON";
 #else
@@ -75,7 +80,7 @@ void version_write(text *t)
     const char *cairo = NULL;
 #endif
     text_printf(t, "meshwalk %s\n", mw_version());
-    version_line(t, "zlib", MW_ZLIB_VERSION ", built in: files packed by gzip", NULL);
+    version_line(t, "zlib", zlib, "files packed by gzip are read by the library's own code");
     version_line(t, "Jansson", jansson, "no constraints from GeoJSON, but by GDAL");
     version_line(t, "Cairo", cairo, "no pictures, no plots");
     size_t page_size;

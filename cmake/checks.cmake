@@ -65,6 +65,12 @@ add_test(NAME names COMMAND ${PROJECT_SOURCE_DIR}/tools/check_names)
 add_test(NAME symbols COMMAND ${PROJECT_SOURCE_DIR}/tools/check_symbols
   ${PROJECT_SOURCE_DIR}/include
   $<TARGET_FILE:meshwalk_shared> $<TARGET_FILE:meshwalk_static>)
+find_program(ABIDIFF abidiff)
+if(ABIDIFF)
+  add_test(NAME abi_self_test COMMAND ${PROJECT_SOURCE_DIR}/tools/test_check_abi)
+else()
+  leave_out(abi_self_test "there is no abidiff (abigail-tools)")
+endif()
 # Fast-math would make the predicates wrong: the sources refuse it.
 add_test(NAME fast_math COMMAND ${CMAKE_C_COMPILER} -ffast-math -fsyntax-only
   -I${PROJECT_SOURCE_DIR}/include

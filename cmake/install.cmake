@@ -41,7 +41,10 @@ install(FILES ${PROJECT_BINARY_DIR}/meshwalkConfig.cmake
 # pkg-config: the static library's own needs stand in Libs.private. The prefix is found from the
 # place of the file.
 file(RELATIVE_PATH pc_prefix ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
-set(pc_private "-lz -lm")
+set(pc_private "-lm")
+if(MW_WITH_ZLIB)
+  string(PREPEND pc_private "-lz ")
+endif()
 foreach(library ${CMAKE_DL_LIBS})
   string(APPEND pc_private " -l${library}")
 endforeach()

@@ -230,7 +230,8 @@ const command info_command = {
                    "space, or as a polyhedron: whether it is star-shaped about a centre. Of a "
                    "vector file that GDAL reads it "
                    "lists "
-                   "the layers, and what one of them holds. '-' is standard input.",
+                   "the layers, and what one of them holds. 'meshwalk check' lists the defects of "
+                   "MESH, 'meshwalk view' shows them. '-' is standard input.",
     .options = tables,
     .essential = "as centre json output threads",
     .settings_size = sizeof(info_settings),

@@ -104,8 +104,7 @@ static const option probe_options[] = {
      "vertices with equal coordinates are one, so that walks cross the seams between them", NULL},
     {"any", 0, OPTION_FLAG, offsetof(probe_settings, any), NULL,
      "take also a surface with defects that 'meshwalk check --as surface' calls repeated-vertex, "
-     "not-finite or "
-     "edge-shared",
+     "not-finite or edge-shared; 'meshwalk view' shows them",
      NULL},
     {"columns", 0, OPTION_TEXT, offsetof(probe_settings, stream.source.columns), "LIST",
      "columns of QUERIES that hold the point and the motion, six names or numbers from 1 (default: "
@@ -148,7 +147,8 @@ static int probed_surface_fail(const probed_surface *p, const char *path, const 
 {
     int end = fail_mesh(path, error);
     if (end == END_INPUT && !p->settings->any)
-        complain("'meshwalk check --as surface%s %s' lists every defect; --any probes all the same",
+        complain("'meshwalk check --as surface%s %s' lists every defect, 'meshwalk view' shows "
+                 "it; --any probes all the same",
                  p->settings->weld ? " --weld" : "", path);
     return end;
 }

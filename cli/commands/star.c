@@ -125,7 +125,7 @@ static int ray_queries_fail_star(const ray_queries *r, const char *path, bool fl
     if (end == END_INPUT && flat)
         complain("%s: has no z; --lonlat takes x and y as longitude and latitude", path);
     else if (end == END_INPUT)
-        complain("'meshwalk check %s %s' lists every defect",
+        complain("'meshwalk check %s %s' lists every defect, 'meshwalk view' shows it",
                  star_check_arguments(r->settings, words), path);
     return end;
 }

@@ -61,7 +61,8 @@ static int cells_read_mesh(remap_cells *c, const char *path, const char *crs,
     if (end == 0 && (mw_mesh_create(&arrays, &options, &c->mesh, &error) != MW_OK ||
                      mw_locator_create(c->mesh, &fill, &c->locator, &error) != MW_OK)) {
         end = fail_mesh(path, &error);
-        if (end == END_INPUT) complain("'meshwalk check %s' lists every defect", path);
+        if (end == END_INPUT)
+            complain("'meshwalk check %s' lists every defect, 'meshwalk view' shows it", path);
     }
     c->face = file.faces;
     c->face_count = file.face_count;

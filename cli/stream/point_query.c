@@ -125,7 +125,9 @@ const option point_query_options[] = {
      "with a damaged one the program may crash",
      NULL},
     {"any", 0, OPTION_FLAG, offsetof(point_query_settings, any), NULL,
-     "accept a mesh that is not an embedding; a warning says which promise is void", NULL},
+     "accept a mesh that is not an embedding; a warning says which promise is void, and 'meshwalk "
+     "view' shows the defects",
+     NULL},
     {0},
 };
 

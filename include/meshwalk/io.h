@@ -225,7 +225,8 @@ MW_API int mw_constraints_known(const char *path);
  * - "obj", "stl": STL as text with all digits; without fields
  * - "netcdf": UGRID 1.0 in netCDF-4, with fields, heights and the coordinate system; only into a
  *   file
- * - "vtk": legacy VTK as text, an unstructured grid with the fields as point data, for ParaView
+ * - "vtk": legacy VTK as text, an unstructured grid for ParaView; fields as point data, triangle
+ *   fields as cell data
  * - "csv": a table for other programs, one row per corner of a triangle, with the columns
  *   triangle,corner,vertex,x,y,z and the fields; not read as a mesh
  * - "vtu": VTK in XML, with appended doubles; fields as point data, triangle fields as cell data
@@ -240,8 +241,8 @@ MW_API int mw_constraints_known(const char *path);
  * Faces that were cut into triangles (`faces`) are written as they were: quadrilaterals in gr3, 2dm
  * and msh, all polygons in vtu.
  *
- * PLY and netCDF keep the coordinate system; other formats do not. netCDF and vtu keep values per
- * triangle; 2dm and msh keep some of them. fort.14, gr3 and msh keep marked edges. Vertices,
+ * PLY and netCDF keep the coordinate system; other formats do not. netCDF, vtk and vtu keep values
+ * per triangle; 2dm and msh keep some of them. fort.14, gr3 and msh keep marked edges. Vertices,
  * triangles, z and fields keep their order and every bit, except the sign of a NaN and the vertices
  * of STL and csv, which have corners only. Names of fields become single words.
  *

@@ -1,6 +1,7 @@
 /* prober.c - Prober: a mw_prober as an object, which keeps its surface alive. */
 #include "core.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 /* prober_from_surface(cls, surface, boxes, threads, progress) */
@@ -170,7 +171,31 @@ static PyObject *prober_nearest(PyObject *self, PyObject *args)
     Py_RETURN_NONE;
 }
 
-/* _all(query, extent, faces, min_distance, max_distance) -> bytes of touches */
+/* All touches of a probe, to be released by free(). */
+typedef struct prober_touches {
+    mw_touch *touches;
+    size_t count;
+    mw_touch_state state;
+} prober_touches;
+
+/* The surface may change between two searches, so each has to find room for all that it finds.
+ * Returns -1 when out of memory. */
+static int prober_find_all(const mw_prober *prober, mw_probe_cursor *cursor, const double query[6],
+                           prober_touches *found)
+{
+    size_t room = 32;
+    for (;;) {
+        found->touches = malloc(room * sizeof *found->touches);
+        if (!found->touches) return -1;
+        found->count =
+            mw_probe_all(prober, cursor, query, query + 3, found->touches, room, &found->state);
+        if (found->count <= room) return 0;
+        room = found->count;
+        free(found->touches);
+    }
+}
+
+/* _all(query, extent, faces, min_distance, max_distance): memory of touches */
 static PyObject *prober_all(PyObject *self, PyObject *args)
 {
     prober_object *object = (prober_object *)self;
@@ -179,25 +204,22 @@ static PyObject *prober_all(PyObject *self, PyObject *args)
     mw_probe_options options = {.certain = 1};
     mw_probe_cursor cursor;
     mw_error error;
-    mw_touch few[32];
+    prober_touches found;
+    int failed;
     if (!PyArg_ParseTuple(args, "(dddddd)ssdd", &q[0], &q[1], &q[2], &q[3], &q[4], &q[5], &extent,
                           &faces, &options.min_distance, &options.max_distance) ||
         prober_set_ray(&options, extent, faces))
         return NULL;
     if (mw_probe_cursor_init(object->prober, &options, &cursor, &error) != MW_OK)
         return errors_raise(object->state, &error);
-    mw_touch_state state;
-    size_t n = mw_probe_all(object->prober, &cursor, q, q + 3, few, 32, &state);
-    if (state == MW_TOUCH_BAD)
-        return PyErr_Format(PyExc_ValueError, "a coordinate is not finite, or the motion is zero");
-    PyObject *bytes = PyBytes_FromStringAndSize(NULL, (Py_ssize_t)(n * sizeof *few));
-    if (!bytes) return NULL;
-    mw_touch *all = (mw_touch *)PyBytes_AsString(bytes);
-    if (n <= 32)
-        memcpy(all, few, n * sizeof *few);
-    else
-        mw_probe_all(object->prober, &cursor, q, q + 3, all, n, NULL);
-    return bytes;
+    Py_BEGIN_ALLOW_THREADS
+    failed = prober_find_all(object->prober, &cursor, q, &found);
+    Py_END_ALLOW_THREADS
+    if (failed) return PyErr_NoMemory();
+    if (found.state != MW_TOUCH_BAD)
+        return memory_new(object->state, found.touches, found.count * sizeof *found.touches);
+    free(found.touches);
+    return PyErr_Format(PyExc_ValueError, "a coordinate is not finite, or the motion is zero");
 }
 
 /* _inside(points, out, threads): a byte for each point */

@@ -15,49 +15,100 @@ Arrays of any real type are taken if doubles hold their numbers exactly. The int
 released while the library works, and objects may be used by any number of threads.
 """
 
-from meshwalk._borrowed import BorrowedMesh
-from meshwalk._check import Check, Defect, check, check_star, check_surface
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
 from meshwalk._core import Location
 from meshwalk._core import version as __version__
-from meshwalk._cursor import Cursor
-from meshwalk._editor import (
-    Change,
-    EdgeKind,
-    Edit,
-    EditKind,
-    Editor,
-    EditorInfo,
-    EditorLocations,
-)
 from meshwalk._errors import Error, InputError, LimitError
-from meshwalk._files import (
-    Constraints,
-    SkippedRingWarning,
-    mesh_formats,
-    read,
-    read_constraints,
-    read_points,
-    write,
-)
-from meshwalk._locations import Locations
-from meshwalk._locator import Locator, LocatorInfo, NearestBorder
-from meshwalk._mend import MendChange, Mended, mend
-from meshwalk._mesh import Mesh, MeshInfo
-from meshwalk._operator import Operator
-from meshwalk._plot import explain, plot
-from meshwalk._polygons import PolygonHits, Polygons
-from meshwalk._prober import NearestPoints, Prober, SurfaceSide, Touches, TouchState
-from meshwalk._segments import Segments
-from meshwalk._star import Star, StarInfo, direction_to_lonlat, lonlat_to_direction
-from meshwalk._surface import Surface, SurfaceInfo
-from meshwalk._triangulate import (
-    DuplicateWarning,
-    OptimumWarning,
-    constrained_delaunay,
-    delaunay,
-    triangulate,
-)
 from meshwalk._where import Where
+
+if TYPE_CHECKING:
+    from meshwalk._borrowed import BorrowedMesh
+    from meshwalk._check import Check, Defect, check, check_star, check_surface
+    from meshwalk._cursor import Cursor
+    from meshwalk._editor import (
+        Change,
+        EdgeKind,
+        Edit,
+        EditKind,
+        Editor,
+        EditorInfo,
+        EditorLocations,
+    )
+    from meshwalk._files import (
+        Constraints,
+        SkippedRingWarning,
+        mesh_formats,
+        read,
+        read_constraints,
+        read_points,
+        write,
+    )
+    from meshwalk._locations import Locations
+    from meshwalk._locator import Locator, LocatorInfo, NearestBorder
+    from meshwalk._mend import MendChange, Mended, mend
+    from meshwalk._mesh import Mesh, MeshInfo
+    from meshwalk._operator import Operator
+    from meshwalk._plot import explain, plot
+    from meshwalk._polygons import PolygonHits, Polygons
+    from meshwalk._prober import NearestPoints, Prober, SurfaceSide, Touches, TouchState
+    from meshwalk._segments import Segments
+    from meshwalk._star import Star, StarInfo, direction_to_lonlat, lonlat_to_direction
+    from meshwalk._surface import Surface, SurfaceInfo
+    from meshwalk._triangulate import (
+        DuplicateWarning,
+        OptimumWarning,
+        constrained_delaunay,
+        delaunay,
+        triangulate,
+    )
+
+# Modules are imported when one of their names is first used: `import meshwalk` takes no time.
+_MODULES = {
+    "_borrowed": ("BorrowedMesh",),
+    "_check": ("Check", "Defect", "check", "check_star", "check_surface"),
+    "_cursor": ("Cursor",),
+    "_editor": (
+        "Change",
+        "EdgeKind",
+        "Edit",
+        "EditKind",
+        "Editor",
+        "EditorInfo",
+        "EditorLocations",
+    ),
+    "_files": (
+        "Constraints",
+        "SkippedRingWarning",
+        "mesh_formats",
+        "read",
+        "read_constraints",
+        "read_points",
+        "write",
+    ),
+    "_locations": ("Locations",),
+    "_locator": ("Locator", "LocatorInfo", "NearestBorder"),
+    "_mend": ("MendChange", "Mended", "mend"),
+    "_mesh": ("Mesh", "MeshInfo"),
+    "_operator": ("Operator",),
+    "_plot": ("explain", "plot"),
+    "_polygons": ("PolygonHits", "Polygons"),
+    "_prober": ("NearestPoints", "Prober", "SurfaceSide", "Touches", "TouchState"),
+    "_segments": ("Segments",),
+    "_star": ("Star", "StarInfo", "direction_to_lonlat", "lonlat_to_direction"),
+    "_surface": ("Surface", "SurfaceInfo"),
+    "_triangulate": (
+        "DuplicateWarning",
+        "OptimumWarning",
+        "constrained_delaunay",
+        "delaunay",
+        "triangulate",
+    ),
+}
+_HOMES = {name: module for module, names in _MODULES.items() for name in names}
 
 __all__ = [
     "BorrowedMesh",
@@ -119,3 +170,15 @@ __all__ = [
     "triangulate",
     "write",
 ]
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOMES:
+        raise AttributeError(f"module 'meshwalk' has no attribute {name!r}")
+    value = getattr(import_module(f"meshwalk.{_HOMES[name]}"), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

@@ -323,7 +323,7 @@ class Prober(_core.Prober):
             raise ValueError("point and motion must be one each, three numbers")
         x, y, z, a, b, c = (float(v) for v in (*rows[0], *ways[0]))
         found = self._all((x, y, z, a, b, c), extent, faces, min_distance, max_distance)
-        return Touches(self.surface, np.frombuffer(bytearray(found), TOUCH))
+        return Touches(self.surface, np.frombuffer(found, TOUCH))
 
     def inside(self, points: ArrayLike, *, threads: int = 0) -> NDArray[np.uint8]:
         """Decide which points are inside of the surface, exactly.

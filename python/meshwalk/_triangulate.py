@@ -165,7 +165,7 @@ def triangulate(
 def constrained_delaunay(
     points: ArrayLike,
     segments: ArrayLike,
-    holes: ArrayLike = (),
+    holes: ArrayLike | None = None,
     polygons: ArrayLike | None = None,
     *,
     keep: Literal["auto", "hull", "inside"] = "auto",
@@ -182,7 +182,7 @@ def constrained_delaunay(
     segments : array_like of int, shape (k, 2)
         Numbers of the two points of each segment.
     holes : array_like, shape (h, 2), optional
-        A point in each part, bounded by segments, that is to be removed.
+        A point in each part, bounded by segments, that is to be removed. Default: no part is.
     polygons : array_like of int, shape (k,), optional
         For each segment the number of the polygon whose ring it belongs to, -1 for a line. Inside
         of a polygon is what an odd number of its segments parts from infinity, so rings may come in
@@ -241,7 +241,7 @@ def constrained_delaunay(
     rows, width = _arrays.vertices(points, "points", (2, 3))
     ends = _arrays.indices(segments, "segments", (None, 2), len(rows))
     rings = None if polygons is None else _arrays.indices(polygons, "polygons", (len(ends),), None)
-    seeds = np.ascontiguousarray(_arrays.queries(holes, "holes", 2)[0])
+    seeds = np.ascontiguousarray(_arrays.queries(() if holes is None else holes, "holes", 2)[0])
     duplicate_of = np.empty(len(rows), np.uint32)
     mesh, duplicates, edges, edge_segments = _core.constrained_delaunay(
         Mesh, rows[:, :2], duplicate_of, ends, rings, seeds, _KEEPS[keep], split, threads, progress

@@ -6,8 +6,8 @@
 #include <unistd.h>
 
 enum {
-    SECOND = 1 << 19, /* where nothing is said */
-    SHARE = 8         /* what a core has of the last cache, in second-level caches */
+    SECOND = 1 << 19, /* assumed where the system does not say */
+    SHARE = 8         /* a core's part of the last cache, in second-level caches */
 };
 
 /* 0: not known. */

@@ -7,7 +7,7 @@
 typedef struct mw_caches {
     /* bytes of a core's own second-level cache */
     size_t second;
-    /* bytes that are near as a rule: what a core has of the caches, those it shares counted */
+    /* how many bytes a core can expect to find in its caches, its share of shared ones included */
     size_t reach;
 } mw_caches;
 

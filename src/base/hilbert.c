@@ -40,7 +40,7 @@ mw_hilbert mw__hilbert(const double low[2], const double high[2])
     return hilbert;
 }
 
-/* By so many digits of so many bits, both constants, from the lowest on. */
+/* Sort by `digits` digits of `bits` bits each, the lowest digit first. Both are constants. */
 static MW_INLINE void sort_digits(mw_key *keys, mw_key *scratch, size_t n, uint32_t digits,
                                   uint32_t bits)
 {

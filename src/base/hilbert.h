@@ -44,7 +44,7 @@ typedef struct mw_key {
 
 /* Sort by key; items of equal keys keep their order. `scratch` has room for n too. */
 void mw__sort_keys(mw_key *keys, mw_key *scratch, size_t n);
-/* The same for keys that differ in their lower bits only, at most so many. */
+/* The same for keys that are equal but for their lowest `bits` bits, which takes less time. */
 void mw__sort_keys_by(mw_key *keys, mw_key *scratch, size_t n, uint32_t bits);
 
 #endif

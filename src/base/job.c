@@ -3,8 +3,10 @@
 
 #include <assert.h>
 
-#define REPORTS 256 /* of a whole job, as its fraction grows                          */
-#define STAGES 40   /* so many begin with a report anyway, later ones when one is due */
+/* reports of a whole job while its fraction grows, one for each such part */
+#define REPORTS 256
+/* the first stages, so many, report that they begin; later ones only where one is due */
+#define STAGES 40
 
 /* Tell the user how far the job is. */
 static bool job_tell(mw_job *job, double whole)
@@ -102,7 +104,7 @@ typedef struct range_loop {
     uint64_t n;
 } range_loop;
 
-enum { RANGE = 1 << 14 }; /* items that are worth a thread */
+enum { RANGE = 1 << 14 }; /* how many items are worth a thread */
 
 static void range_loop_run(void *argument, uint64_t chunk, uint32_t member)
 {

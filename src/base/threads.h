@@ -11,8 +11,9 @@
 
 #define MW_MOST_THREADS 256
 
-/* The members of a team for `chunks` chunks of work: as many as asked for (0: as many as there are
- * processors for this process), but no more than chunks or MW_MOST_THREADS, and at least one. */
+/* The number of members of a team for `chunks` chunks of work: as many as asked for (0: as there
+ * are processors that the process may use), but at most one for each chunk, at most
+ * MW_MOST_THREADS, and at least one. */
 uint32_t mw__team(uint32_t asked, uint64_t chunks);
 
 /* The work of one member of a team. */

@@ -9,10 +9,12 @@
 /* --- how much of the mesh they touch --- */
 
 enum {
-    SAMPLE = 64, /* queries looked at: */
-    LEAST = 512, /* of no fewer than these */
-    TILES = 8,   /* of so many the tiles are looked at, too */
-    OFTEN = 4    /* tiles for each query: of more most are met once, and need not be in a cache */
+    SAMPLE = 64, /* how many queries are looked at */
+    LEAST = 512, /* batches with fewer queries than this are not looked at */
+    TILES = 8,   /* for how many of them the tile is looked at, too */
+    /* with more tiles than this for each query, most tiles are met once and need not be in a
+     * cache */
+    OFTEN = 4
 };
 
 static mw_cache_level cache_level_of(double bytes, const mw_caches *caches)
@@ -32,8 +34,8 @@ static const double *query_sampled(const mw_queries *queries, size_t i, size_t c
     return &queries->points[queries->n / count * i * queries->stride];
 }
 
-/* The part of the mesh's extent over which the queries lie, along x or y. Of s points anywhere in
- * an interval the outermost ones are (s - 1) / (s + 1) of it apart, on the average. */
+/* The part of the mesh's extent over which the queries lie, along x or y. The outermost of s random
+ * points of an interval are (s - 1) / (s + 1) of its length apart, on average. */
 static double queries_part(const mw_locator *locator, const mw_queries *queries, size_t axis)
 {
     size_t count = queries->n < SAMPLE ? queries->n : SAMPLE;
@@ -57,7 +59,7 @@ static double tile_area(const mw_tiling *tiling, uint32_t t)
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-/* Tiles for a unit of area, where the queries are. */
+/* How many tiles there are in a unit of area, where the queries are. */
 static double queries_tile_density(const mw_locator *locator, const mw_queries *queries)
 {
     mw_point q[TILES];
@@ -101,8 +103,9 @@ mw_cache_level mw__cache_level_of_queries(const mw_locator *locator, const mw_ca
 
 enum { RUN = 64 }; /* queries between two decisions */
 
-/* Sum of |dx| + |dy| from each of `count` queries to the next: 1.27 times that of the distances, on
- * the average. In four parts, which do not wait for one another. */
+/* The sum of |dx| + |dy| from each of `count` queries to the next. That is 1.27 times the sum of
+ * their distances, on average. It is made of four sums that the processor can add up at the same
+ * time. */
 static double queries_way(const double *at, size_t count, size_t stride)
 {
     double way[4] = {0, 0, 0, 0};
@@ -126,10 +129,11 @@ static double shortest_edge(const mw_tiling *tiling, uint32_t t)
     return sqrt(least < ca ? least : ca);
 }
 
-/* If a query is at most so many lengths from the one before it, a walk from there is as quick as
- * the guide. GRID: the guide is a grid; the other: it also asks a curve, which takes longer.
- * Queries that are a typical edge apart come to about 2.8 lengths, so GRID stands for a step of
- * 0.18 edges; at a step of 0.1 edges the guide took twice as long. */
+/* If a query lies within so many lengths (struct way_measure) of the one before it, a walk from
+ * there is as quick as the guide. GRID is for a guide that is a grid. CURVE is for a guide that
+ * also asks a curve, which takes longer. Queries that are a typical edge apart come to about 2.8
+ * lengths. So GRID stands for a step of 0.18 edges. At a step of 0.1 edges the guide took twice as
+ * long as a walk. */
 static const double GRID = 0.5, CURVE = 1.5;
 
 /* The unit in which the way from a query to the next one is measured: the shortest edge of the
@@ -150,8 +154,8 @@ static way_measure way_measure_at(const mw_locator *locator, const double *at)
                          .worth = crowded ? CURVE : GRID};
 }
 
-/* The length of the way through a run of queries. Infinite, if it is more than `left` and what the
- * run can be worth, whatever the tiles are. */
+/* The length of the way through a run of queries. Returns infinity, without a look at the tiles, if
+ * the way is longer than `left` and the most that the run can gain. */
 static double queries_short_way(const mw_locator *locator, const double *at, size_t count,
                                 size_t stride, double left)
 {
@@ -159,12 +163,13 @@ static double queries_short_way(const mw_locator *locator, const double *at, siz
     return way <= (left + CURVE * (double)count) * sqrt(locator->cell2) ? way : INFINITY;
 }
 
-/* What a run of queries gains by walking from one to the next: what the guide would take, less what
- * the way takes. */
+/* What a run of queries gains by walking from one to the next: the time that the guide would take,
+ * less the time for the way. */
 static double queries_gain(const mw_locator *locator, const double *at, size_t count, size_t stride,
                            double left)
 {
-    enum { FEW = 8 }; /* are enough for nearly all that are not near */
+    /* the first queries of a run, so many, show it for nearly all runs that are not near */
+    enum { FEW = 8 };
     if (isinf(queries_short_way(locator, at, count < FEW ? count : FEW, stride, left)))
         return -INFINITY;
     double way = queries_short_way(locator, at, count, stride, left);
@@ -174,8 +179,9 @@ static double queries_gain(const mw_locator *locator, const double *at, size_t c
     return from.worth * (double)count - way / (from.length < to.length ? from.length : to.length);
 }
 
-/* Ways may not take more than those looked at so far are worth, and a part of all; the runs looked
- * at come from all over the batch. So it is known soon of most that are not near. */
+/* Adds up gains and ways run by run, over runs from all parts of the batch. The sum of the ways may
+ * never exceed the gains so far and a part of those of the whole batch. So a batch that is not
+ * dense is found out after a few runs. */
 bool mw__queries_are_dense(const mw_locator *locator, const mw_queries *queries)
 {
     static const double PART = 1.0 / 32;

@@ -33,7 +33,7 @@ static uint32_t edge_of_user(const mw_mesh *mesh, const mw_tiling *tiling, const
     return mw__user_local_edge(t->user, 2);
 }
 
-/* Call once to count, and once more to store. */
+/* Called twice: first to count the edges, then to store them. */
 static uint32_t border_collect(const mw_mesh *mesh, const mw_tiling *tiling, mw_border_edge *edge)
 {
     uint32_t n = 0;

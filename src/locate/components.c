@@ -1,5 +1,6 @@
 /* components.c - walks in a tiling without ghosts that has several connected components: in which
- * one to begin, where to go on, and which hole a point lies in that no component holds. */
+ * component a walk begins, in which one it goes on, and in which hole a point lies that no
+ * component holds. */
 #include "locate/components.h"
 
 /* --- where to begin --- */
@@ -49,8 +50,8 @@ static bool box_is_inside(const mw_box *box, const mw_box *other)
            box->high[0] <= other->high[0] && box->high[1] <= other->high[1];
 }
 
-/* q lies beyond the border round which the walk went last. Components of which a face holds q lie
- * in one another. */
+/* The walk went round a border last, and q lies beyond that border. Components that have a face
+ * which holds q lie inside one another; keep the smallest such face. */
 static void face_note(component_face *f, const mw_border_loops *loops, uint32_t lowest, mw_box box)
 {
     uint32_t hole = mw__border_loops_hole(loops, lowest);

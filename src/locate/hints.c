@@ -6,9 +6,9 @@
  * prefetched. */
 #include "locate/hints.h"
 
-enum { AHEAD = 8 }; /* hints whose slots are asked for */
+enum { AHEAD = 8 }; /* so many hints ahead, slots are prefetched */
 
-/* Where the slot of a triangle stands, if anywhere. */
+/* Prefetch the place where the slot of a triangle is stored, if it is stored. */
 static MW_INLINE void hint_prefetch_slot(const mw_locator *locator, uint32_t hint)
 {
     const uint32_t *slot =
@@ -18,7 +18,7 @@ static MW_INLINE void hint_prefetch_slot(const mw_locator *locator, uint32_t hin
     if (slot && hint < count) __builtin_prefetch(&slot[hint]);
 }
 
-/* Have the tiles of the next hints on their way. */
+/* Prefetch the tiles of the hints that come next. */
 static void hints_ask(const mw_hinted *h)
 {
     for (uint32_t i = 0; i < h->later_count; i++) {
@@ -35,7 +35,7 @@ void mw__hints_first_many(const mw_hinted *h, uint32_t *t)
     for (uint32_t i = 0; i < h->n; i++) t[i] = mw__hint_tile(h->locator, h->hints[h->query[i]]);
     for (uint32_t i = 0; i < h->n && guided; i++)
         if (t[i] != MW_NONE) __builtin_prefetch(&tiling->point[tiling->tri[t[i]].v[0]]);
-    hints_ask(h); /* takes about as long as these points */
+    hints_ask(h); /* takes about as long as the points above take to arrive */
     for (uint32_t i = 0; i < h->n && guided; i++)
         if (t[i] != MW_NONE && !mw__hint_is_near(h->locator, t[i], h->q[i])) t[i] = MW_NONE;
 }

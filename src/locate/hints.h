@@ -31,8 +31,8 @@ static MW_INLINE bool mw__hint_is_near(const mw_locator *locator, uint32_t t, mw
     return mw__distance2(tiling->point[tiling->tri[t].v[0]], q) <= 2 * locator->cell2;
 }
 
-/* The same for one query. MW_NONE also where the query has left its hint behind: where nothing was
- * said of the start, the locator's guide leads nearer then. */
+/* The tile where one query begins. MW_NONE if its hint names no tile. Also MW_NONE if the start was
+ * left to choose and the query is far from its hint: the locator's guide then leads nearer. */
 static MW_INLINE uint32_t mw__hint_first(const mw_locator *locator, const mw_cursor *cursor,
                                          uint32_t hint, mw_point q)
 {
@@ -50,15 +50,15 @@ typedef struct mw_hinted {
     const uint32_t *query; /* the numbers of these queries in it                    */
     const mw_point *q;     /* their points                                          */
     uint32_t n;            /* how many there are                                    */
-    const uint32_t *later; /* the hints of those after them, which are asked for    */
+    const uint32_t *later; /* the hints of the queries after them, whose tiles are prefetched */
     uint32_t later_count;
 } mw_hinted;
 
-/* mw__hint_first for each of them. They wait for memory together. */
+/* Find mw__hint_first for each of them. All wait for memory at the same time. */
 void mw__hints_first_many(const mw_hinted *hinted, uint32_t *t);
 
-/* Make the triangles that were found the hints of the next time; a query that found none keeps its
- * hint. */
+/* Make the triangle of each location the query's next hint. A query that found no triangle keeps
+ * its hint. */
 void mw__hints_update(const mw_location *locations, uint32_t n, uint32_t *hints);
 
 #endif

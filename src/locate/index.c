@@ -127,15 +127,15 @@ void mw_index_describe(const mw_index *index, mw_index_info *info)
     }
 }
 
-/* A curve holds slots of tiles. If it was made from another tiling, or this one has changed, reduce
- * a slot to one that exists. */
+/* A curve holds slots of tiles. If the curve was made from another tiling, or this one has changed
+ * since, the slot may not exist: reduce it to one that does. */
 static MW_INLINE uint32_t tile_within(const mw_tiling *tiling, uint32_t t)
 {
     return MW_LIKELY(t < tiling->tri_count) ? t : t % tiling->tri_count;
 }
 
-/* Of chains, and of the starts that are there to compare with. A function of its own, so that the
- * others do not carry it along. */
+/* The tile by chains, or by one of the starts that serve only to compare. In a function of its own,
+ * to keep the common ones small. */
 static __attribute__((noinline)) uint32_t index_first_rare(const mw_index *index, mw_point q)
 {
     if (index->start == MW_START_BUCKETS)
@@ -144,7 +144,7 @@ static __attribute__((noinline)) uint32_t index_first_rare(const mw_index *index
     return index->start == MW_START_KD_TREE ? mw__kd_tree_first(&index->kd_tree, q) : 0;
 }
 
-/* The name of the first tile; of a curve, its slot. */
+/* The name of the first tile; for a curve, the slot of the first tile. */
 static MW_INLINE uint32_t index_first_name(const mw_index *index, mw_point q)
 {
     if (MW_LIKELY(index->start == MW_START_GRID)) return mw__grid_first(&index->grid, q);
@@ -162,7 +162,8 @@ uint32_t mw__index_tile_ahead(const mw_tiling *tiling, const mw_index *index, mw
                                           : mw__tile_of_name(tiling, name);
 }
 
-/* The tile for q by a grid that keeps corners. These and the tile are asked of memory at once. */
+/* The tile for q by a grid that keeps corners. The corners and the tile are read from memory at the
+ * same time. */
 static uint32_t grid_tile_with_corners(const mw_tiling *tiling, const mw_grid *grid, mw_point q)
 {
     const uint32_t cell = mw__lattice_cell(&grid->lattice, q), *corner = grid->corner[cell];
@@ -173,8 +174,8 @@ static uint32_t grid_tile_with_corners(const mw_tiling *tiling, const mw_grid *g
     return t;
 }
 
-/* In most tilings a tile's slot is its number. The tile itself shows whether it is, and is needed
- * next anyway: then nothing else has to be read from memory. */
+/* In most tilings the slot of a tile is its number. The tile itself tells whether that is so. It is
+ * needed next anyway, so nothing else has to be read from memory. */
 uint32_t mw__index_tile(const mw_tiling *tiling, const mw_index *index, mw_point q)
 {
     if (MW_UNLIKELY(index->start == MW_START_GRID && index->grid.corner))
@@ -215,8 +216,8 @@ static void two_level_grid_first_many(const mw_two_level_grid *grid, const mw_po
     for (uint32_t i = 0; i < n; i++) t[i] = mw__two_level_grid_first(grid, q[i]);
 }
 
-/* Cells that are crowded leave their points to the curve: those points are gathered, looked up
- * together, and their tiles written back where they belong. */
+/* Crowded cells leave their points to the curve. Gather these points, look them up together, and
+ * write their tiles where they belong. */
 static void curve_first_many(const mw_curve *curve, const mw_point *q, uint32_t n, uint32_t *t)
 {
     uint32_t left[MW_INDEX_MANY], key[MW_INDEX_MANY], count = 0;

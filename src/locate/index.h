@@ -15,9 +15,10 @@
 #include <meshwalk/locate.h>
 
 struct mw_index {
-    mw_start_kind start; /* says which member of the union is there */
+    mw_start_kind start; /* tells which member of the union is in use */
     double seconds;      /* it took to build                        */
-    bool sort_batches;   /* of a guide: large batches are sorted, and begin at the query before */
+    /* of a guide: large batches are sorted, and a query begins where the one before it ended */
+    bool sort_batches;
     union {
         mw_grid grid;
         mw_two_level_grid two_level_grid;
@@ -36,7 +37,7 @@ mw_status mw__index_build(mw_index *index, const mw_tiling *tiling, const double
                           const double high[2], const mw_index_options *options, mw_job *job,
                           mw_error *error);
 
-/* Release what an index holds; how much that is. */
+/* Release what an index holds, or count its bytes. */
 void mw__index_release(mw_index *index);
 size_t mw__index_bytes(const mw_index *index);
 
@@ -49,8 +50,7 @@ static MW_INLINE bool mw__index_counts(const mw_index *index)
 /* The first tile for q: a tile of this tiling, whatever mesh the index was made from. Not for those
  * that count. */
 uint32_t mw__index_tile(const mw_tiling *tiling, const mw_index *index, mw_point q);
-/* The same, without a look at that tile: where it has yet to be asked of memory, and is wanted
- * later. */
+/* The same without reading that tile, for callers that prefetch it and read it later. */
 uint32_t mw__index_tile_ahead(const mw_tiling *tiling, const mw_index *index, mw_point q);
 
 /* The first tile for q by the cursor's index: a tile of this tiling, whatever mesh the index was

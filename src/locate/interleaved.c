@@ -17,7 +17,7 @@ _Static_assert(MW_GROUP_LANES == MW_VECTOR_LANES, "a group is a vector");
 enum {
     LANES = MW_GROUP_LANES,
     GROUPS = MW_MAX_LANES / LANES,
-    READY = MW_INDEX_MANY /* queries that get their first tile at a time */
+    READY = MW_INDEX_MANY /* so many queries get their first tiles together */
 };
 
 /* Lanes that step together. */
@@ -31,10 +31,10 @@ typedef struct lane_group {
 /* What all lanes share. */
 typedef struct lane_schedule {
     const mw_interleaved *of;
-    uint32_t next, end; /* not chained: what has no first tile yet */
+    uint32_t next, end; /* if not chained: the queries that have no first tile yet */
     /* so far; a walk of so many is long: looked for every MW_FAST_STEPS laps */
     uint32_t lap, most_laps;
-    /* queries that have their first tile: the next, and how many there are */
+    /* among the queries that have their first tile: the next one, and their number */
     uint32_t ready_next, ready_count;
     uint32_t query[READY], tile[READY]; /* these queries */
     mw_point q[READY];
@@ -49,7 +49,8 @@ static uint32_t query_tile(const mw_interleaved *of, mw_point q, uint32_t query)
                                 q, &random, NULL);
 }
 
-/* The point of a query. A point that is not finite is answered at once; then returns false. */
+/* Read the point of a query. A point that is not finite is answered at once, and the function
+ * returns false. */
 static MW_INLINE bool query_point(const mw_interleaved *of, uint32_t query, mw_point *q)
 {
     const double *at = &of->queries->points[query * of->queries->stride];
@@ -70,7 +71,7 @@ static void queries_first_tiles(const mw_interleaved *of, const uint32_t *query,
         for (uint32_t i = 0; i < n; i++) t[i] = query_tile(of, q[i], query[i]);
 }
 
-/* Begin at the hints; queries without one are gathered, and begin as others do. */
+/* Begin queries at their hints. Queries without a hint are gathered and begin as others do. */
 static void schedule_take_hints(lane_schedule *s)
 {
     const mw_interleaved *of = s->of;
@@ -119,8 +120,8 @@ static MW_INLINE void lane_set(const lane_schedule *s, lane_group *g, uint32_t k
     g->begun[k] = s->lap;
 }
 
-/* Sorted queries lie anywhere in the caller's arrays: have those of a few queries later on their
- * way. */
+/* Sorted queries may lie anywhere in the caller's arrays: prefetch those that come a few queries
+ * later. */
 static MW_INLINE void lane_prefetch_query(const mw_batch *b, uint32_t i, uint32_t end)
 {
     enum { AHEAD = 8 };
@@ -131,7 +132,7 @@ static MW_INLINE void lane_prefetch_query(const mw_batch *b, uint32_t i, uint32_
     __builtin_prefetch((const char *)&b->locations[later + 1] - 1, 1);
 }
 
-/* The next query of the lane's range, beginning in tile `last`; MW_NONE: there was none before. */
+/* Begin the next query of the lane's range in tile `last`. MW_NONE: there was no query before. */
 static MW_INLINE bool lane_next_chained(const lane_schedule *s, lane_group *g, uint32_t k,
                                         uint32_t last)
 {
@@ -151,7 +152,7 @@ static MW_INLINE bool lane_next_chained(const lane_schedule *s, lane_group *g, u
     return false;
 }
 
-/* The next of those that have their first tile. */
+/* Begin the next of the queries that have their first tile. */
 static MW_INLINE bool lane_next_ready(lane_schedule *s, lane_group *g, uint32_t k)
 {
     while (s->ready_next == s->ready_count) {
@@ -163,7 +164,7 @@ static MW_INLINE bool lane_next_ready(lane_schedule *s, lane_group *g, uint32_t 
     return true;
 }
 
-/* The next query in lane k of a group; without one the lane stays empty. */
+/* Put the next query into lane k of a group. If there is none, the lane stays empty. */
 static MW_INLINE void lane_next(lane_schedule *s, lane_group *g, uint32_t k, uint32_t last,
                                 bool chained)
 {
@@ -174,8 +175,8 @@ static MW_INLINE void lane_next(lane_schedule *s, lane_group *g, uint32_t k, uin
 
 /* --- steps --- */
 
-/* Answer in the lane's tile, or continue from there by the walk of the cursor. Returns the tile
- * where it ended. */
+/* Answer the lane's query in its tile, or let the cursor's walk go on from there. Returns the tile
+ * where the query ended. */
 static __attribute__((noinline)) uint32_t lane_finish(const mw_interleaved *of, mw_point q,
                                                       uint32_t query, uint32_t t)
 {
@@ -224,7 +225,7 @@ static MW_INLINE void group_step(lane_schedule *s, lane_group *g, const mw_trian
 
 /* --- laps --- */
 
-/* Let the walks that are on a long way, or in a cycle, be ended by the cursor's walk. */
+/* Walks that are long, or go round in a cycle, are ended by the cursor's walk. */
 static void groups_end_long_walks(lane_schedule *s, lane_group *groups, uint32_t count,
                                   bool chained)
 {
@@ -294,7 +295,7 @@ static void groups_run_portable(lane_schedule *s, uint32_t groups, bool chained)
         groups_run(s, groups, 1, false, mw__vector_bits_portable);
 }
 
-/* In a mesh whose coordinates are too small or too large to be multiplied. */
+/* As groups_run, for a mesh whose coordinates are too small or too large to be multiplied. */
 static __attribute__((noinline)) void groups_run_scaled(lane_schedule *s, uint32_t groups,
                                                         bool chained)
 {

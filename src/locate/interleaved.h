@@ -12,7 +12,7 @@ typedef struct mw_interleaved {
     const mw_cursor *cursor;
     /* each query begins where the one before it in its lane ended, whatever the cursor's start */
     bool chained;
-    bool portable; /* only with instructions that every processor of the kind has */
+    bool portable; /* use only instructions that every x86-64 processor has */
 } mw_interleaved;
 
 /* Lanes of a group, which step together. Fewer do not pay. */

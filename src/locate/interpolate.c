@@ -13,7 +13,7 @@ void mw_interpolate(const mw_mesh *mesh, const double *values, const mw_location
         uint32_t v[3];
         mw_mesh_triangle(mesh, at->triangle, v);
         double sum = 0;
-        for (int k = 0; k < 3; k++) /* a weight of 0 ignores even NaN */
+        for (int k = 0; k < 3; k++) /* where the weight is 0, even a NaN counts for nothing */
             if (at->weight[k] != 0) sum += at->weight[k] * values[v[k]];
         result[i] = sum;
     }

@@ -24,8 +24,8 @@ typedef struct locate_batch {
     bool fast;             /* interleaved.c answers them                                  */
 } locate_batch;
 
-/* The queries of one chunk, shared out to the lanes: lane i answers from next[i] to before
- * end[i]. */
+/* The queries of one chunk, divided among the lanes: lane i answers queries next[i] to end[i] - 1.
+ */
 typedef struct batch_chunk {
     mw_feed feed;
     const locate_batch *batch;
@@ -34,8 +34,8 @@ typedef struct batch_chunk {
     mw_counters counters;
 } batch_chunk;
 
-/* Sorted queries lie anywhere in the caller's arrays: have those of a few queries later on their
- * way. */
+/* Sorted queries may lie anywhere in the caller's arrays: prefetch those that come a few queries
+ * later. */
 static MW_INLINE void chunk_prefetch_query(const mw_batch *b, uint32_t query, uint32_t end)
 {
     enum { AHEAD = 8 };
@@ -104,8 +104,8 @@ static bool chunk_is_dense(const locate_batch *b, uint32_t first, uint32_t count
         &(mw_queries){queries->points + first * queries->stride, count, queries->stride});
 }
 
-/* On the fast path. Where each query is close to the one before it, few wait for memory: then there
- * are fewer lanes, with longer ranges. */
+/* Answer a chunk on the fast path. Where each query is close to the one before it, few walks wait
+ * for memory; then fewer lanes with longer ranges are quicker. */
 static void chunk_answer_fast(const locate_batch *b, uint32_t first, uint32_t count, bool dense)
 {
     uint32_t lanes = dense && !b->asked ? MW_GROUP_LANES : b->lanes;
@@ -155,7 +155,7 @@ static mw_counters chunk_answer(const mw_batch *queries, uint32_t first, uint32_
     return counters;
 }
 
-/* Along a Hilbert curve. */
+/* Sort queries along a Hilbert curve. */
 static void batch_sort(const mw_batch *queries, size_t n, mw_key *keys, mw_key *scratch)
 {
     const mw_locator *locator = ((const locate_batch *)queries)->locator;
@@ -187,7 +187,8 @@ static uint32_t batch_choose_lanes(const locate_batch *b, size_t n)
     return lanes[b->fast][level];
 }
 
-/* A lane that has but one query to answer ends before the others do. */
+/* With fewer than two queries for each lane, use fewer lanes: a lane with one query would end
+ * before the others do. */
 static uint32_t batch_limit_lanes(uint32_t lanes, size_t n)
 {
     size_t most = (n / 2 + MW_GROUP_LANES - 1) / MW_GROUP_LANES * MW_GROUP_LANES;
@@ -202,8 +203,8 @@ static bool batch_is_fast(const locate_batch *b, const mw_query_options *options
     return mw__has_fast_path(&b->locator->tiling, options) && b->cursor.start != MW_START_AUTO;
 }
 
-/* A query with a hint begins there, not where the one before it ended; one that has none does not
- * either, so that it does not depend on the others. */
+/* A query with a hint begins at its hint, not where the query before it ended. A query without one
+ * does not begin there either: its answer's counters must not depend on other queries. */
 static void batch_choose_start_beside_hints(locate_batch *b)
 {
     mw_start_kind start = (mw_start_kind)b->cursor.start;
@@ -211,12 +212,14 @@ static void batch_choose_start_beside_hints(locate_batch *b)
         b->cursor.start = MW_START_SAMPLE;
 }
 
-/* How queries begin where nothing is said: by the locator's guide, else sorted, unless they come in
- * order; few, where the one before ended or at the nearest of a sample. */
+/* Choose how queries begin if the caller leaves it open: by the locator's guide if there is one.
+ * Otherwise large batches are sorted, unless their order is good already, and small ones begin
+ * where the query before ended or at the nearest of a sample. */
 static void batch_choose_start(locate_batch *b, size_t n)
 {
     if (b->cursor.start != MW_START_AUTO) return;
-    enum { TILES_PER_QUERY = 128 }; /* fewer: from query to query is not far */
+    /* with fewer tiles for each query than this, it is not far from query to query */
+    enum { TILES_PER_QUERY = 128 };
     const mw_index *guide = &b->locator->guide;
     const bool sorts = guide->sort_batches && !b->queries.hints &&
                        n >= b->locator->tiling.tri_count / TILES_PER_QUERY;

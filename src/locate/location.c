@@ -5,7 +5,8 @@
 #include <float.h>
 #include <limits.h>
 
-/* The rounded areas by the corners as seen from q, and their bounds. Are they good enough? */
+/* Compute rounded areas from the corners as seen from q, and their bounds. Returns whether they are
+ * accurate enough. */
 static MW_INLINE bool location_round_areas(const double x[3], const double y[3], double least,
                                            double area[3], double bound[3])
 {
@@ -21,8 +22,9 @@ static MW_INLINE bool location_round_areas(const double x[3], const double y[3],
     return sure && off < 0x1p-42 * sum;
 }
 
-/* The same after multiplying by a power of two, for corners whose products leave the doubles. What
- * underflows then is off by less than 2^-1074, and seen from q no corner is farther off than 2. */
+/* The same after multiplying the corners by a power of two, where products of coordinates leave the
+ * range of doubles. After that, no corner is farther than 2 from q, and what underflows is off by
+ * less than 2^-1074. */
 static bool location_scale_areas(const double x[3], const double y[3], double area[3])
 {
     static const double UNDERFLOW_ERROR = 0x1p-1000;
@@ -68,7 +70,7 @@ static void location_rescale_areas(const mw_point corner[3], mw_point q, double 
         area[k] = mw__orient2d_fraction(corner[mw__next(k)], corner[mw__prev(k)], q, &exponent[k]);
         if (area[k] != 0 && exponent[k] > most) most = exponent[k];
     }
-    for (uint32_t k = 0; k < 3; k++) /* none vanishes that is not 0 */
+    for (uint32_t k = 0; k < 3; k++) /* an area that is not 0 must not vanish */
         if (area[k] != 0) area[k] = fmax(ldexp(area[k], exponent[k] - most), DBL_MIN);
 }
 

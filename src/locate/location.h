@@ -9,8 +9,8 @@
 
 typedef uint64_t mw_words __attribute__((vector_size(16)));
 
-/* A location, written as it is commonly copied, by 16 bytes: who reads more bytes at a time than
- * were written has to wait until they have left for the cache. */
+/* Write a location in pieces of 16 bytes, as copies read it: a processor that reads more bytes at a
+ * time than were written has to wait until these are in the cache. */
 static MW_INLINE void mw__location_write(mw_location *location, double a, double b, double c,
                                          uint32_t triangle, uint32_t hole, mw_where where)
 {

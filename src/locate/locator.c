@@ -132,12 +132,13 @@ static bool locator_lay_guide(const mw_locator *locator, mw_job *job, mw_index *
     if (plan.crowded || !even) return guide_make_crowded(locator, guide, &plan, even, cells);
     if (!mw__grid_end(&guide->grid, &plan, false)) return false;
     if (tiling->tile_of && plan.taken < mw__lattice_cells(&guide->grid.lattice) / SPARSE)
-        mw__grid_refine(&guide->grid, tiling, STRIDE, job); /* or it stays as it is */
+        /* if it is not refined, it stays as it is */
+        mw__grid_refine(&guide->grid, tiling, STRIDE, job);
     return !mw__job_stopped(job);
 }
 
-/* How many tiles walks from the guide visit, on the average: to the middles of a few tiles all over
- * the mesh. One that is long counts for MOST. */
+/* How many tiles a walk from the guide visits on average: measured on walks to the middles of a few
+ * tiles all over the mesh. A walk counts for at most MOST tiles. */
 static double guide_walk_length(const mw_locator *locator, const mw_index *guide)
 {
     enum { TILES_PER_WALK = 256, WALKS = 256, MOST = 1 << 14 };
@@ -165,8 +166,8 @@ static bool guide_make_chains(const mw_locator *locator, mw_job *job, mw_index *
     return done;
 }
 
-/* Chains replace a guide from which walks are long: a query by chains takes as long as a walk over
- * FEW tiles. They take 68 to 88 bytes a tile. They cannot follow edits. */
+/* Replace a guide by chains if walks from it are long: a query by chains takes as long as a walk
+ * over FEW tiles. Chains take 68 to 88 bytes a tile, and cannot follow edits. */
 bool mw__locator_guide(const mw_locator *locator, mw_job *job, mw_index *guide)
 {
     static const double FEW = 24;
@@ -191,7 +192,8 @@ static bool are_slots_numbers(const mw_tiling *tiling)
     return home > probes / 2;
 }
 
-/* The extent becomes about 1, if it is so small or large that this matters. */
+/* The power of two that makes the extent about 1; or 1, if the extent is neither too small nor too
+ * large. */
 static double extent_scale(const double low[2], const double high[2])
 {
     enum { ORDINARY = 400, MOST = 1000 };

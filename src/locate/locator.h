@@ -23,7 +23,8 @@ struct mw_locator {
     mw_index guide;
     /* A tile within this squared distance is expected to be nearer than any of a sample. */
     double near2;
-    /* The same of a guide: the area of one of its cells, if it were a grid that is not refined. */
+    /* The same for a guide: the area of one of its cells, as if it were a grid without refined
+     * cells. */
     double cell2;
     /* Tiles that a straight line is expected to cross, per unit of its length. */
     double crossings_per_length;
@@ -33,15 +34,16 @@ struct mw_locator {
     bool has_border;        /* was the border tree built?          */
     /* Raised by each edit of the mesh, its upper half where triangles get other names; else 0. */
     uint64_t epoch;
-    char promise[640]; /* which promise is void; empty for an embedding */
-    uint32_t threads;  /* of the options, for its indices */
+    /* for a mesh that is no embedding: the promise that does not hold; else empty */
+    char promise[640];
+    uint32_t threads; /* of the options, for its indices */
 };
 
 /* Look at the tiling and fill in what follows from it: extent, density, default walks, the tile in
  * the middle. Steps of the present stage; if the job is cancelled, some of it is missing. */
 void mw__locator_measure(mw_locator *locator, mw_job *job);
 
-/* Of these, what follows from the extent and the number of tiles alone. */
+/* Set only what follows from the extent and the number of tiles. */
 void mw__locator_scale(mw_locator *locator);
 
 /* Build the guide of a locator that has been measured. False when out of memory, or
@@ -59,11 +61,11 @@ static MW_INLINE bool mw__locator_is_close(const mw_locator *locator, uint32_t t
     mw_point a = tiling->point[v[0]], b = tiling->point[v[1]], c = tiling->point[v[2]];
     double ab = mw__distance2(a, b), bc = mw__distance2(b, c), ca = mw__distance2(c, a);
     double least = ab < bc ? ab : bc, shortest = least < ca ? least : ca, far = mw__distance2(a, q);
-    /* of squares that under- or overflow nothing follows */
+    /* if squares under- or overflow, the comparisons are false */
     return far < LENGTHS * LENGTHS * shortest && far < locator->cell2;
 }
 
-/* Where to begin where there is a guide: at tile `last`, if q is close to it. */
+/* The tile to begin in if there is a guide: `last`, if q is close to it, else the guide's. */
 static MW_INLINE uint32_t mw__locator_guided_tile(const mw_locator *locator, uint32_t last,
                                                   mw_point q)
 {

@@ -32,18 +32,19 @@ static uint32_t lowest_at_boundary(const mw_tiling *tiling, const mw_triangle *t
         }
     if (zeros == 2)
         return mw__lowest_at_vertex(tiling, (uint32_t)(tile - tiling->tri), tile->v[at]);
-    if (zeros == 3) return MW_NONE; /* a flat triangle of a mesh that is not an embedding */
+    /* such a flat triangle occurs only in a mesh that is not an embedding */
+    if (zeros == 3) return MW_NONE;
     uint32_t best = tile->user & MW_GHOST ? MW_NONE : tile->user & MW_USER_MASK;
     if (tile->link[on] == MW_NONE) return best;
     const mw_triangle *across = &tiling->tri[mw__link_triangle(tile->link[on])];
     uint32_t other = across->user & MW_USER_MASK;
     if (across->user & MW_GHOST || other >= best) return best;
-    /* flat ones own no point */
+    /* a flat triangle owns no point */
     return tiling->embedding || mw__has_area(tiling->point, across) ? other : best;
 }
 
-/* q lies in no triangle: in a hole, if the mark of its tile says so, or outside; near, if the
- * tolerance says so. */
+/* The answer if no triangle contains q. It is near if the border is within the tolerance; else in a
+ * hole, if the mark of its tile says so; else outside. */
 static mw_location query_outside(const mw_locator *locator, uint32_t mark, mw_point q,
                                  double tolerance)
 {
@@ -81,7 +82,8 @@ static uint32_t vertex_by_areas(const mw_triangle *tile, const double area[3])
     return area[mw__next(at)] != 0 || area[mw__prev(at)] != 0 ? MW_NONE : tile->v[at];
 }
 
-/* The answer if q has the coordinates of a corner of tile t. False also where only areas tell. */
+/* Answer if q has the coordinates of a corner of tile t. Returns false if it has not, and where
+ * only areas can tell. */
 static bool query_answer_at_corner(const mw_locator *locator, uint32_t t, mw_point q,
                                    mw_location *location)
 {
@@ -133,8 +135,8 @@ static mw_location query_answer_in(const mw_locator *locator, const mw_triangle 
     return mw__location_in_triangle(locator->mesh, triangle, q);
 }
 
-/* The answer for q in tile t. The walk knew on which side of the edges q lies, but did not keep it;
- * the three tests made here are also the weights. */
+/* The answer for q in tile t. The walk tested on which side of the edges q lies, but did not keep
+ * the areas. The three tests made here give the weights, too. */
 static mw_location query_answer(const mw_locator *locator, uint32_t t, mw_point q, double tolerance)
 {
     const mw_triangle *tile = &locator->tiling.tri[t];
@@ -185,7 +187,7 @@ static void query_count(mw_counters *counters, const mw_work *work, bool cycle, 
                               });
 }
 
-/* A walk in doubles says that q lies beyond a hull edge of its last tile: does it? */
+/* A walk in doubles ended beyond a hull edge of its last tile. Is q really beyond it? */
 static bool walk_has_left(const mw_tiling *tiling, const mw_walk *walk)
 {
     /* beyond a border there may be more tiles */
@@ -201,15 +203,17 @@ static bool walk_has_left(const mw_tiling *tiling, const mw_walk *walk)
 /* Count what the walk that took over did as the final location. */
 static void work_add_final(mw_work *sum, const mw_work *more)
 {
-    sum->visited += more->visited - 1; /* it began where the other one ended */
+    /* the second walk visits the tile again in which the first one ended */
+    sum->visited += more->visited - 1;
     for (int stage = 0; stage < MW_STAGES; stage++) {
         sum->triangles[MW_STAGE_FINAL] += more->triangles[stage];
         sum->orient[MW_STAGE_FINAL] += more->orient[stage];
     }
 }
 
-/* End a walk that ran out of fuel, or went in plain doubles, exactly. A walk in doubles that was
- * right does not count as handed over: *changed tells. */
+/* End exactly a walk that ran out of fuel, or that computed in plain doubles. *changed is set if
+ * the exact walk came to another result; a walk in doubles that was right does not count as handed
+ * over. */
 static mw_verdict walk_hand_over(const mw_tiling *tiling, mw_walk *walk, mw_verdict before,
                                  bool counted, bool *changed)
 {
@@ -226,8 +230,8 @@ static mw_verdict walk_hand_over(const mw_tiling *tiling, mw_walk *walk, mw_verd
     return verdict;
 }
 
-/* The chains that are the locator's guide, if the start was left to choose (a batch may then have
- * chosen to go from query to query); else NULL. */
+/* The chains that serve as the locator's guide, if the start was left to choose; else NULL. A batch
+ * that was left to choose may have chosen to go from query to query: that counts, too. */
 static const mw_index *query_chains(const mw_locator *locator, const mw_cursor *cursor)
 {
     const mw_index *guide = &locator->guide;
@@ -238,8 +242,8 @@ static const mw_index *query_chains(const mw_locator *locator, const mw_cursor *
     return chosen && guide->start == MW_START_CHAINS ? guide : NULL;
 }
 
-/* End a walk that got long from the tile that chains name. Outside of the hull that tile has an
- * edge that q lies beyond. */
+/* End a walk that became long: go on from the tile that the chains name. If that tile is at the
+ * hull and q outside, q lies beyond one of its edges. */
 static mw_verdict query_end_by_chains(const mw_locator *locator, const mw_cursor *cursor,
                                       const mw_index *chains, mw_walk *walk)
 {
@@ -269,7 +273,7 @@ mw_location mw__query_conclude(const mw_locator *locator, const mw_cursor *curso
                                   cursor->count);
     const mw_index *chains =
         MW_UNLIKELY(verdict == MW_VERDICT_OUT_OF_FUEL) ? query_chains(locator, cursor) : NULL;
-    /* a way that is written down goes from triangle to triangle */
+    /* a walk that is traced goes from triangle to triangle, without such a jump */
     if (MW_UNLIKELY(chains) && !(cursor->count && walk->work->trace))
         verdict = query_end_by_chains(locator, cursor, chains, walk);
     bool dry = verdict == MW_VERDICT_OUT_OF_FUEL;
@@ -360,7 +364,7 @@ static void walk_allow_steps(mw_walk *walk, const mw_locator *locator, uint32_t 
     walk->fuel += walk->steps; /* at most 4096 + 45 sqrt(2^30), twice */
 }
 
-/* *work is zero, or has what looking for tile t counted. */
+/* Begin the query in tile t. *work holds zeros, or what the search for t counted. */
 static mw_walk query_begin_at(const mw_locator *locator, const mw_cursor *cursor, uint32_t t,
                               mw_point q, uint64_t *random, mw_work *work)
 {
@@ -376,7 +380,7 @@ mw_walk mw__query_begin(const mw_locator *locator, const mw_cursor *cursor, uint
     if (cursor->count) *work = (mw_work){0};
     uint32_t t = mw__query_first_tile(locator, cursor, last, q, random, work);
     if (MW_UNLIKELY(cursor->count) && t != last) {
-        /* chains do not count while they search, so they search once more */
+        /* the search in chains did not count: search once more, and count */
         const mw_index *index = cursor->index ? cursor->index : query_chains(locator, cursor);
         if (index && index->start == MW_START_CHAINS) mw__chains_count(&index->chains, q, work);
     }
@@ -491,11 +495,11 @@ void mw__cursor_follow_edits(const mw_locator *locator, mw_cursor *cursor)
 
 void mw__cursor_default(const mw_locator *locator, mw_cursor *cursor)
 {
-    /* every cursor that was initialised has a walk */
+    /* a cursor that was initialised has a walk; this one was zeroed */
     if (MW_UNLIKELY(cursor->walk == MW_WALK_AUTO)) mw_cursor_init(locator, NULL, cursor, NULL);
 }
 
-/* As mw__query_first_tile. A stream of queries is near where it was: no call for that. */
+/* As mw__query_first_tile, for streams of queries: a query near the one before it needs no call. */
 static MW_INLINE uint32_t fast_first_tile(const mw_locator *locator, mw_cursor *cursor, mw_point q)
 {
     uint32_t last = cursor->last;
@@ -505,7 +509,7 @@ static MW_INLINE uint32_t fast_first_tile(const mw_locator *locator, mw_cursor *
     return mw__query_first_tile(locator, cursor, last, q, &cursor->random, NULL);
 }
 
-/* By the fast path; false: it leads to tile cursor->last, but to no answer. */
+/* Locate by the fast path. Returns false if it led to tile cursor->last, but to no answer. */
 static MW_INLINE bool locate_fast_by(const mw_locator *locator, mw_cursor *cursor, mw_point q,
                                      double scale, mw_location *location)
 {

@@ -193,7 +193,7 @@ run probe --only-answers none.off q.csv; refused 3 'none\.off: '
 # Three triangles at one edge.
 printf 'OFF\n5 3 0\n0 0 0\n1 0 0\n0 1 0\n0 -1 0\n0 0 1\n3 0 1 2\n3 1 0 3\n3 0 1 4\n' >three.off
 run_on $'.25,.25,2,0,0,-1\n' probe --only-answers three.off - -o o.csv
-refused 3 "three\.off: "; says "'meshwalk check --as surface three\.off' lists every defect; --any"
+refused 3 "three\.off: "; says "'meshwalk check --as surface three\.off' lists every defect, 'meshwalk view' shows it; --any"
 absent o.csv
 for certain in '' --certain; do
     run_on $'.25,.25,2,0,0,-1\n' probe --only-answers $certain --any three.off -; exits 0

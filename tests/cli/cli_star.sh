@@ -230,7 +230,7 @@ run_on "$sphere" star --centre 3e6,5e6,0 --lonlat far.off -; exits 0; prints "$s
 run_on $'45 35.26\n' star --centre 3e6,5e6,0 --lonlat far.off -; exits 0
 prints_line '^45,35\.26,inside,0,0\.333[0-9]*,0\.333[0-9]*,0\.333[0-9]*$'
 run_on $'1 2 3\n' star moved.off - -o o.csv; refused 3 'moved\.off: triangle [0-7]: '
-says "'meshwalk check --as star moved\.off' lists every defect"; absent o.csv
+says "'meshwalk check --as star moved\.off' lists every defect, 'meshwalk view' shows it"; absent o.csv
 run_on $'1 2 3\n' star --centre 9,0,0.5 octahedron.off -
 refused 3 'octahedron\.off: triangle [0-7]: '
 says "'meshwalk check --as star --centre 9,0,0.5 octahedron\.off'"

@@ -240,6 +240,37 @@ static void test_vtk(void **state)
     mw_mesh_file_release(&file);
 }
 
+/* Vectors, tensors and texture coordinates become a field for each number; what is about the file
+ * itself is skipped. */
+static void test_vtk_fields(void **state)
+{
+    (void)state;
+    static const char text[] =
+        "# vtk DataFile Version 5.1\ntitle\nASCII\nDATASET POLYDATA\nPOINTS 3 double\n"
+        "0 0 0 1 0 0 0 1 0\nMETADATA\nINFORMATION 0\n\nVERTICES 2 1\nOFFSETS vtktypeint64\n0 1\n"
+        "CONNECTIVITY vtktypeint64\n2\nPOLYGONS 2 3\nOFFSETS vtktypeint64\n0 3\n"
+        "CONNECTIVITY vtktypeint64\n0 1 2\nPOINT_DATA 3\nTENSORS s double\n"
+        "1 2 3 4 5 6 7 8 9\n11 12 13 14 15 16 17 18 19\n21 22 23 24 25 26 27 28 29\n"
+        "TEXTURE_COORDINATES t 2 float\n.25 .5 1.25 1.5 2.25 2.5\nSCALARS p int 2\n"
+        "LOOKUP_TABLE default\n31 32 41 42 51 52\nFIELD more 2\na 1 3 double\n61 62 63\nMETADATA\n"
+        "INFORMATION 0\n\nb 1 3 int\n71 72 73\n";
+    mw_mesh_file file = mesh_file_read_text("a.vtk", text);
+    assert_int_equal(file.triangle_count, 1);
+    assert_int_equal(file.field_count, 9 + 2 + 2 + 2);
+    for (size_t v = 0; v < 3; v++) {
+        double at = 10 * (double)v;
+        for (size_t k = 0; k < 9; k++) assert_true(file.fields[k][v] == at + (double)(k + 1));
+        for (size_t k = 0; k < 2; k++) {
+            assert_true(file.fields[9 + k][v] == (double)v + 0.25 * (double)(k + 1));
+            assert_true(file.fields[11 + k][v] == at + 31 + (double)k);
+            assert_true(file.fields[13 + k][v] == (double)v + 61 + 10 * (double)k);
+        }
+    }
+    assert_string_equal(file.field_names[13], "a");
+    assert_string_equal(file.field_names[14], "b");
+    mw_mesh_file_release(&file);
+}
+
 static const char vtu_text[] =
     "<VTKFile type='UnstructuredGrid'>\n<UnstructuredGrid>\n<Piece NumberOfPoints='5' "
     "NumberOfCells='2'>\n<CellData Scalars='x'>\n<DataArray type='Int32' Name='physical' >7 0"
@@ -347,11 +378,11 @@ static void test_damaged(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_fort14),  cmocka_unit_test(test_2dm),
-        cmocka_unit_test(test_su2),     cmocka_unit_test(test_msh),
-        cmocka_unit_test(test_selafin), cmocka_unit_test(test_vtk),
-        cmocka_unit_test(test_vtu),     cmocka_unit_test(test_npz),
-        cmocka_unit_test(test_damaged),
+        cmocka_unit_test(test_fort14),     cmocka_unit_test(test_2dm),
+        cmocka_unit_test(test_su2),        cmocka_unit_test(test_msh),
+        cmocka_unit_test(test_selafin),    cmocka_unit_test(test_vtk),
+        cmocka_unit_test(test_vtk_fields), cmocka_unit_test(test_vtu),
+        cmocka_unit_test(test_npz),        cmocka_unit_test(test_damaged),
     };
     return cmocka_run_group_tests(tests, files_enter, files_leave);
 }

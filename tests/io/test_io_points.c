@@ -102,6 +102,8 @@ static void test_decimal_commas(void **state)
     expect_values("1,5\t2\n3,25\t-4,125\n", NULL, "x y", 2, wanted);
     expect_values("a;b\n1,5;2\n3,25;-4,125e0\n", NULL, "a b", 2, wanted);
     expect_values("\"1,5\";2\n3,25;\"-4,125\"\n", NULL, "x y", 2, wanted);
+    expect_values("1234567890,5;+987654321,0625\n", NULL, "x y", 1,
+                  (const double[]){1234567890.5, 987654321.0625});
     expect_values(",5;2,\n-,25;1\n", NULL, "x y", 2, (const double[]){.5, 2, -.25, 1});
 }
 

@@ -10,6 +10,7 @@
 
 #include <math.h>
 #include <stdbool.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -229,15 +230,25 @@ static void test_stl(void **state)
 static void test_stl_normals(void **state)
 {
     (void)state;
-    double points[] = {0, 0, 0, 2, 0, 0, 0, 3, 0};
-    uint32_t triangles[] = {0, 1, 2, 0, 0, 1};
+    double points[] = {0, 0, 0, 2, 0, 0, 0, 3, 0, 4, 0, -3, 0, 4, 3};
+    uint32_t triangles[] = {0, 1, 2, 0, 0, 1, 0, 3, 2, 0, 2, 3, 0, 1, 4};
     mw_mesh_file file = {
-        .points = points, .triangles = triangles, .point_count = 3, .triangle_count = 2};
+        .points = points, .triangles = triangles, .point_count = 5, .triangle_count = 5};
     assert_int_equal(mw_write_mesh("n.stl", &file, NULL, NULL, NULL), MW_OK);
     char *text = files_read("n.stl", NULL);
     assert_non_null(text);
-    assert_non_null(strstr(text, "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 2 0 0\n"));
-    assert_non_null(strstr(text, "facet normal 0 0 0\n"));
+    assert_non_null(strstr(text, "\nouter loop\nvertex 0 0 0\nvertex 2 0 0\n"));
+    static const double wanted[5][3] = {
+        {0, 0, 1}, {0, 0, 0}, {0.6, 0, 0.8}, {-0.6, 0, -0.8}, {0, -0.6, 0.8}};
+    const char *at = text;
+    for (int t = 0; t < 5; t++) {
+        double n[3];
+        at = strstr(at, "facet normal ");
+        assert_non_null(at);
+        assert_int_equal(sscanf(at, "facet normal %lf %lf %lf", &n[0], &n[1], &n[2]), 3);
+        for (int k = 0; k < 3; k++) assert_true(n[k] == wanted[t][k]);
+        at++;
+    }
     free(text);
     files_clear();
 }
@@ -271,16 +282,16 @@ static void test_csv(void **state)
     files_clear();
 }
 
-/* There is no reader for VTK here: the text is fixed. */
+/* The text is fixed, for other programs; what is read back is the same, values of triangles too. */
 static void test_vtk(void **state)
 {
     (void)state;
     double points[] = {0, 0, 0.1, 1, 0, -0.0, 1, 1, 1e-300, 0, 1, 4},
-           depth[] = {1, 2.5, NAN, -1e22};
+           depth[] = {1, 2.5, NAN, -1e22}, soil[] = {7, 0.25};
     uint32_t triangles[] = {0, 1, 2, 0, 2, 3};
-    char name[] = "water depth";
-    char *names[] = {name};
-    double *fields[] = {depth};
+    char name[] = "water depth", soil_name[] = "soil";
+    char *names[] = {name}, *triangle_names[] = {soil_name};
+    double *fields[] = {depth}, *triangle_fields[] = {soil};
     mw_mesh_file file = {.points = points,
                          .triangles = triangles,
                          .point_count = 4,
@@ -288,7 +299,10 @@ static void test_vtk(void **state)
                          .has_z = 1,
                          .field_names = names,
                          .fields = fields,
-                         .field_count = 1};
+                         .field_count = 1,
+                         .triangle_field_names = triangle_names,
+                         .triangle_fields = triangle_fields,
+                         .triangle_field_count = 1};
     assert_int_equal(mw_write_mesh("a.vtk", &file, NULL, NULL, NULL), MW_OK);
     char *text = files_read("a.vtk", NULL);
     assert_non_null(text);
@@ -297,8 +311,14 @@ static void test_vtk(void **state)
         "# vtk DataFile Version 3.0\nmeshwalk\nASCII\nDATASET UNSTRUCTURED_GRID\n"
         "POINTS 4 double\n0 0 0.1\n1 0 -0\n1 1 1e-300\n0 1 4\n"
         "CELLS 2 8\n3 0 1 2\n3 0 2 3\nCELL_TYPES 2\n5\n5\n"
-        "POINT_DATA 4\nSCALARS water_depth double 1\nLOOKUP_TABLE default\n1\n2.5\nnan\n-1e+22\n");
+        "POINT_DATA 4\nSCALARS water_depth double 1\nLOOKUP_TABLE default\n1\n2.5\nnan\n-1e+22\n"
+        "CELL_DATA 2\nSCALARS soil double 1\nLOOKUP_TABLE default\n7\n0.25\n");
     free(text);
+    mw_mesh_file back = write_and_read("b.vtk", NULL, &file);
+    assert_int_equal(back.triangle_field_count, 1);
+    assert_string_equal(back.triangle_field_names[0], "soil");
+    assert_memory_equal(back.triangle_fields[0], soil, sizeof soil);
+    mw_mesh_file_release(&back);
     files_clear();
 }
 

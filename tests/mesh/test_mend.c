@@ -415,6 +415,41 @@ static void test_space(void **state)
     }
 }
 
+/* In space, a vertex splits the edge that it is near, but not one that ends before it. */
+static void test_space_tolerance(void **state)
+{
+    (void)state;
+    static const struct {
+        double at[3], tolerance; /* of vertex 3, beside the edge from (0, 0, 0) to (2, 0, 0) */
+        uint32_t triangles;
+    } cases[] = {
+        {{0.5, 3e-7, 4e-7}, 5.1e-7, 4},   {{0.5, 3e-7, 4e-7}, 4.9e-7, 3},
+        {{0.5, -3e-7, -4e-7}, 5.1e-7, 4}, {{0.5, 0, 4e-7}, 4.1e-7, 4},
+        {{0.5, 4e-7, 0}, 3.9e-7, 3},      {{2.5, 0, 0}, 1e-3, 3},
+        {{-0.5, 0, 0}, 1e-3, 3},          {{1.5, 1e-3, 0}, 1.1e-3, 4},
+    };
+    static const uint32_t triangles[] = {0, 1, 2, 0, 4, 3, 3, 4, 1};
+    for (int axes = 0; axes < 3; axes++)
+        for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+            const double *at = cases[i].at,
+                         flat[15] = {0, 0, 0, 2, 0, 0, 1, 2, 1, at[0], at[1], at[2], 1, -2, 1};
+            double points[15];
+            for (int k = 0; k < 15; k++) points[k - k % 3 + (k + axes) % 3] = flat[k];
+            mw_arrays view = {.points = points,
+                              .point_count = 5,
+                              .point_stride = 3,
+                              .triangles = triangles,
+                              .triangle_count = 3};
+            mw_mend_options options = {.space = 1, .tolerance = cases[i].tolerance};
+            mw_mended m;
+            mw_error error;
+            expect_ok(mw_mend_arrays(&view, &options, &m, &error), "mending", &error);
+            if (m.triangle_count != cases[i].triangles)
+                fail_msg("case %zu, axes %d: %zu triangles", i, axes, (size_t)m.triangle_count);
+            mw_mended_release(&m);
+        }
+}
+
 /* A band of Moebius has no orientation: it is kept, and a check names the clash. */
 static void test_moebius(void **state)
 {
@@ -486,6 +521,7 @@ int main(void)
         cmocka_unit_test(test_tolerance),
         cmocka_unit_test(test_chains_do_not_collapse),
         cmocka_unit_test(test_space),
+        cmocka_unit_test(test_space_tolerance),
         cmocka_unit_test(test_moebius),
         cmocka_unit_test(test_refusals),
     };

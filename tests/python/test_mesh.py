@@ -5,6 +5,8 @@ from __future__ import annotations
 import copy
 import gc
 import pickle
+import subprocess
+import sys
 import weakref
 
 import numpy as np
@@ -12,6 +14,22 @@ import pytest
 from conftest import ring_arrays
 
 import meshwalk
+
+
+def test_modules_are_imported_when_they_are_used() -> None:
+    program = """
+import sys, meshwalk
+early = [name for name in sys.modules if name.startswith("meshwalk._")]
+assert "meshwalk._editor" not in early and "meshwalk._arrays" not in early, early
+assert dir(meshwalk) == sorted(meshwalk.__all__)
+for name in meshwalk.__all__:
+    assert getattr(meshwalk, name) is not None, name
+assert sorted(meshwalk._HOMES) == [name for name in dir(meshwalk) if name not in early_names]
+"""
+    early = ["Error", "InputError", "LimitError", "Location", "Where", "__version__"]
+    subprocess.run([sys.executable, "-c", f"early_names = {early}\n{program}"], check=True)
+    with pytest.raises(AttributeError, match="module 'meshwalk' has no attribute 'Mash'"):
+        _ = meshwalk.Mash
 
 
 def test_arrays_come_back(square: meshwalk.Mesh) -> None:

@@ -310,3 +310,32 @@ def test_queries_wait_for_moves(random: np.random.Generator) -> None:
     for asker in askers:
         asker.join()
     assert not wrong
+
+
+def test_all_touches_while_vertices_move() -> None:
+    """Floors one above the other, half of which step aside: a probe meets all of them or half."""
+    floors = 400
+    floor = np.array([[0.0, 0, 0], [4, 0, 0], [0, 4, 0]])
+    below = np.vstack([floor + np.array([0, 0, k]) for k in range(floors)])
+    aside = below + np.where(np.arange(3 * floors) // 3 % 2, 9, 0)[:, None] * [1, 0, 0]
+    surface = meshwalk.Surface(below, np.arange(3 * floors).reshape(-1, 3))
+    prober = meshwalk.Prober(surface, boxes=True)
+    done = threading.Event()
+
+    def move() -> None:
+        while not done.is_set():
+            surface._move(aside, None, [prober], -1, 1)
+            surface._move(below, None, [prober], -1, 1)
+
+    mover = threading.Thread(target=move)
+    mover.start()
+    try:
+        for _ in range(300):
+            touches = prober.probe_all([1, 1, -1], [0, 0, 1], extent="ray")
+            assert len(touches.triangle) in (floors // 2, floors)
+            assert (touches.state == TouchState.HIT).all()
+            assert (touches.distance == touches.triangle + 1.0).all()
+            assert (np.diff(touches.triangle) > 0).all()
+    finally:
+        done.set()
+        mover.join()

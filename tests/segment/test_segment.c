@@ -226,6 +226,68 @@ static void test_widest(void **state)
     arrays_free(&m);
 }
 
+/* Short and long segments, some with ends that are not finite. */
+static double *draw_segments(size_t n, double size, uint64_t *random)
+{
+    double *ends = malloc(4 * n * sizeof *ends);
+    assert_non_null(ends);
+    for (size_t i = 0; i < n; i++) {
+        double *e = ends + 4 * i, reach = i % 50 == 0 ? size : 4;
+        for (int k = 0; k < 2; k++) {
+            e[k] = (size + 2) * random_unit(random) - 1;
+            e[2 + k] = e[k] + reach * (2 * random_unit(random) - 1);
+        }
+        if (i % 97 == 5) e[i % 4] = i % 2 ? NAN : INFINITY;
+        if (i % 7 == 3) memcpy(e, e - 2, 2 * sizeof *e);
+    }
+    return ends;
+}
+
+/* A mesh that no cache of a core holds, so that several segments are followed in turn. Their pieces
+ * are those of each segment alone. */
+static void test_large_mesh(void **state)
+{
+    (void)state;
+    enum { SIZE = 360, SEGMENTS = 3000, PIECES = 8 * SIZE };
+    uint64_t random = environment_print_seed("test_segment large mesh", 9);
+    arrays m = arrays_grid(SIZE, 0.5, &random);
+    arrays_punch(&m, 0.05, &random);
+    mw_mesh *mesh = arrays_mesh(&m, (mw_mesh_options){.threads = 2});
+    mw_locator *locator = mesh_locator(mesh, (mw_locator_options){.threads = 2});
+    double *ends = draw_segments(SEGMENTS, SIZE, &random);
+    mw_segment_piece *piece = malloc(PIECES * sizeof *piece);
+    assert_non_null(piece);
+    for (uint32_t threads = 1; threads < 4; threads++) {
+        mw_segment_pieces all;
+        mw_error error;
+        mw_segment_options options = {.threads = threads};
+        mw_cursor cursor = {.walk = 0};
+        size_t bad = 0;
+        expect_ok(mw_segment_batch(locator, ends, SEGMENTS, 4, &options, &all, &error), "pieces",
+                  &error);
+        for (size_t i = 0; i < SEGMENTS; i++) {
+            mw_segment s;
+            size_t n = 0, wanted = all.offset[i + 1] - all.offset[i];
+            if (mw_segment_begin(locator, &cursor, ends + 4 * i, ends + 4 * i + 2, &s, NULL))
+                bad++;
+            else
+                while (n < PIECES && mw_segment_next(&s, &piece[n])) n++;
+            assert_int_equal(n, wanted);
+            assert_memory_equal(piece, all.piece + all.offset[i], n * sizeof *piece);
+        }
+        assert_int_equal(all.offset[0], 0);
+        assert_int_equal(all.piece_count, all.offset[SEGMENTS]);
+        assert_int_equal(all.bad_count, bad);
+        assert_true(bad > 0);
+        mw_segment_pieces_release(&all);
+    }
+    free(piece);
+    free(ends);
+    mw_locator_destroy(locator);
+    mw_mesh_destroy(mesh);
+    arrays_free(&m);
+}
+
 /* Each allocation of a batch fails once. */
 static void test_memory(void **state)
 {
@@ -336,10 +398,11 @@ static void test_editor(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_grids),    cmocka_unit_test(test_scales),
-        cmocka_unit_test(test_fan),      cmocka_unit_test(test_cut_triangles),
-        cmocka_unit_test(test_widest),   cmocka_unit_test(test_memory),
-        cmocka_unit_test(test_refusals), cmocka_unit_test(test_editor),
+        cmocka_unit_test(test_grids),      cmocka_unit_test(test_scales),
+        cmocka_unit_test(test_fan),        cmocka_unit_test(test_cut_triangles),
+        cmocka_unit_test(test_widest),     cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_refusals),   cmocka_unit_test(test_editor),
+        cmocka_unit_test(test_large_mesh),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,8 @@
 /* gzip_file.c - reads gzip files [RFC 1952], one member after another, and hands other files
- * through. A browser's files are in memory anyway, so a packed one is read as a whole. */
+ * through. A browser's files are in memory anyway, so a packed one is read as a whole; one of 2 GiB
+ * and more from a pipe, or of 4 GiB, is out of memory for it. */
+#include <errno.h>
+#include <limits.h>
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
@@ -7,10 +10,13 @@
 #include <zlib.h>
 
 enum { HEAD = 10, HAS_SUM = 2, HAS_EXTRA = 4, HAS_NAME = 8, HAS_COMMENT = 16, RESERVED = 224 };
+enum { MAGIC = 2, ROOM = 1 << 16 };
 
 typedef struct gzFile_s {
-    int descriptor, error;
-    bool packed, open; /* open: in a member */
+    int descriptor, error, system_error; /* zlib's number; errno, if that is Z_ERRNO */
+    bool packed, open;                   /* open: in a member */
+    Bytef magic[MAGIC];                  /* the first bytes; a single one stands at the end */
+    unsigned waiting; /* how many of them, at the end, a reader of a pipe has not got yet */
     Bytef *bytes;
     size_t size;
     z_stream stream;
@@ -19,34 +25,67 @@ typedef struct gzFile_s {
 
 /* --- plain or packed -------------------------------------------------------------------------- */
 
-static bool gzip_file_read_all(gzip_file *file)
+/* Read until there is no more, or no more room: a pipe gives what it has. -1: an error. */
+static ssize_t descriptor_read(int descriptor, void *bytes, size_t room)
 {
-    size_t room = (size_t)lseek(file->descriptor, 0, SEEK_END);
-    lseek(file->descriptor, 0, SEEK_SET);
-    file->bytes = malloc(room ? room : 1);
-    if (!file->bytes) return false;
-    while (file->size < room) {
-        ssize_t got = read(file->descriptor, file->bytes + file->size, room - file->size);
-        if (got <= 0) break;
-        file->size += (size_t)got;
+    size_t size = 0;
+    while (size < room) {
+        ssize_t got = read(descriptor, (Bytef *)bytes + size, room - size);
+        if (got < 0 && errno == EINTR) continue;
+        if (got < 0) return -1;
+        if (got == 0) break;
+        size += (size_t)got;
     }
+    return (ssize_t)size;
+}
+
+/* The bytes from here to the end, and one more; of a pipe, some. */
+static size_t descriptor_room(int descriptor)
+{
+    off_t here = lseek(descriptor, 0, SEEK_CUR);
+    off_t end = here < 0 ? -1 : lseek(descriptor, 0, SEEK_END);
+    if (here >= 0) lseek(descriptor, here, SEEK_SET);
+    return end > here ? (size_t)(end - here) + MAGIC + 1 : ROOM;
+}
+
+/* Read all of a packed file. Returns what gzread() will tell if this was not possible. */
+static int gzip_file_read_all(gzip_file *file)
+{
+    size_t room = descriptor_room(file->descriptor), size = file->waiting;
+    file->bytes = malloc(room);
+    if (!file->bytes) return Z_MEM_ERROR;
+    memcpy(file->bytes, file->magic, size);
+    for (;;) {
+        ssize_t got = descriptor_read(file->descriptor, file->bytes + size, room - size);
+        if (got < 0) return Z_ERRNO;
+        size += (size_t)got;
+        if (size < room) break;
+        Bytef *larger = room > UINT_MAX / 2 ? NULL : realloc(file->bytes, 2 * room);
+        if (!larger) return Z_MEM_ERROR;
+        file->bytes = larger;
+        room *= 2;
+    }
+    if (size > UINT_MAX) return Z_MEM_ERROR;
+    file->size = size;
     file->stream.next_in = file->bytes;
-    file->stream.avail_in = (uInt)file->size;
-    return true;
+    file->stream.avail_in = (uInt)size;
+    return Z_OK;
 }
 
 gzFile gzdopen(int descriptor, const char *mode)
 {
-    Bytef magic[2] = {0};
     (void)mode;
     gzip_file *file = calloc(1, sizeof *file);
     if (!file) return NULL;
     file->descriptor = descriptor;
-    file->packed = read(descriptor, magic, 2) == 2 && magic[0] == 0x1f && magic[1] == 0x8b;
-    lseek(descriptor, 0, SEEK_SET);
-    if (!file->packed || gzip_file_read_all(file)) return file;
-    free(file);
-    return NULL;
+    ssize_t got = descriptor_read(descriptor, file->magic, MAGIC);
+    if (got == 1) file->magic[1] = file->magic[0];
+    if (got < 0) file->error = Z_ERRNO;
+    if (got > 0 && lseek(descriptor, -(off_t)got, SEEK_CUR) < 0) file->waiting = (unsigned)got;
+    file->packed = got == MAGIC && file->magic[0] == 0x1f && file->magic[1] == 0x8b;
+    if (file->packed) file->error = gzip_file_read_all(file);
+    file->system_error = errno;
+    return file;
 }
 
 /* --- members ---------------------------------------------------------------------------------- */
@@ -123,13 +162,25 @@ static int member_unpack(gzip_file *file)
 
 /* --- zlib's interface ------------------------------------------------------------------------- */
 
+static int plain_read(gzip_file *file, Bytef *bytes, unsigned count)
+{
+    unsigned first = file->waiting < count ? file->waiting : count;
+    if (file->error == Z_ERRNO) errno = file->system_error;
+    if (file->error) return -1;
+    if (first > 0) memcpy(bytes, file->magic + MAGIC - file->waiting, first);
+    file->waiting -= first;
+    ssize_t got = descriptor_read(file->descriptor, bytes + first, count - first);
+    if (got < 0) {
+        file->error = Z_ERRNO;
+        file->system_error = errno;
+    }
+    return got < 0 ? -1 : (int)((unsigned)got + first);
+}
+
 int gzread(gzFile file, void *bytes, unsigned count)
 {
-    if (!file->packed) {
-        ssize_t got = read(file->descriptor, bytes, count);
-        if (got < 0) file->error = Z_ERRNO;
-        return (int)got;
-    }
+    if (!file->packed) return plain_read(file, bytes, count);
+    if (file->error == Z_ERRNO) errno = file->system_error;
     file->stream.next_out = bytes;
     file->stream.avail_out = count;
     int result = file->error;

@@ -8,7 +8,7 @@ static void csv_write(mw_output *output, const mw_mesh_file *file)
     mw__output_text(output, "triangle,corner,vertex,x,y,z");
     for (size_t f = 0; f < file->field_count; f++) {
         mw__output_char(output, ',');
-        mw__output_field_name(output, file, f);
+        mw__output_field_name(output, file->field_names, f);
     }
     mw__output_char(output, '\n');
     for (size_t i = 0; i < 3 * file->triangle_count && !mw_output_failed(output); i++) {

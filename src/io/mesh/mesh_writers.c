@@ -52,12 +52,12 @@ static bool words_equal(const char *a, const char *b)
     return !*a && !*b;
 }
 
-void mw__output_field_name(mw_output *output, const mw_mesh_file *file, size_t field)
+void mw__output_field_name(mw_output *output, char *const *names, size_t field)
 {
-    const char *name = file->field_names[field];
+    const char *name = names[field];
     bool taken =
         !*name || words_equal(name, "x") || words_equal(name, "y") || words_equal(name, "z");
-    for (size_t f = 0; f < field && !taken; f++) taken = words_equal(name, file->field_names[f]);
+    for (size_t f = 0; f < field && !taken; f++) taken = words_equal(name, names[f]);
     for (const char *p = name; *p; p++) mw__output_char(output, word_char(*p));
     if (taken) {
         mw__output_char(output, '_');

@@ -26,10 +26,10 @@ mw_status mw__write_file(const char *path, const mw_mesh_file *file, mw_write_bo
 void mw__output_points(mw_output *output, const mw_mesh_file *file);
 void mw__output_triangles(mw_output *output, const mw_mesh_file *file);
 
-/* Make the name of a field one word that differs from x, y, z and from the words of all other
- * fields. A byte that is neither a letter, a digit nor part of a UTF-8 character becomes '_'. If
+/* Make the name of a field one word that differs from x, y, z and from the words of the fields
+ * before it. A byte that is neither a letter, a digit nor part of a UTF-8 character becomes '_'. If
  * the word is taken, the number of the field is appended. */
-void mw__output_field_name(mw_output *output, const mw_mesh_file *file, size_t field);
+void mw__output_field_name(mw_output *output, char *const *names, size_t field);
 
 /* About how many bytes a mesh takes as text, for the steps of a job. */
 uint64_t mw__expected_bytes(const mw_mesh_file *file);

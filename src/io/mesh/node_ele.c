@@ -263,7 +263,7 @@ static void node_write(mw_output *output, const mw_mesh_file *file)
     if (file->has_z) mw__output_text(output, file->field_count > 0 ? " z," : " z");
     for (size_t f = 0; f < file->field_count; f++) {
         mw__output_char(output, ' ');
-        mw__output_field_name(output, file, f);
+        mw__output_field_name(output, file->field_names, f);
         if (f + 1 < file->field_count) mw__output_char(output, ',');
     }
     mw_output_printf(output, "%s%zu 2 %zu 0\n", attributes > 0 ? "\n" : "", file->point_count,

@@ -21,7 +21,7 @@ static void ply_write_header(mw_output *output, const mw_mesh_file *file, const 
     mw__output_text(output, "property double x\nproperty double y\nproperty double z\n");
     for (size_t f = 0; f < file->field_count; f++) {
         mw__output_text(output, "property double ");
-        mw__output_field_name(output, file, f);
+        mw__output_field_name(output, file->field_names, f);
         mw__output_char(output, '\n');
     }
     /* "int" is what most programs expect */
