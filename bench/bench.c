@@ -8,6 +8,7 @@
 #include "bench/peers/bench_peers.h"
 #include "bench/peers/engine_list.h"
 #include "bench/segments/bench_segments.h"
+#include "bench/space/bench_space.h"
 #include "bench/terrain/bench_terrain.h"
 #include "bench/worst/bench_worst.h"
 #include "cli/frame/message.h"
@@ -25,7 +26,7 @@ static const struct {
     {"peers", bench_peers, true},       {"scale", bench_scale, true},
     {"edit", bench_edit, true},         {"worst", bench_worst, true},
     {"segments", bench_segments, true}, {"ocean", bench_ocean, true},
-    {"terrain", bench_terrain, true},
+    {"terrain", bench_terrain, true},   {"space", bench_space, true},
 };
 #define MEASUREMENTS (sizeof measurements / sizeof *measurements)
 

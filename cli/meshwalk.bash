@@ -153,7 +153,7 @@ _meshwalk() {
     fi
     names=$(_meshwalk_names "$command" "$before")
     [[ $command == bench && $COMP_CWORD -eq 2 && $word != -* ]] &&
-        names='paper near-vertices peers scale edit worst segments ocean terrain'
+        names='paper near-vertices peers scale edit worst segments ocean terrain space'
     [[ $command == bench && $before == paper ]] && names='A1 A2 B1 B2 C1 C2 D1 E1 E2 F1 F2 G1 G2 G3'
     [[ $command == bench && $before == @(peers|scale) ]] &&
         names='uniform grid gaussian clusters arcs rectangle rings slivers offset cadastre lidar'

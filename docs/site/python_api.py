@@ -31,10 +31,11 @@ def make(pages: Pages, package: Path) -> str:
 
     tree = ast.parse((package / "__init__.py").read_text())
     groups: dict[str, list[str]] = {}
-    for node in tree.body:
+    for node in ast.walk(tree):  # some are there for type checkers only
         if isinstance(node, ast.ImportFrom):
             names = [a.name for a in node.names if a.name in meshwalk.__all__]
-            groups.setdefault(node.module.rpartition("._")[2], []).extend(names)
+            if names:
+                groups.setdefault(node.module.rpartition("._")[2], []).extend(names)
     rows = []
     for group, names in groups.items():
         text = (package / f"_{group}.py") if group != "core" else None

@@ -18,7 +18,8 @@ static int core_exec(PyObject *module)
                    operator_init(module, state) || polygons_init(module, state) ||
                    check_init(module) || mend_init(module) || layouts_init(module) ||
                    triangulation_init(module) || files_init(module) || points_init(module) ||
-                   borrowed_init(module) || segments_init(module) || core_add_numbers(module)
+                   borrowed_init(module) || segments_init(module) || overlap_init(module) ||
+                   sight_init(module) || prepared_init(module) || core_add_numbers(module)
                ? -1
                : 0;
 }

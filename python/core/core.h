@@ -27,8 +27,18 @@ typedef struct core_state {
 typedef struct mesh_object {
     PyObject_HEAD
     core_state *state;
+    PyObject *owner; /* a mapped file that has the mesh; NULL: the mesh is the object's own */
     mw_mesh *mesh;
 } mesh_object;
+
+typedef struct locator_object {
+    PyObject_HEAD
+    core_state *state;
+    PyObject *owner; /* as of mesh_object */
+    PyObject *mesh;
+    mw_locator *locator;
+    mw_cursor cursor; /* of single queries: used only under the interpreter lock */
+} locator_object;
 
 typedef struct surface_object {
     PyObject_HEAD
@@ -138,16 +148,43 @@ const mw_progress *progress_begin(const core_state *state, PyObject *function,
 /* A memoryview whose object frees the memory with free(); takes it over also on failure, which is
  * NULL with an exception. */
 PyObject *memory_new(core_state *state, void *bytes, size_t size);
+/* A memoryview of memory that belongs to `owner`, which it keeps alive; it cannot be written. */
+PyObject *memory_borrow(core_state *state, PyObject *owner, const void *bytes, size_t size);
 int memory_init(PyObject *module, core_state *state);
+
+/* --- files.c: fields of meshes in files --- */
+
+/* Names and values of fields that are to be written; zero-initialised ones are empty. */
+typedef struct file_fields {
+    Py_buffer *views;
+    char **names;
+    double **values;
+    size_t count;
+} file_fields;
+
+/* Take names and buffers of a list of (bytes, array); the names are the list's. 0, or -1 with an
+ * exception; released by file_release_fields in either case. */
+int file_get_fields(PyObject *list, size_t value_count, file_fields *fields);
+void file_release_fields(file_fields *fields);
+/* The coordinate system as str; None: not known. */
+PyObject *file_get_crs(const char *crs);
 
 /* --- one file for each kind of object or function; init adds them to the module --- */
 
 int mesh_init(PyObject *module, core_state *state);
 /* A mesh object that takes the mesh over, also on failure. */
 PyObject *mesh_new(core_state *state, PyObject *class, mw_mesh *mesh);
+/* A mesh object whose mesh belongs to `owner`. */
+PyObject *mesh_borrow(core_state *state, PyObject *class, mw_mesh *mesh, PyObject *owner);
 int location_init(PyObject *module, core_state *state);
 PyObject *location_new(core_state *state, const mw_location *location);
 int locator_init(PyObject *module, core_state *state);
+/* A locator object of a mesh object; takes the locator over, also on failure, unless it belongs to
+ * `owner`. */
+PyObject *locator_new(core_state *state, PyObject *class, PyObject *mesh, mw_locator *locator,
+                      PyObject *owner);
+/* The mesh of a locator object. */
+const mw_mesh *locator_get_mesh(PyObject *locator);
 int segments_init(PyObject *module);
 /* The pieces of segments, as memory of offsets and of pieces; args: ends, threads, progress. */
 PyObject *segments_follow(core_state *state, const mw_locator *locator, PyObject *args);
@@ -156,6 +193,11 @@ int star_init(PyObject *module, core_state *state);
 int prober_init(PyObject *module, core_state *state);
 int editor_init(PyObject *module, core_state *state);
 int operator_init(PyObject *module, core_state *state);
+/* An operator object that takes the operator over, also on failure. */
+PyObject *operator_new(core_state *state, mw_operator *weights);
+int overlap_init(PyObject *module);
+int sight_init(PyObject *module);
+int prepared_init(PyObject *module);
 int polygons_init(PyObject *module, core_state *state);
 int check_init(PyObject *module);
 int mend_init(PyObject *module);

@@ -37,8 +37,7 @@ static PyObject *file_take_columns(core_state *state, file_columns columns)
     return fields;
 }
 
-/* The coordinate system, as str; None: not known. */
-static PyObject *file_get_crs(const char *crs)
+PyObject *file_get_crs(const char *crs)
 {
     if (!crs) Py_RETURN_NONE;
     return PyUnicode_DecodeUTF8(crs, (Py_ssize_t)strlen(crs), "replace");
@@ -138,15 +137,7 @@ static PyObject *file_read_constraints(PyObject *module, PyObject *args)
     return result;
 }
 
-/* What is to be written: the buffers of a mesh, and those of its fields. */
-typedef struct file_fields {
-    Py_buffer *views;
-    char **names;
-    double **values;
-    size_t count;
-} file_fields;
-
-static void file_release_fields(file_fields *fields)
+void file_release_fields(file_fields *fields)
 {
     for (size_t i = 0; i < fields->count; i++) PyBuffer_Release(&fields->views[i]);
     free(fields->views);
@@ -154,8 +145,7 @@ static void file_release_fields(file_fields *fields)
     free(fields->values);
 }
 
-/* Names and buffers of a list of (bytes, array). The names are the list's. */
-static int file_get_fields(PyObject *list, size_t value_count, file_fields *fields)
+int file_get_fields(PyObject *list, size_t value_count, file_fields *fields)
 {
     const size_t count = (size_t)PyList_Size(list);
     fields->views = calloc(count + 1, sizeof *fields->views);

@@ -68,10 +68,20 @@ static int layout_add_changed(PyObject *module)
                                     "itemsize", (Py_ssize_t)sizeof(mw_changed_triangle)));
 }
 
+static int layout_add_sight(PyObject *module)
+{
+    return layout_add(module, "SIGHT_LAYOUT",
+                      Py_BuildValue("{s:n,s:n,s:n,s:n}", LAYOUT_MEMBER(mw_sight, "at", at),
+                                    LAYOUT_MEMBER(mw_sight, "triangle", triangle),
+                                    LAYOUT_MEMBER(mw_sight, "state", state), "itemsize",
+                                    (Py_ssize_t)sizeof(mw_sight)));
+}
+
 int layouts_init(PyObject *module)
 {
     return layout_add_location(module) || layout_add_touch(module) || layout_add_nearest(module) ||
-                   layout_add_changed(module) || layout_add_piece(module)
+                   layout_add_changed(module) || layout_add_piece(module) ||
+                   layout_add_sight(module)
                ? -1
                : 0;
 }

@@ -3,14 +3,6 @@
 
 #include <stdlib.h>
 
-typedef struct locator_object {
-    PyObject_HEAD
-    core_state *state;
-    PyObject *mesh;
-    mw_locator *locator;
-    mw_cursor cursor; /* of single queries: used only under the interpreter lock */
-} locator_object;
-
 /* What a query of a batch is asked with; the strings are names of walks and starts. */
 typedef struct locator_query {
     mw_query_options options;
@@ -36,15 +28,16 @@ static int locator_resolve_names(locator_query *query)
     return -1;
 }
 
-static PyObject *locator_wrap(core_state *state, PyObject *class, PyObject *mesh,
-                              mw_locator *locator)
+PyObject *locator_new(core_state *state, PyObject *class, PyObject *mesh, mw_locator *locator,
+                      PyObject *owner)
 {
     locator_object *object = objects_new(class, state->locator_type);
     if (!object) {
-        mw_locator_destroy(locator);
+        if (!owner) mw_locator_destroy(locator);
         return NULL;
     }
     object->state = state;
+    object->owner = Py_XNewRef(owner);
     object->mesh = Py_NewRef(mesh);
     object->locator = locator;
     return (PyObject *)object;
@@ -70,7 +63,12 @@ static PyObject *locator_from_mesh(PyObject *module, PyObject *args)
     Py_BEGIN_ALLOW_THREADS
     status = mw_locator_create(((mesh_object *)mesh)->mesh, &options, &locator, &error);
     Py_END_ALLOW_THREADS
-    return status ? errors_raise(state, &error) : locator_wrap(state, class, mesh, locator);
+    return status ? errors_raise(state, &error) : locator_new(state, class, mesh, locator, NULL);
+}
+
+const mw_mesh *locator_get_mesh(PyObject *locator)
+{
+    return ((mesh_object *)((locator_object *)locator)->mesh)->mesh;
 }
 
 static int locator_traverse(PyObject *self, visitproc visit, void *arg)
@@ -85,8 +83,9 @@ static void locator_dealloc(PyObject *self)
 {
     locator_object *object = (locator_object *)self;
     PyObject_GC_UnTrack(self);
-    mw_locator_destroy(object->locator);
+    if (!object->owner) mw_locator_destroy(object->locator);
     Py_XDECREF(object->mesh);
+    Py_XDECREF(object->owner);
     objects_free(self);
 }
 

@@ -15,9 +15,21 @@ PyObject *mesh_new(core_state *state, PyObject *class, mw_mesh *mesh)
     return (PyObject *)object;
 }
 
+PyObject *mesh_borrow(core_state *state, PyObject *class, mw_mesh *mesh, PyObject *owner)
+{
+    mesh_object *object = objects_new(class, state->mesh_type);
+    if (!object) return NULL;
+    object->state = state;
+    object->owner = Py_NewRef(owner);
+    object->mesh = mesh;
+    return (PyObject *)object;
+}
+
 static void mesh_dealloc(PyObject *self)
 {
-    mw_mesh_destroy(((mesh_object *)self)->mesh);
+    mesh_object *object = (mesh_object *)self;
+    if (!object->owner) mw_mesh_destroy(object->mesh);
+    Py_XDECREF(object->owner);
     objects_free(self);
 }
 
@@ -174,6 +186,32 @@ static PyObject *mesh_recover(PyObject *self, PyObject *args)
     Py_RETURN_NONE;
 }
 
+/* _hilbert_order(triangles, vertices): fill a uint32 for each */
+static PyObject *mesh_hilbert_order(PyObject *self, PyObject *args)
+{
+    mesh_object *object = (mesh_object *)self;
+    PyObject *triangles, *vertices;
+    Py_buffer triangle_view, vertex_view;
+    mw_error error;
+    mw_status status;
+    if (!PyArg_ParseTuple(args, "OO", &triangles, &vertices) ||
+        buffer_get_writable(triangles, sizeof(uint32_t), mw_mesh_triangle_count(object->mesh),
+                            &triangle_view))
+        return NULL;
+    if (buffer_get_writable(vertices, sizeof(uint32_t), mw_mesh_vertex_count(object->mesh),
+                            &vertex_view)) {
+        PyBuffer_Release(&triangle_view);
+        return NULL;
+    }
+    Py_BEGIN_ALLOW_THREADS
+    status = mw_mesh_hilbert_order(object->mesh, triangle_view.buf, vertex_view.buf, &error);
+    Py_END_ALLOW_THREADS
+    PyBuffer_Release(&vertex_view);
+    PyBuffer_Release(&triangle_view);
+    if (status) return errors_raise(object->state, &error);
+    Py_RETURN_NONE;
+}
+
 static PyObject *mesh_info_dict(const mw_mesh_info *info)
 {
     return Py_BuildValue(
@@ -226,6 +264,7 @@ static PyMethodDef mesh_methods[] = {
     {"_interpolate_table", mesh_interpolate_table, METH_VARARGS, NULL},
     {"_copy_field", mesh_copy_field, METH_VARARGS, NULL},
     {"_recover", mesh_recover, METH_VARARGS, NULL},
+    {"_hilbert_order", mesh_hilbert_order, METH_VARARGS, NULL},
     {"_describe", mesh_describe, METH_NOARGS, NULL},
     {NULL, NULL, 0, NULL},
 };

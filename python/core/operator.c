@@ -12,8 +12,7 @@ static mw_operator *operator_of(PyObject *self)
     return ((operator_object *)self)->weights;
 }
 
-/* An object that takes the operator over, also on failure. */
-static PyObject *operator_new(core_state *state, mw_operator *weights)
+PyObject *operator_new(core_state *state, mw_operator *weights)
 {
     operator_object *object = objects_new((PyObject *)state->operator_type, state->operator_type);
     if (!object) {

@@ -50,12 +50,23 @@ if TYPE_CHECKING:
     from meshwalk._locations import Locations
     from meshwalk._locator import Locator, LocatorInfo, NearestBorder
     from meshwalk._mend import MendChange, Mended, mend
-    from meshwalk._mesh import Mesh, MeshInfo
+    from meshwalk._mesh import Mesh, MeshInfo, Reordered
     from meshwalk._operator import Operator
+    from meshwalk._overlap import (
+        Pixels,
+        Remap,
+        SurfaceAreaInfo,
+        VolumeInfo,
+        remap,
+        surface_area,
+        volume,
+    )
     from meshwalk._plot import explain, plot
     from meshwalk._polygons import PolygonHits, Polygons
+    from meshwalk._prepared import map
     from meshwalk._prober import NearestPoints, Prober, SurfaceSide, Touches, TouchState
     from meshwalk._segments import Segments
+    from meshwalk._sight import Sights, SightState, visible
     from meshwalk._star import Star, StarInfo, direction_to_lonlat, lonlat_to_direction
     from meshwalk._surface import Surface, SurfaceInfo
     from meshwalk._triangulate import (
@@ -92,12 +103,23 @@ _MODULES = {
     "_locations": ("Locations",),
     "_locator": ("Locator", "LocatorInfo", "NearestBorder"),
     "_mend": ("MendChange", "Mended", "mend"),
-    "_mesh": ("Mesh", "MeshInfo"),
+    "_mesh": ("Mesh", "MeshInfo", "Reordered"),
     "_operator": ("Operator",),
+    "_overlap": (
+        "Pixels",
+        "Remap",
+        "SurfaceAreaInfo",
+        "VolumeInfo",
+        "remap",
+        "surface_area",
+        "volume",
+    ),
     "_plot": ("explain", "plot"),
     "_polygons": ("PolygonHits", "Polygons"),
+    "_prepared": ("map",),
     "_prober": ("NearestPoints", "Prober", "SurfaceSide", "Touches", "TouchState"),
     "_segments": ("Segments",),
+    "_sight": ("SightState", "Sights", "visible"),
     "_star": ("Star", "StarInfo", "direction_to_lonlat", "lonlat_to_direction"),
     "_surface": ("Surface", "SurfaceInfo"),
     "_triangulate": (
@@ -139,18 +161,25 @@ __all__ = [
     "NearestPoints",
     "Operator",
     "OptimumWarning",
+    "Pixels",
     "PolygonHits",
     "Polygons",
     "Prober",
+    "Remap",
+    "Reordered",
     "Segments",
+    "SightState",
+    "Sights",
     "SkippedRingWarning",
     "Star",
     "StarInfo",
     "Surface",
+    "SurfaceAreaInfo",
     "SurfaceInfo",
     "SurfaceSide",
     "TouchState",
     "Touches",
+    "VolumeInfo",
     "Where",
     "__version__",
     "check",
@@ -161,13 +190,18 @@ __all__ = [
     "direction_to_lonlat",
     "explain",
     "lonlat_to_direction",
+    "map",
     "mend",
     "mesh_formats",
     "plot",
     "read",
     "read_constraints",
     "read_points",
+    "remap",
+    "surface_area",
     "triangulate",
+    "visible",
+    "volume",
     "write",
 ]
 

@@ -217,7 +217,7 @@ def lies_in_rows(table: NDArray[Any]) -> bool:
     return table.shape[1] <= 1 or table.strides[1] == table.itemsize
 
 
-def values(given: ArrayLike, name: str, count: int) -> NDArray[Any]:
+def values(given: ArrayLike, name: str, count: int, of: str = "vertices") -> NDArray[Any]:
     """Values at vertices, of any real type, as they are: ``(count, ...)``; masked ones are NaN."""
     array = _as_array(given, name)
     if isinstance(array, np.ma.MaskedArray):
@@ -228,7 +228,7 @@ def values(given: ArrayLike, name: str, count: int) -> NDArray[Any]:
         raise TypeError(f"{name} must be real numbers, not {array.dtype}")
     if array.ndim == 0 or array.shape[0] != count:
         raise ValueError(
-            f"{name} must have a row for each of the {count} vertices; its shape is {array.shape}"
+            f"{name} must have a row for each of the {count} {of}; its shape is {array.shape}"
         )
     return array
 

@@ -10,6 +10,7 @@ TOUCH_LAYOUT: dict[str, int]
 NEAREST_LAYOUT: dict[str, int]
 CHANGED_LAYOUT: dict[str, int]
 PIECE_LAYOUT: dict[str, int]
+SIGHT_LAYOUT: dict[str, int]
 MAX_TRIANGLES: int
 MESH_FORMATS: tuple[str, ...]
 version: str
@@ -39,6 +40,7 @@ class Mesh:
     ) -> None: ...
     def _copy_field(self, name: bytes, out: Buffer, /) -> None: ...
     def _recover(self, values: Buffer, out: Buffer, /) -> None: ...
+    def _hilbert_order(self, triangles: Buffer, vertices: Buffer, /) -> None: ...
     def _describe(self) -> dict[str, Any]: ...
 
 @final
@@ -412,6 +414,88 @@ def write_mesh(
     points: Buffer,
     has_z: bool,
     triangles: Buffer,
+    fields: list[tuple[bytes, Buffer]],
+    triangle_fields: list[tuple[bytes, Buffer]],
+    crs: str | None,
+    progress: Progress | None,
+    /,
+) -> None: ...
+def volume_above(
+    surface: Locator,
+    heights: Buffer,
+    base: float,
+    threads: int,
+    progress: Progress | None,
+    /,
+) -> tuple[float, float, float, float, float, float, float, float, int]: ...
+def volume_between(
+    surface: Locator,
+    heights: Buffer,
+    other: Locator,
+    other_heights: Buffer,
+    threads: int,
+    progress: Progress | None,
+    /,
+) -> tuple[float, float, float, float, float, float, float, float, int]: ...
+def surface_area(
+    surface: Locator,
+    heights: Buffer,
+    region: Locator,
+    threads: int,
+    progress: Progress | None,
+    /,
+) -> tuple[float, float, float, int]: ...
+
+_RawRemap: TypeAlias = tuple[Operator, memoryview, memoryview, memoryview, memoryview, float, float]
+
+def remap_to_mesh(
+    source: Locator,
+    source_cells: Buffer | None,
+    source_count: int,
+    target: Locator,
+    target_cells: Buffer | None,
+    target_count: int,
+    vertices: bool,
+    degrees: bool,
+    covered: bool,
+    threads: int,
+    progress: Progress | None,
+    /,
+) -> _RawRemap: ...
+def remap_to_pixels(
+    source: Locator,
+    source_cells: Buffer | None,
+    source_count: int,
+    pixels: tuple[float, float, float, float, int, int],
+    vertices: bool,
+    degrees: bool,
+    covered: bool,
+    threads: int,
+    progress: Progress | None,
+    /,
+) -> _RawRemap: ...
+def sights(
+    locator: Locator,
+    heights: Buffer,
+    viewpoint: tuple[float, float, float, bool],
+    targets: Buffer,
+    absolute: bool,
+    out: Buffer,
+    progress: Progress | None,
+    /,
+) -> None: ...
+def map_prepared(
+    mesh: type[_Mesh],
+    locator: type[_Locator],
+    path: bytes,
+    trust: bool,
+    threads: int,
+    progress: Progress | None,
+    /,
+) -> tuple[_Locator, dict[str, memoryview], dict[str, memoryview], str | None, int, bool]: ...
+def write_prepared(
+    locator: Locator,
+    path: bytes,
     fields: list[tuple[bytes, Buffer]],
     triangle_fields: list[tuple[bytes, Buffer]],
     crs: str | None,

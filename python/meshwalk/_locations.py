@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-import os
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from meshwalk import _arrays, _core
+from meshwalk import _arrays, _core, _esmf
 from meshwalk._where import Where
 
 if TYPE_CHECKING:
+    import os
+
     from numpy.typing import ArrayLike, NDArray
     from scipy.sparse import csr_array
 
@@ -260,21 +261,9 @@ class Locations:
         >>> hit = meshwalk.Locator(mesh).locate([[1, 1], [4, 0]])
         >>> hit.to_esmf(os.path.join(tempfile.mkdtemp(), "weights.nc"))
         """
-        from scipy.io import netcdf_file
-
         matrix = self.operator().tocoo()
-        with netcdf_file(os.fspath(path), "w", version=2) as file:
-            file.title = "linear interpolation in triangles, by meshwalk"
-            for name, size in (("n_a", matrix.shape[1]), ("n_b", matrix.shape[0])):
-                file.createDimension(name, size)
-            file.createDimension("n_s", matrix.nnz)
-            for name, number in (("row", matrix.row), ("col", matrix.col)):
-                variable = file.createVariable(name, "i4", ("n_s",))
-                variable[:] = number + 1
-                variable.start_index = np.int32(1)
-            file.createVariable("S", "f8", ("n_s",))[:] = matrix.data
-            for name, kind, dimension, values in self._esmf_sides(matrix):
-                file.createVariable(name, kind, (dimension,))[:] = values
+        title = "linear interpolation in triangles, by meshwalk"
+        _esmf.write(path, title, matrix, self._esmf_sides(matrix))
 
     def _esmf_sides(self, matrix: Any) -> list[tuple[str, str, str, Any]]:
         """Tell of columns (a) and rows (b) what readers of ESMF's files want to know."""

@@ -13,6 +13,7 @@ from meshwalk._mesh import Mesh
 from meshwalk._segments import PIECE, Segments
 
 if TYPE_CHECKING:
+    import os
     from typing import Self
 
     from numpy.typing import ArrayLike, NDArray
@@ -212,6 +213,32 @@ class Locator(_core.Locator):
         self._locate(points, records, first, walk, start, tolerance, lanes, threads, progress)
         return Locations(self.mesh, records.reshape(shape))
 
+    def prepare(self, path: str | os.PathLike[str], *, progress: Progress | None = None) -> None:
+        """Write the mesh and this locator to a prepared file (``.mwm``), for `meshwalk.map`.
+
+        The file has the fields and the coordinate system of the mesh; the index of the border, if
+        the locator has one. It appears under its name when it is complete.
+
+        Parameters
+        ----------
+        path : str or path-like
+            The file.
+        progress : callable, optional
+            As of `Locator`.
+
+        Raises
+        ------
+        OSError
+            The file cannot be written.
+        ValueError
+            Pockets and holes of the mesh are open: make the locator with ``fill="yes"``; or the
+            mesh is no embedding.
+        """
+        mesh = self.mesh
+        fields = [(_arrays.field_name(name), v) for name, v in mesh.fields.items()]
+        others = [(_arrays.field_name(name), v) for name, v in mesh.triangle_fields.items()]
+        _core.write_prepared(self, _arrays.path(path), fields, others, mesh.crs, progress)
+
     def _check_tolerance(self, tolerance: float) -> None:
         if tolerance > 0 and not self._options["border"]:
             raise ValueError("a tolerance needs a Locator that was made with border=True")
@@ -337,8 +364,22 @@ class Locator(_core.Locator):
         return f"<Locator of {self.mesh!r}>"
 
     def __reduce__(self) -> tuple[Any, ...]:
+        if self._options.get("mapped"):
+            from meshwalk._prepared import map_again
+
+            assert self.mesh._mapped is not None
+            return map_again, self.mesh._mapped
         return _restore, (type(self), self.mesh, self._options)
 
 
 def _restore(cls: type[Locator], mesh: Mesh, options: dict[str, Any]) -> Locator:
     return cls(mesh, **options)
+
+
+def filled(given: Mesh | Locator, name: str) -> Locator:
+    """The locator itself, or one of a mesh that fills pockets and holes."""
+    if isinstance(given, Mesh):
+        return Locator(given, fill="yes")
+    if isinstance(given, Locator):
+        return given
+    raise TypeError(f"{name} must be a Mesh or a Locator, not {type(given).__name__}")

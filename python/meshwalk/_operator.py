@@ -50,7 +50,7 @@ class Operator:
     array([0.5 , 1.25, 0.25])
     """
 
-    __slots__ = ("_points", "_transposed", "_values", "_weights")
+    __slots__ = ("_columns", "_points", "_transposed", "_values", "_weights")
 
     def __init__(
         self, hit: Locations, threads: int = 0, *, progress: Progress | None = None
@@ -62,6 +62,18 @@ class Operator:
         self._points: tuple[int, ...] = hit.shape
         self._values: tuple[int, ...] = (hit.mesh.vertex_count,)
         self._transposed = False
+        self._columns = "vertices"
+
+    @classmethod
+    def _of(cls, weights: _core.Operator, shape: tuple[int, ...], columns: str) -> Operator:
+        """An operator for results of the shape; `columns` says what its values belong to."""
+        operator = object.__new__(cls)
+        operator._weights = weights
+        operator._points = shape
+        operator._values = (weights.describe()[1],)
+        operator._transposed = False
+        operator._columns = columns
+        return operator
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -86,6 +98,7 @@ class Operator:
         turned._weights = self._weights.transpose(0, None)
         turned._points, turned._values = self._values, self._points
         turned._transposed = not self._transposed
+        turned._columns = self._columns
         return turned
 
     def apply(
@@ -118,7 +131,8 @@ class Operator:
         there = len(self._values)
         if there != 1 and given.shape[:there] == self._values:
             given = given.reshape((-1, *given.shape[there:]))
-        array = _arrays.values(given, "values", self.shape[1])
+        of = "points" if self._transposed else self._columns
+        array = _arrays.values(given, "values", self.shape[1], of)
 
         def apply(table: NDArray[Any], narrow: bool, out: NDArray[Any]) -> None:
             self._weights.apply(
@@ -151,11 +165,11 @@ class Operator:
         rows, columns, entries, *_ = self._weights.describe()
         points, vertices = (columns, rows) if self._transposed else (rows, columns)
         turned = ", transposed" if self._transposed else ""
-        return f"<Operator: {points} points, {vertices} vertices, {entries} weights{turned}>"
+        return f"<Operator: {points} points, {vertices} {self._columns}, {entries} weights{turned}>"
 
     def __reduce__(self) -> tuple[Any, ...]:
         first, column, weight = self._entries()
-        kept = self._points, self._values, self._transposed
+        kept = self._points, self._values, self._transposed, self._columns
         return _restore, (type(self), self.shape, first, column, weight, *kept)
 
 
@@ -168,10 +182,12 @@ def _restore(
     points: tuple[int, ...],
     values: tuple[int, ...],
     transposed: bool,
+    what: str = "vertices",
 ) -> Operator:
     counts = (first[1:] - first[:-1]).astype(np.int64)
     row = np.repeat(np.arange(shape[0], dtype=np.uint32), counts)
     weights = object.__new__(cls)
     weights._weights = _core.operator_from_entries(row, column, weight, *shape)
     weights._points, weights._values, weights._transposed = points, values, transposed
+    weights._columns = what
     return weights

@@ -16,6 +16,7 @@ import pytest
 from test_space import FACETS, OCTAHEDRON
 
 import meshwalk
+from meshwalk import _core
 
 POINTS = np.random.default_rng(7).uniform(size=(400, 2))
 TRIANGLES = meshwalk.delaunay(POINTS).triangles
@@ -63,6 +64,40 @@ def _use_meshes(folder: Path) -> None:
     meshwalk.mend([*SQUARE, [6, 0]], [[0, 1, 2], [2, 3, 0], [0, 5, 2], [0, 0, 9]]).mesh()
     with contextlib.suppress(meshwalk.InputError):
         meshwalk.mend(SQUARE, [[0, 1, 9]], "weld")
+
+
+def _use_overlaps(folder: Path) -> None:
+    first = TRIANGLES[:, 0]
+    mesh = meshwalk.Mesh(POINTS, TRIANGLES, {"z": POINTS[:, 0]}, triangle_fields={"a": first})
+    locator = meshwalk.Locator(mesh, fill="yes")
+    meshwalk.volume(locator, 0.5)
+    meshwalk.volume(mesh, locator)
+    meshwalk.surface_area(locator, locator)
+    for target in (locator, meshwalk.Pixels(0, 1, 0.1, 0.1, 10, 10)):
+        weights = meshwalk.remap(locator, target, source_cells=np.arange(len(mesh)) // 2)
+        _ = pickle.loads(pickle.dumps(weights)), repr(weights), weights.target_fraction
+    seen = meshwalk.visible(locator, [0.5, 0.5], POINTS, 1)
+    _ = seen.visible, seen.obstacle, repr(seen), pickle.loads(pickle.dumps(seen))
+    _ = mesh.reordered()
+    locator.prepare(folder / "mesh.mwm")
+    mapped = meshwalk.map(folder / "mesh.mwm", trust=True)
+    _ = mapped.mesh.fields["z"], pickle.loads(pickle.dumps(mapped)), mapped.locate_one(0.5, 0.5)
+    for failure in (
+        lambda: meshwalk.volume(locator, np.nan),
+        lambda: meshwalk.remap(locator, meshwalk.Pixels(0, 1, 0, 0, 2, 2)),
+        lambda: meshwalk.remap(locator, locator, target_cells=[0]),
+        lambda: meshwalk.visible(locator, [9, 9], POINTS),
+        lambda: meshwalk.map(folder / "none.mwm"),
+        lambda: meshwalk.map(folder / "mesh.ply"),
+        lambda: locator.prepare(folder / "none" / "mesh.mwm"),
+        lambda: _core.sights(locator, POINTS, (0, 0, 0, True), POINTS, True, HINT, None),
+        lambda: _core.remap_to_mesh(
+            *(locator, HINT, 1, locator, None, 0, False, False, False, 0, None)
+        ),
+        lambda: mesh._hilbert_order(HINT, HINT),
+    ):
+        with pytest.raises(Exception):  # noqa: B017, PT011
+            failure()
 
 
 def _use_editors() -> None:
@@ -169,12 +204,14 @@ def _held() -> tuple[int, int]:
 
 
 @pytest.mark.parametrize(
-    "use", [_use_meshes, _use_editors, _use_surfaces, _fail], ids=lambda use: use.__name__[1:]
+    "use",
+    [_use_meshes, _use_overlaps, _use_editors, _use_surfaces, _fail],
+    ids=lambda use: use.__name__[1:],
 )
 def test_nothing_is_left(use: Callable[..., None], tmp_path: Path) -> None:
     if not hasattr(ctypes.CDLL(None), "mallinfo2"):
         pytest.skip("this C library does not tell what its heap holds")
-    arguments = [tmp_path] if use in (_use_meshes, _fail) else []
+    arguments = [tmp_path] if use in (_use_meshes, _use_overlaps, _fail) else []
     rounds = 20
     grown = []
     for _ in range(12):  # caches fill in the first rounds

@@ -225,3 +225,31 @@ def test_values_of_triangles() -> None:
         hit.of_triangles([1, 2, 3])
     with pytest.raises(ValueError, match=r"triangle_fields\['soil'\] must have the shape \(2,\)"):
         meshwalk.Mesh(points, [[0, 1, 2], [0, 2, 3]], triangle_fields={"soil": [1, 2, 3]})
+
+
+def test_reordered(random: np.random.Generator) -> None:
+    points = random.uniform(size=(2000, 3))
+    given = meshwalk.constrained_delaunay(points, [[0, 1]])
+    assert len(given.constrained_edges) == 1
+    soil = np.arange(float(given.triangle_count))
+    plain = meshwalk.Mesh(points, given.triangles, triangle_fields={"soil": soil}, crs="EPSG:2056")
+    mesh, vertices, triangles = plain.reordered()
+    np.testing.assert_array_equal(np.sort(vertices), np.arange(2000))
+    np.testing.assert_array_equal(mesh.points, points[vertices, :2])
+    np.testing.assert_array_equal(vertices[mesh.triangles], plain.triangles[triangles])
+    np.testing.assert_array_equal(mesh.triangle_fields["soil"], triangles)
+    assert mesh.crs == "EPSG:2056"
+    xy = random.uniform(size=(500, 2))
+    before, after = (meshwalk.Locator(m).locate(xy) for m in (plain, mesh))
+    there = after.inside
+    np.testing.assert_array_equal(before.inside, there)
+    np.testing.assert_array_equal(triangles[after.triangle[there]], before.triangle[there])
+    np.testing.assert_array_equal(after.interpolate("z"), before.interpolate("z"))
+    edge = given.reordered()
+    np.testing.assert_array_equal(
+        edge.vertices[edge.mesh.constrained_edges], given.constrained_edges
+    )
+    apart = np.abs(np.diff(mesh.triangles)).mean()
+    assert apart < np.abs(np.diff(plain.triangles)).mean() / 4
+    nothing = meshwalk.Mesh(np.empty((0, 2)), np.empty((0, 3), int)).reordered()
+    assert nothing.mesh.vertex_count == 0
