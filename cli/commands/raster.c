@@ -208,6 +208,23 @@ static int raster_make_grid(const raster_settings *s, const char *path, raster_w
 
 /* --- the raster ------------------------------------------------------------------------------- */
 
+/* Centres of pixels are taken as they are, as the points of all commands. Say so if longitudes that
+ * are counted from another meridian leave out a column of them. */
+static void raster_warn_of_seam(const char *path, const raster_work *w)
+{
+    const raster_grid *g = &w->grid;
+    const double *mesh = w->mesh.extent, east = g->west + g->columns * g->width;
+    for (int turn = -360; turn <= 360; turn += 720) {
+        if (fmin(mesh[2] + turn, east) - fmax(mesh[0] + turn, g->west) <= g->width / 2) continue;
+        complain(
+            "%s: warning: its longitudes are from %g to %g, those of the raster from %g to %g: "
+            "centres of pixels that lie in the mesh with 360 degrees %s have no value; "
+            "--extent lays the pixels over the mesh, --mean finds them as they are",
+            path, mesh[0], mesh[2], g->west, east, turn < 0 ? "more" : "less");
+        return;
+    }
+}
+
 static void raster_warn(const raster_settings *s, const char *path, const raster_work *w)
 {
     const raster_bands *b = &w->bands;
@@ -217,6 +234,7 @@ static void raster_warn(const raster_settings *s, const char *path, const raster
         complain("%s: warning: it is in longitudes and latitudes, so its slopes are heights over "
                  "degrees: bring it to a plane first",
                  path);
+    if (!s->mean && w->mesh.crs && crs_is_lonlat(w->mesh.crs)) raster_warn_of_seam(path, w);
     if (b->filled == 0)
         complain("%s: warning: no pixel has a value: none of their centres lies in the mesh",
                  s->common.output);
@@ -285,7 +303,8 @@ static int raster_print_report(const raster_settings *s, const raster_work *w)
     report_count(&r, "with_value", w->bands.filled);
     report_count(&r, "empty", pixels - w->bands.filled);
     if (s->mean) report_number(&r, "area", w->mean.area);
-    if (s->mean && !s->derive) report_number(&r, "integral", w->mean.integral);
+    if (s->mean && w->bands.bands[0] != BAND_ASPECT)
+        report_number(&r, "integral", w->mean.integral);
     report_number(&r, "nodata", w->bands.nodata);
     report_rounded(&r, "seconds", monotonic_seconds() - w->begin);
     report_end(&r);

@@ -292,7 +292,7 @@ static int greedy_verify(greedy_tin *g, greedy_result *r, const mw_mesh *mesh, g
     raster_scan_take_values(r->scan, mw_mesh_field(mesh, "z"));
     for (uint32_t s = 0; end == 0 && s < raster_scan_strips(r->scan); s++) {
         size_t begin = s * strip, count = pixels - begin < strip ? pixels - begin : strip;
-        raster_scan_strip(r->scan, s, &cursor, values, NULL);
+        raster_scan_strip(r->scan, s, &cursor, &(raster_scan_pixels){.values = values});
         end = greedy_compare(g, begin, count, values, remedy, report);
     }
     free(values);

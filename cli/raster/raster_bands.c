@@ -174,6 +174,27 @@ static void worker_fill_outside(strip_worker *w, uint32_t row, uint32_t rows)
         }
 }
 
+/* Only heights as floats are wanted: the scan makes them in their place. */
+static bool bands_are_rounded(const raster_bands *b)
+{
+    return b->count == 1 && b->bands[0] == BAND_VALUE && b->type == RASTER_FLOAT32 && !b->nearest;
+}
+
+/* Store `nodata` for NaN, and count as raster_bands_store. */
+static void pixels_settle(double nodata, float *pixels, size_t count, uint64_t found[2])
+{
+    const float none = (float)nodata;
+    uint64_t filled = 0, mistakable = 0;
+    for (size_t i = 0; i < count; i++) {
+        bool valued = pixels[i] == pixels[i];
+        filled += valued;
+        mistakable += pixels[i] == none;
+        pixels[i] = valued ? pixels[i] : none;
+    }
+    found[0] += filled;
+    found[1] += mistakable;
+}
+
 /* Replace each triangle by what it has. */
 static void worker_derive(strip_worker *w, raster_band band, size_t count)
 {
@@ -195,8 +216,15 @@ static void worker_do_strip(strip_worker *w, const band_block *block, uint32_t s
     uint32_t rows = b->grid->rows - row < height ? b->grid->rows - row : height;
     size_t count = (size_t)rows * b->grid->columns;
     size_t before = (size_t)(strip - block->first) * height * b->grid->columns;
-    bool valued = b->bands[0] == BAND_VALUE;
-    raster_scan_strip(b->scan, strip, &w->cursor, valued ? w->values : NULL, w->triangles);
+    raster_scan_pixels pixels = {.triangles = w->triangles};
+    if (bands_are_rounded(b)) {
+        pixels.rounded = (float *)(void *)block->pixels[0][0] + before;
+        raster_scan_strip(b->scan, strip, &w->cursor, &pixels);
+        pixels_settle(b->nodata, pixels.rounded, count, w->found);
+        return;
+    }
+    if (b->bands[0] == BAND_VALUE) pixels.values = w->values;
+    raster_scan_strip(b->scan, strip, &w->cursor, &pixels);
     if (b->nearest) worker_fill_outside(w, row, rows);
     for (uint32_t k = 0; k < b->count; k++) {
         if (b->bands[k] != BAND_VALUE) worker_derive(w, b->bands[k], count);
@@ -230,10 +258,11 @@ static void block_work(void *work, uint32_t member)
     size_t count = (size_t)raster_scan_height(b->scan) * b->grid->columns;
     /* GDAL is called by the thread that the program began with: member 0. */
     if (member == 0) block->end_of_writing = block_write(block);
-    w.values = malloc(count * sizeof *w.values);
+    bool doubles = !bands_are_rounded(b);
+    if (doubles) w.values = malloc(count * sizeof *w.values);
     bool wanted = b->bands[0] != BAND_VALUE || b->nearest;
     if (wanted) w.triangles = malloc(count * sizeof *w.triangles);
-    if (w.values && (w.triangles || !wanted) &&
+    if ((w.values || !doubles) && (w.triangles || !wanted) &&
         mw_cursor_init(b->mesh->locator, NULL, &w.cursor, NULL) == MW_OK) {
         for (uint32_t strip; (strip = atomic_fetch_add(&block->next, 1)) < block->end;)
             worker_do_strip(&w, block, strip);

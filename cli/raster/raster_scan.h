@@ -30,11 +30,16 @@ void raster_scan_take_values(raster_scan *s, const double *values);
 uint32_t raster_scan_strips(const raster_scan *s);
 uint32_t raster_scan_height(const raster_scan *s);
 
-/* Rows of a strip, which one thread works on at a time: grid.columns pixels for each row.
- *   result     receives the value of each pixel, NaN where there is none; NULL: not wanted
- *   triangles  receives the triangle of each pixel, MW_NONE where there is none; NULL: not wanted
- * Several threads may scan at a time, each with a cursor of its own of the locator. */
-void raster_scan_strip(const raster_scan *s, uint32_t strip, mw_cursor *cursor, double *result,
-                       uint32_t *triangles);
+/* Where the pixels of a strip go, grid.columns for each row. NULL: not wanted. */
+typedef struct raster_scan_pixels {
+    double *values;      /* NaN where there is none */
+    float *rounded;      /* the same values, rounded; faster than the doubles */
+    uint32_t *triangles; /* MW_NONE where there is none */
+} raster_scan_pixels;
+
+/* Fill the rows of a strip, on one thread. Several threads may scan strips at a time, each with a
+ * cursor of its own of the locator. */
+void raster_scan_strip(const raster_scan *s, uint32_t strip, mw_cursor *cursor,
+                       const raster_scan_pixels *pixels);
 
 #endif

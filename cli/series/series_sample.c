@@ -3,6 +3,8 @@
 #include "cli/frame/message.h"
 #include "cli/frame/progress.h"
 #include "cli/frame/signals.h"
+#include "cli/gdal/crs_heights.h"
+#include "cli/gdal/gdal_crs.h"
 #include "cli/output/csv_row.h"
 #include "cli/series/series_values.h"
 #include "cli/stream/located_points.h"
@@ -16,7 +18,8 @@
 typedef struct series_run {
     const point_query_settings *query_settings;
     const series_settings *settings;
-    const char *output; /* NULL: standard output */
+    const char *output;      /* NULL: standard output */
+    const char *points_path; /* for messages */
     point_query query;
     uint32_t *face;
     size_t face_count;
@@ -196,30 +199,58 @@ static int run_write_fields(series_run *r, mw_point_series *out)
     return end;
 }
 
-static int run_write_netcdf_of(series_run *r, const char **names, const char **units)
+/* What is said of each field. */
+enum { RUN_NAMES, RUN_UNITS, RUN_LONG_NAMES, RUN_STANDARD_NAMES, RUN_LISTS };
+
+static void run_list_texts(const series_run *r, const char **texts)
+{
+    const size_t n = r->choice.field_count;
+    for (size_t k = 0; k < n; k++) {
+        const mw_series_field *field = series_field(&r->choice, k);
+        texts[RUN_NAMES * n + k] = field->name;
+        texts[RUN_UNITS * n + k] = field->unit;
+        texts[RUN_LONG_NAMES * n + k] = field->long_name;
+        texts[RUN_STANDARD_NAMES * n + k] = field->standard_name;
+    }
+}
+
+/* The unit of the points, as UDUNITS spells it: "metre", "US_survey_foot". */
+static bool run_position_unit(const series_run *r, char unit[CRS_UNIT])
+{
+    if (!r->points.crs || !crs_unit(r->points.crs, unit)) return false;
+    for (char *c = unit; *c; c++)
+        if (*c == ' ') *c = '_';
+    return true;
+}
+
+static int run_write_netcdf_of(series_run *r, const char **texts, const char *history)
 {
     mw_error error;
     mw_point_series *out;
+    char unit[CRS_UNIT];
     const bool track = r->settings->time_column;
     const mw_series_info *info = r->choice.info;
-    for (size_t k = 0; k < r->choice.field_count; k++) {
-        names[k] = series_field(&r->choice, k)->name;
-        units[k] = series_field(&r->choice, k)->unit;
-    }
+    const size_t fields = r->choice.field_count;
+    run_list_texts(r, texts);
     const mw_point_series_layout layout = {
         .feature = track ? MW_POINT_TRAJECTORY : MW_POINT_TIME_SERIES,
         .positions = r->points.points,
         .position_stride = r->points.width,
         .point_count = r->points.count,
-        .degrees = r->points.lonlat,
+        .degrees = r->points.crs ? crs_is_lonlat(r->points.crs) : r->points.lonlat,
+        .crs = r->points.crs,
+        .position_unit = run_position_unit(r, unit) ? unit : NULL,
+        .history = history,
         .times = track ? r->points.points + 2 : info->times + r->choice.first,
         .time_stride = track ? r->points.width : 1,
         .time_count = run_steps(r),
         .time_unit = info->time_unit,
         .calendar = info->calendar,
-        .names = names,
-        .units = units,
-        .field_count = r->choice.field_count,
+        .names = texts + RUN_NAMES * fields,
+        .units = texts + RUN_UNITS * fields,
+        .long_names = texts + RUN_LONG_NAMES * fields,
+        .standard_names = texts + RUN_STANDARD_NAMES * fields,
+        .field_count = fields,
         .located = r->points.located};
     if (mw_point_series_open(r->output, &layout, &out, &error) != MW_OK)
         return fail_writing(&error);
@@ -232,12 +263,16 @@ static int run_write_netcdf_of(series_run *r, const char **names, const char **u
 /* By the conventions of CF: the series of stations, or a track. */
 static int run_write_netcdf(series_run *r)
 {
-    const char **names = calloc(r->choice.field_count, sizeof *names),
-               **units = calloc(r->choice.field_count, sizeof *units);
+    const char **texts = calloc(RUN_LISTS * r->choice.field_count, sizeof *texts);
+    text history = {0};
+    text_printf(&history, "meshwalk " MW_VERSION_STRING ": values of %s at the points of %s",
+                r->choice.path, r->points_path);
+    text_bytes(&history, "", 1);
     r->results = malloc(r->points.count * sizeof *r->results + 1);
-    int end = names && units && r->results ? run_write_netcdf_of(r, names, units) : fail_memory();
-    free(names);
-    free(units);
+    int end = texts && r->results && !history.failed ? run_write_netcdf_of(r, texts, history.bytes)
+                                                     : fail_memory();
+    text_release(&history);
+    free(texts);
     return end;
 }
 
@@ -312,6 +347,7 @@ int series_sample(const point_query_settings *query, const series_settings *sett
     series_run r = {.query_settings = &plain, .settings = settings}, *self = &r;
     int end = settings->time ? series_check_time(settings->time) : 0;
     r.output = query->stream.common.output;
+    r.points_path = files_is_standard(operands[1]) ? "standard input" : operands[1];
     if (end == 0) end = run_check_output(&r, operands);
     if (end) return end;
     if (run_is_netcdf(&r)) plain.stream.common.output = NULL;

@@ -15,6 +15,7 @@ void located_points_release(located_points *p)
     free(p->points);
     free(p->located);
     free(p->row_end);
+    free(p->crs);
     text_release(&p->header);
     text_release(&p->rows);
 }
@@ -156,6 +157,7 @@ int located_points_read(located_points *p, const point_query *q, const char *pat
     int end = query_source_open(&source, path, &settings->source, &columns, index);
     if (end == 0) p->lonlat = query_source_is_lonlat(source);
     if (end == 0) end = query_crs_open(&crs, &crs_settings, path, source);
+    if (end == 0 && crs.of_rows && !(p->crs = strdup(crs.of_rows))) end = fail_memory();
     if (end == 0) end = located_points_load(p, source);
     if (end == 0) end = located_points_head(p, source, &columns, index);
     if (end == 0) end = located_points_move(p, &crs, q);

@@ -12,6 +12,7 @@ typedef struct located_points {
     size_t width, count, room;
     size_t where[MW_WHERE_COUNT]; /* how many points are inside, on an edge, ... */
     bool lonlat;                  /* x and y of `points` are called longitude and latitude */
+    char *crs;                    /* the system of `points`; NULL: not known */
     /* If rows are to be written again: names of the answers behind them, set before reading; NULL:
      * rows are not kept. */
     const char *const *answers;

@@ -36,6 +36,13 @@ typedef struct mw_point_series_layout {
     size_t field_count;
     /** the location of each point, whose status is written; NULL: no status */
     const mw_location *located;
+    /** Descriptions of the fields, and their names by CF; "": unknown; NULL: all unknown. A field
+     * without a description is described by its name. */
+    const char *const *long_names, *const *standard_names;
+    const char *crs;           /**< "EPSG:2056" or WKT; NULL: unknown, and WGS 84 for degrees */
+    const char *position_unit; /**< of x and y that are not degrees: "m"; NULL: unknown */
+    const char *title;         /**< of the file; NULL: what the points are */
+    const char *history;       /**< how the file was made; NULL: by this library */
 } mw_point_series_layout;
 
 /** A file that is being written. Opaque. */

@@ -32,9 +32,12 @@ typedef enum mw_series_location {
 /** A field of a series. Texts belong to the series. */
 typedef struct mw_series_field {
     /** "zeta"; "temp:0", "temp:1" ... for the layers or components of a variable that has several,
-     * in the order of the file */
+     * in the order of the file; "hvel:3:0" for a variable of layers and components */
     const char *name;
     const char *unit; /**< "" = the file does not tell */
+    /** As the file describes it, and its name by CF: "sea_surface_height_above_geoid"; "" = the
+     * file does not tell. */
+    const char *long_name, *standard_name;
     mw_series_location location;
     int constant;       /**< 1 = the field does not depend on time; all steps are equal */
     size_t value_count; /**< vertices or faces */
@@ -71,8 +74,8 @@ typedef struct mw_series_options {
  * Open the values over time in a file.
  *
  * netCDF: a variable of numbers over the vertices or faces of the mesh is a field (layouts: see
- * mw_read_mesh()). It may have a time and one further dimension; with that dimension it is one
- * field for each index. Values are unpacked (scale_factor, add_offset).
+ * mw_read_mesh()). It may have a time and two further dimensions; with these it is one field for
+ * each index. Values are unpacked (scale_factor, add_offset).
  *
  * Selafin: every variable. ADCIRC's text: fort.63 has the field "zeta", fort.64 "u-vel" and
  * "v-vel", fort.73 "pressure", fort.74 "windx" and "windy", maxele.63 "zeta_max", maxvel.63

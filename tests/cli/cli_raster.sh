@@ -32,6 +32,10 @@ raw() {
     perl -e 'my ($t, $f) = @ARGV; local $/; open my $h, "<:raw", $f or die; for (unpack "$t*", <$h>) {
         print $_ != $_ || ($t eq "l" && $_ == -1) ? "empty" : sprintf("%.17g", $_), "\n" }' "$@"
 }
+# as_floats: numbers, one a line, rounded to floats; "empty" stays.
+as_floats() {
+    perl -ne 'chomp; print $_ eq "empty" ? $_ : sprintf("%.17g", unpack "f", pack "f", $_), "\n"'
+}
 # as_asked MESH WEST NORTH SIZE COLUMNS ROWS: heights and triangles are those that sample and locate
 # find at the centres.
 as_asked() {
@@ -44,6 +48,10 @@ as_asked() {
         --resolution "$size" --extent "$box"
     exits 0
     holds "the heights of $mesh at $size" same_text <(raw d pixels.img) asked.txt
+    run raster -q "$mesh" -o pixels.img --driver ENVI --resolution "$size" --extent "$box"
+    exits 0
+    holds "the heights of $mesh at $size, rounded to floats" \
+        same_text <(raw f pixels.img) <(as_floats <asked.txt)
     run raster -q "$mesh" -o pixels.img --driver ENVI --derive triangle \
         --resolution "$size" --extent "$box"
     exits 0
@@ -65,6 +73,14 @@ as_asked thin.ply -1 1.001 0.02 90 60
 as_asked utm.ply 500000.3 4200990 7.1 140 140
 as_asked large.ply 0 0 5e198 20 20
 as_asked ring.off -0.25 3.25 0.125 28 28
+# Values that are missing, zeros of both signs, and values beyond and below those of floats.
+perl -e 'srand 10; print "OFF\n144 242 0\n";
+    my @z = (0, "-0", 5, "1e-42", "-1e-44", "1e39", "-2e300", 0.1, "nan", 3);
+    for my $i (0 .. 143) {
+        print 10 * ($i % 12) + rand, " ", 10 * int($i / 12) + rand, " ", $z[rand 10], "\n" }
+    for my $y (0 .. 10) { for my $x (0 .. 10) { my $v = 12 * $y + $x;
+        print "3 $v ", $v + 1, " ", $v + 13, "\n3 $v ", $v + 13, " ", $v + 12, "\n" } }' >values.off
+as_asked values.off 0 110 0.9 122 122
 printf '%s\n' OFF '4 2 0' '0 0 0' '4 0 1' '4 4 7' '0 4 2' '3 0 2 1' '3 0 2 3' >clockwise.off
 as_asked clockwise.off -0.5 4.5 0.25 20 20
 
@@ -190,6 +206,24 @@ for size in 0.9 7 60; do
         --threads 1
     holds 'no mean depends on threads' same_text mean.img all.img
 done
+# The integral of means, also of what is derived: slopes of a plane times its area.
+run raster square.off --mean --derive slope -o mean.tif --resolution 0.25; exits 0
+prints_line '^integral +54\.7356'
+run raster square.off --mean --derive aspect -o mean.tif --resolution 0.25; exits 0
+holds 'no integral of aspects' test -z "$(grep integral "$logs/out")"
+# Longitudes counted from another meridian: means meet, centres do not, and a warning says so.
+printf '%s\n' OFF '4 2 0' '170 -10 1' '190 -10 1' '190 10 1' '170 10 1' \
+    '3 0 1 2' '3 0 2 3' >seam.off
+seam=(seam.off --crs EPSG:4326 --resolution 10 --driver ENVI -o seam.img)
+run raster "${seam[@]}" --extent=-180,-10,180,10; exits 0
+says 'warning: its longitudes are from 170 to 190, .* with 360 degrees more have no value'
+prints_line '^with value +2$'
+run raster "${seam[@]}" --extent=-180,-10,180,10 --mean; exits 0
+says_nothing
+prints_line '^with value +4$'
+run raster "${seam[@]}" --extent=160,-10,200,10; exits 0
+says_nothing
+
 # Half a pixel is covered: the mean over that half. A corner without a value: none.
 printf '%s\n' OFF '4 2 0' '0 0 1' '1 0 1' '0 1 4' '-1 0 nan' '3 0 1 2' '3 0 2 3' >half.off
 run raster half.off --mean -o mean.img --driver ENVI --type float64 --resolution 1; exits 0

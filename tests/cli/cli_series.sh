@@ -59,6 +59,8 @@ run sample flow.nc points.csv --time 0 --strict -q; exits 1
 run sample flow.nc points.csv --time all -o series.nc -q; exits 0; says_nothing
 run sample flow.nc points.csv --time-column t -o track.nc -q; exits 0; says_nothing
 holds "netCDF files" test "$(head -c 4 series.nc track.nc | grep -c HDF)" == 2
+holds "they say how they were made" \
+    grep -aq 'meshwalk [0-9.]*: values of flow.nc at the points of points.csv' series.nc
 run sample flow.nc points.csv --time all --status -o other.nc; refused 2 '--status is for tables'
 run sample flow.nc points.csv --time all --wide -o other.nc; refused 2 '--wide is for tables'
 run sample flow.nc points.csv --time all -q -o none/other.nc; refused 4 'none/other.nc: '

@@ -11,6 +11,7 @@
 
 #include <math.h>
 #include <meshwalk/point_series.h>
+#include <meshwalk/version.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -45,7 +46,7 @@ static void expect_numbers(const mw_netcdf *file, const char *name, size_t rank,
                            const double *want)
 {
     double got[6];
-    const size_t starts[2] = {0, 0}, counts[2] = {rows, 2};
+    const size_t starts[2] = {0, 0}, counts[2] = {rank == 2 ? 2 : rows, rows};
     const mw_netcdf_variable *v = mw__netcdf_find(file, name);
     if (!v || v->rank != rank) fail_msg("%s", name);
     assert_int_equal(mw__netcdf_doubles(file, v, starts, counts, got, NULL), MW_OK);
@@ -93,8 +94,8 @@ static void test_time_series(void **state)
     expect_numbers(file, "lat", 1, 2, (double[]){2, 4});
     expect_numbers(file, "station_id", 1, 2, (double[]){0, 1});
     expect_numbers(file, "status", 1, 2, (double[]){MW_INSIDE, MW_OUTSIDE});
-    expect_numbers(file, "zeta", 2, 3, (double[]){0, NAN, 10, NAN, 20, NAN});
-    expect_numbers(file, "temp_0", 2, 3, (double[]){1, NAN, 11, NAN, 21, NAN});
+    expect_numbers(file, "zeta", 2, 3, (double[]){0, 10, 20, NAN, NAN, NAN});
+    expect_numbers(file, "temp_0", 2, 3, (double[]){1, 11, 21, NAN, NAN, NAN});
     expect_text(file, NULL, "featureType", "timeSeries");
     expect_text(file, "station_id", "cf_role", "timeseries_id");
     expect_text(file, "time", "units", "hours since 2020-01-01");
@@ -102,6 +103,12 @@ static void test_time_series(void **state)
     expect_text(file, "zeta", "units", "m");
     expect_text(file, "zeta", "coordinates", "time lat lon");
     expect_text(file, "temp_0", "long_name", "temp:0");
+    expect_text(file, "zeta", "long_name", "zeta");
+    expect_text(file, "zeta", "grid_mapping", "crs");
+    expect_text(file, "crs", "grid_mapping_name", "latitude_longitude");
+    expect_text(file, "status", "flag_meanings", "inside edge vertex outside hole near bad");
+    expect_text(file, NULL, "title", "Values over time at points");
+    expect_text(file, NULL, "history", "meshwalk " MW_VERSION_STRING);
     mw__netcdf_close(file);
     files_clear();
 }
@@ -116,11 +123,24 @@ static void test_trajectory(void **state)
     layout.time_stride = 3;
     layout.degrees = 0;
     layout.located = NULL;
+    layout.crs = "PROJCS[\"made up\"]";
+    layout.position_unit = "metre";
+    layout.long_names = (const char *const[]){"water level", ""};
+    layout.standard_names = (const char *const[]){"sea_surface_height_above_geoid", NULL};
+    layout.title = "a ship";
+    layout.history = "by hand";
     mw_netcdf *file = series_write_and_open(&layout, 1);
     expect_numbers(file, "time", 1, 2, (double[]){0.5, 1.5});
     expect_numbers(file, "x", 1, 2, (double[]){1, 3});
     expect_numbers(file, "zeta", 1, 2, (double[]){0, NAN});
     expect_text(file, NULL, "featureType", "trajectory");
+    expect_text(file, "x", "units", "metre");
+    expect_text(file, "crs", "crs_wkt", "PROJCS[\"made up\"]");
+    expect_text(file, "zeta", "long_name", "water level");
+    expect_text(file, "zeta", "standard_name", "sea_surface_height_above_geoid");
+    expect_text(file, "temp_0", "long_name", "temp:0");
+    expect_text(file, NULL, "title", "a ship");
+    expect_text(file, NULL, "history", "by hand");
     expect_text(file, "trajectory", "cf_role", "trajectory_id");
     assert_null(mw__netcdf_find(file, "status"));
     mw__netcdf_close(file);

@@ -68,6 +68,9 @@ static void write_model(const char *path, model m)
     mw__netcdf_output_text(output, t, "units", "hours since 2020-01-01");
     if (m.calendar) mw__netcdf_output_text(output, t, "calendar", m.calendar);
     mw__netcdf_output_text(output, zeta, "units", "m");
+    mw__netcdf_output_text(output, zeta, "long_name", "water level");
+    mw__netcdf_output_text(output, zeta, "standard_name", "sea_surface_height_above_geoid");
+    mw__netcdf_output_text(output, speed, "long_name", "speed of the water");
     mw__netcdf_output_number(output, zeta, "_FillValue", MW_NETCDF_FLOAT, -99999);
     mw__netcdf_output_number(output, speed, "scale_factor", MW_NETCDF_DOUBLE, 0.25);
     mw__netcdf_output_defined(output);
@@ -122,6 +125,10 @@ static void test_fields(void **state)
     assert_int_equal(info->field_count, 4);
     assert_string_equal(info->fields[0].name, "zeta");
     assert_string_equal(info->fields[0].unit, "m");
+    assert_string_equal(info->fields[0].long_name, "water level");
+    assert_string_equal(info->fields[0].standard_name, "sea_surface_height_above_geoid");
+    assert_string_equal(info->fields[2].long_name, "speed of the water, layer 1");
+    assert_string_equal(info->fields[2].standard_name, "");
     assert_int_equal(info->fields[0].location, MW_SERIES_VERTEX);
     assert_int_equal(info->fields[1].location, MW_SERIES_FACE);
     assert_int_equal(info->fields[3].constant, 1);

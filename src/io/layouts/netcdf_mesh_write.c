@@ -1,5 +1,6 @@
 /* A mesh as UGRID 1.0 in netCDF-4, with its fields and its coordinate system as a CF grid
  * mapping. */
+#include "io/layouts/crs_define.h"
 #include "io/layouts/netcdf_mesh.h"
 #include "io/mesh/face_fan.h"
 #include "io/netcdf/netcdf_output.h"
@@ -27,17 +28,9 @@ typedef struct mesh_writing {
     int *fields; /* those of the vertices, then those of the triangles */
 } mesh_writing;
 
-static bool crs_is_lonlat(const char *crs)
-{
-    static const char *const begins[] = {"EPSG:4326", "GEOGCS", "GEOGCRS", "GEODCRS"};
-    for (size_t k = 0; crs && k < sizeof begins / sizeof *begins; k++)
-        if (strncmp(crs, begins[k], strlen(begins[k])) == 0) return true;
-    return false;
-}
-
 static void write_axis(const mesh_writing *w, int variable, const char *side, const char *name)
 {
-    bool lonlat = crs_is_lonlat(w->file->crs);
+    bool lonlat = mw__crs_is_lonlat(w->file->crs);
     char unit[32], standard[48];
     bool x = strcmp(name, "x") == 0;
     snprintf(unit, sizeof unit, "degrees_%s", side);
@@ -50,23 +43,6 @@ static void write_axis(const mesh_writing *w, int variable, const char *side, co
     mw__netcdf_output_text(w->output, variable, "mesh", "mesh2d");
     mw__netcdf_output_text(w->output, variable, "location", "node");
     if (w->crs >= 0) mw__netcdf_output_text(w->output, variable, "grid_mapping", "crs");
-}
-
-static void write_define_crs(mesh_writing *w)
-{
-    const char *crs = w->file->crs;
-    w->crs = -1;
-    if (!crs) return;
-    w->crs = mw__netcdf_output_variable(w->output, "crs", MW_NETCDF_INT, 0, NULL);
-    if (strncmp(crs, "EPSG:", 5) == 0) {
-        mw__netcdf_output_text(w->output, w->crs, "epsg_code", crs);
-        mw__netcdf_output_number(w->output, w->crs, "epsg", MW_NETCDF_INT, (double)atoi(crs + 5));
-    } else {
-        mw__netcdf_output_text(w->output, w->crs, "crs_wkt", crs);
-        mw__netcdf_output_text(w->output, w->crs, "spatial_ref", crs);
-    }
-    if (crs_is_lonlat(crs))
-        mw__netcdf_output_text(w->output, w->crs, "grid_mapping_name", "latitude_longitude");
 }
 
 static void write_define_mesh(mesh_writing *w)
@@ -278,7 +254,7 @@ mw_status mw__write_netcdf(const char *path, const mw_mesh_file *file, mw_job *j
     mw_status status = mw__netcdf_output_open(path, &w.output, error);
     if (!status) {
         mw__netcdf_output_text(w.output, MW_NETCDF_OUTPUT_FILE, "Conventions", "CF-1.8 UGRID-1.0");
-        write_define_crs(&w);
+        w.crs = mw__crs_define(w.output, file->crs);
         write_define_mesh(&w);
         write_define_fields(&w);
         mw__netcdf_output_defined(w.output);

@@ -17,6 +17,7 @@ enum {
     NETCDF_READ = 0,           /* NC_NOWRITE */
     NETCDF_VERSION_4 = 0x1000, /* NC_NETCDF4 */
     NETCDF_NO_FILL = 0x100,    /* NC_NOFILL */
+    NETCDF_CHUNKED = 0,        /* NC_CHUNKED */
     NETCDF_GLOBAL = -1,        /* NC_GLOBAL: attributes of the file */
     NETCDF_NO_ATTRIBUTE = -43, /* NC_ENOTATT */
     NETCDF_OUT_OF_RANGE = -60, /* NC_ERANGE */
@@ -52,6 +53,7 @@ enum {
     F(nc_def_dim, int, (int, const char *, size_t, int *))                                         \
     F(nc_def_var, int, (int, const char *, int, int, const int *, int *))                          \
     F(nc_def_var_deflate, int, (int, int, int, int, int))                                          \
+    F(nc_def_var_chunking, int, (int, int, int, const size_t *))                                   \
     F(nc_put_att_text, int, (int, int, const char *, size_t, const char *))                        \
     F(nc_put_att_double, int, (int, int, const char *, int, size_t, const double *))               \
     F(nc_enddef, int, (int))                                                                       \

@@ -116,9 +116,16 @@ void mw__netcdf_output_text(mw_netcdf_output *output, int variable, const char *
 void mw__netcdf_output_number(mw_netcdf_output *output, int variable, const char *attribute,
                               mw_netcdf_type type, double value)
 {
+    mw__netcdf_output_list(output, variable, attribute, type, 1, &value);
+}
+
+void mw__netcdf_output_list(mw_netcdf_output *output, int variable, const char *attribute,
+                            mw_netcdf_type type, size_t count, const double *values)
+{
     if (output->code) return;
     mw__netcdf_lock(&output->nc);
-    int code = output->nc.nc_put_att_double(output->id, variable, attribute, (int)type, 1, &value);
+    int code =
+        output->nc.nc_put_att_double(output->id, variable, attribute, (int)type, count, values);
     mw__netcdf_unlock();
     netcdf_output_note(output, code, "attribute", attribute);
 }
@@ -130,6 +137,15 @@ void mw__netcdf_output_pack(mw_netcdf_output *output, int variable, int level)
     int code = output->nc.nc_def_var_deflate(output->id, variable, 1, 1, level);
     mw__netcdf_unlock();
     netcdf_output_note(output, code, "packing", "");
+}
+
+void mw__netcdf_output_chunks(mw_netcdf_output *output, int variable, const size_t *lengths)
+{
+    if (output->code) return;
+    mw__netcdf_lock(&output->nc);
+    int code = output->nc.nc_def_var_chunking(output->id, variable, NETCDF_CHUNKED, lengths);
+    mw__netcdf_unlock();
+    netcdf_output_note(output, code, "chunks", "");
 }
 
 void mw__netcdf_output_defined(mw_netcdf_output *output)

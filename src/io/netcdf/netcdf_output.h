@@ -29,8 +29,12 @@ void mw__netcdf_output_text(mw_netcdf_output *output, int variable, const char *
                             const char *text);
 void mw__netcdf_output_number(mw_netcdf_output *output, int variable, const char *attribute,
                               mw_netcdf_type type, double value);
+void mw__netcdf_output_list(mw_netcdf_output *output, int variable, const char *attribute,
+                            mw_netcdf_type type, size_t count, const double *values);
 /* Pack the values of a variable by zlib: 1 (quick) to 9. */
 void mw__netcdf_output_pack(mw_netcdf_output *output, int variable, int level);
+/* Store a variable in chunks of so many values along each dimension. */
+void mw__netcdf_output_chunks(mw_netcdf_output *output, int variable, const size_t *lengths);
 /* After the last definition, before the first value. */
 void mw__netcdf_output_defined(mw_netcdf_output *output);
 

@@ -67,10 +67,11 @@ static mw_status adcirc_add_to_part(const adcirc_file *a, size_t name, mw_series
         snprintf(numbered, sizeof numbered, "%s", adcirc_names[name].names[k < 2 ? k : 1]);
         if (k > 0 && strcmp(adcirc_names[name].names[0], adcirc_names[name].names[1]) == 0)
             snprintf(numbered, sizeof numbered, "%s:%" PRId64, adcirc_names[name].names[0], k);
-        status = mw__series_part_add(
-            part, numbered, "",
-            (mw_series_field){.location = MW_SERIES_VERTEX, .value_count = (size_t)a->vertices},
-            error);
+        status = mw__series_part_add(part,
+                                     (mw_series_field){.name = numbered,
+                                                       .location = MW_SERIES_VERTEX,
+                                                       .value_count = (size_t)a->vertices},
+                                     error);
     }
     part->time_unit = strdup("seconds");
     return !status && !part->time_unit ? mw__fail_memory(error) : status;

@@ -7,13 +7,22 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* A time, the vertices or faces, and two others. */
+enum { MOST_DIMENSIONS = 4 };
+
 /* Where the values of a field stand in its variable: the numbers of dimensions. */
 typedef struct netcdf_axes {
     const mw_netcdf_variable *variable;
     mw_netcdf_packing packing;
-    int time, layer, values; /* -1: no such dimension */
-    size_t layer_index;
+    int time, values;   /* -1: no such dimension */
+    int layer[2];       /* the other dimensions: layers and components, as SCHISM has them */
+    size_t layer_at[2]; /* the index in each of them, 0 if there is none */
 } netcdf_axes;
+
+/* What a file says of a variable; NULL: nothing. */
+typedef struct netcdf_texts {
+    char *unit, *long_name, *standard_name;
+} netcdf_texts;
 
 typedef struct netcdf_content {
     mw_netcdf *file;
@@ -86,59 +95,125 @@ static mw_status netcdf_series_dimensions(netcdf_content *c, const mw_series_opt
 static bool netcdf_series_axes(const netcdf_content *c, const mw_netcdf_variable *variable,
                                netcdf_axes *axes)
 {
-    *axes = (netcdf_axes){.variable = variable, .time = -1, .layer = -1, .values = -1};
-    if (variable->rank > 3 || variable->type == MW_NETCDF_CHAR ||
+    *axes = (netcdf_axes){.variable = variable, .time = -1, .layer = {-1, -1}, .values = -1};
+    if (variable->rank > MOST_DIMENSIONS || variable->type == MW_NETCDF_CHAR ||
         variable->type >= MW_NETCDF_STRING || variable == c->layout.x || variable == c->layout.y ||
         variable == c->layout.corners || variable == c->layout.counts)
         return false;
     for (int k = 0; k < (int)variable->rank; k++) {
         int d = variable->dimensions[k];
         bool values = d >= 0 && (d == c->vertex_dimension || d == c->face_dimension);
-        int *role = d == c->time_dimension ? &axes->time : values ? &axes->values : &axes->layer;
+        int *role = d == c->time_dimension ? &axes->time
+                    : values               ? &axes->values
+                    : axes->layer[0] < 0   ? &axes->layer[0]
+                                           : &axes->layer[1];
         if (*role >= 0) return false;
         *role = k;
     }
     /* tables of numbers of vertices and of faces are constant, and have several a face */
-    bool table = axes->time < 0 && axes->layer >= 0 && variable->type != MW_NETCDF_FLOAT &&
+    bool table = axes->time < 0 && axes->layer[0] >= 0 && variable->type != MW_NETCDF_FLOAT &&
                  variable->type != MW_NETCDF_DOUBLE;
     return axes->values >= 0 && !table;
 }
 
+/* How many indices a dimension has; 1 if there is no such dimension. */
+static size_t netcdf_layer_count(const netcdf_axes *axes, int k)
+{
+    return axes->layer[k] >= 0 ? axes->variable->lengths[axes->layer[k]] : 1;
+}
+
+/* "temperature, siglay 3", allocated; NULL if the file has no text. False: there is no memory. */
+static bool netcdf_series_long_name(const netcdf_content *c, const netcdf_axes *axes,
+                                    const char *text, char **out)
+{
+    *out = NULL;
+    if (!text || !*text) return true;
+    size_t size = strlen(text) + 2 * (MW_NETCDF_NAME + 32), used = strlen(text);
+    *out = mw__alloc(size, 1);
+    if (!*out) return false;
+    memcpy(*out, text, used + 1);
+    for (int k = 0; k < 2; k++) {
+        if (netcdf_layer_count(axes, k) < 2) continue;
+        const int layer = axes->variable->dimensions[axes->layer[k]];
+        used += (size_t)snprintf(*out + used, size - used, ", %s %zu",
+                                 mw__netcdf_dimension_at(c->file, layer, NULL), axes->layer_at[k]);
+    }
+    return true;
+}
+
+/* "temp", "temp:3" of several layers, "hvel:3:0" of several layers and components. */
+static void netcdf_series_name(const netcdf_axes *axes, char *name, size_t size)
+{
+    int used = snprintf(name, size, "%s", axes->variable->name);
+    for (int k = 0; k < 2; k++)
+        if (netcdf_layer_count(axes, k) > 1)
+            used += snprintf(name + used, size - (size_t)used, ":%zu", axes->layer_at[k]);
+}
+
 static mw_status netcdf_series_field(netcdf_content *c, mw_series_part *part,
-                                     const netcdf_axes *axes, const char *unit, mw_error *error)
+                                     const netcdf_axes *axes, const netcdf_texts *texts,
+                                     mw_error *error)
 {
     const mw_netcdf_variable *variable = axes->variable;
-    char name[MW_NETCDF_NAME + 24];
+    char name[MW_NETCDF_NAME + 48], *long_name;
     netcdf_axes *axes_of = mw__realloc(c->axes_of, part->field_count + 1, sizeof *axes_of);
     if (!axes_of) return mw__fail_memory(error);
     c->axes_of = axes_of;
     axes_of[part->field_count] = *axes;
-    bool layers = axes->layer >= 0 && variable->lengths[axes->layer] > 1;
-    snprintf(name, sizeof name, layers ? "%s:%zu" : "%s", variable->name, axes->layer_index);
-    mw_series_field field = {.location = variable->dimensions[axes->values] == c->vertex_dimension
+    netcdf_series_name(axes, name, sizeof name);
+    if (!netcdf_series_long_name(c, axes, texts->long_name, &long_name))
+        return mw__fail_memory(error);
+    mw_series_field field = {.name = name,
+                             .unit = texts->unit,
+                             .long_name = long_name,
+                             .standard_name = texts->standard_name,
+                             .location = variable->dimensions[axes->values] == c->vertex_dimension
                                              ? MW_SERIES_VERTEX
                                              : MW_SERIES_FACE,
                              .constant = axes->time < 0,
                              .value_count = variable->lengths[axes->values]};
-    return mw__series_part_add(part, name, unit, field, error);
+    mw_status status = mw__series_part_add(part, field, error);
+    free(long_name);
+    return status;
+}
+
+/* What the file says of a variable. Release them in any case. */
+static mw_status netcdf_series_texts(const netcdf_content *c, const mw_netcdf_variable *variable,
+                                     netcdf_texts *texts, mw_error *error)
+{
+    *texts = (netcdf_texts){0};
+    mw_status status = mw__netcdf_text(c->file, variable, "units", &texts->unit, error);
+    if (!status && !texts->unit)
+        status = mw__netcdf_text(c->file, variable, "unit", &texts->unit, error);
+    if (!status) status = mw__netcdf_text(c->file, variable, "long_name", &texts->long_name, error);
+    return status
+               ? status
+               : mw__netcdf_text(c->file, variable, "standard_name", &texts->standard_name, error);
+}
+
+static void netcdf_texts_release(netcdf_texts *texts)
+{
+    free(texts->unit);
+    free(texts->long_name);
+    free(texts->standard_name);
 }
 
 static mw_status netcdf_series_variable(netcdf_content *c, mw_series_part *part, netcdf_axes *axes,
                                         mw_error *error)
 {
     enum { MOST_LAYERS = 4096 };
-    char *unit;
+    netcdf_texts texts;
     if (mw__netcdf_check_size(c->file, axes->variable, error)) return MW_ERROR_INPUT;
-    size_t layers = axes->layer >= 0 ? axes->variable->lengths[axes->layer] : 1;
-    if (layers > MOST_LAYERS) return MW_OK;
-    mw_status status = mw__netcdf_text(c->file, axes->variable, "units", &unit, error);
-    if (!status && !unit) status = mw__netcdf_text(c->file, axes->variable, "unit", &unit, error);
+    const size_t outer = netcdf_layer_count(axes, 0), inner = netcdf_layer_count(axes, 1);
+    if (outer > MOST_LAYERS || inner > MOST_LAYERS || outer * inner > MOST_LAYERS) return MW_OK;
+    mw_status status = netcdf_series_texts(c, axes->variable, &texts, error);
     axes->packing = mw__netcdf_packing(c->file, axes->variable);
-    for (size_t k = 0; k < layers && !status; k++) {
-        axes->layer_index = k;
-        status = netcdf_series_field(c, part, axes, unit, error);
+    for (size_t k = 0; k < outer * inner && !status; k++) {
+        axes->layer_at[0] = k / inner;
+        axes->layer_at[1] = k % inner;
+        status = netcdf_series_field(c, part, axes, &texts, error);
     }
-    free(unit);
+    netcdf_texts_release(&texts);
     return status;
 }
 
@@ -174,9 +249,10 @@ static mw_status netcdf_series_read(void *content, size_t field, size_t step, do
     const netcdf_content *c = content;
     const netcdf_axes *axes = &c->axes_of[field];
     const mw_netcdf_variable *variable = axes->variable;
-    size_t starts[3] = {0}, counts[3] = {1, 1, 1};
+    size_t starts[MOST_DIMENSIONS] = {0}, counts[MOST_DIMENSIONS] = {1, 1, 1, 1};
     if (axes->time >= 0) starts[axes->time] = step;
-    if (axes->layer >= 0) starts[axes->layer] = axes->layer_index;
+    for (int k = 0; k < 2; k++)
+        if (axes->layer[k] >= 0) starts[axes->layer[k]] = axes->layer_at[k];
     counts[axes->values] = variable->lengths[axes->values];
     mw_status status = mw__netcdf_doubles(c->file, variable, starts, counts, values, error);
     if (!status) mw__netcdf_unpack(&axes->packing, values, counts[axes->values]);

@@ -1,6 +1,7 @@
 #include "io/series/netcdf_times.h"
 
 #include "io/netcdf/netcdf_values.h"
+#include "io/series/time_dates.h"
 #include "io/series/time_texts.h"
 
 #include <math.h>
@@ -79,7 +80,7 @@ static mw_status netcdf_times_calendar(const mw_netcdf *file, const mw_netcdf_va
 }
 
 /* FVCOM writes times as floats, which tell minutes at best, and beside them whole days and
- * milliseconds. */
+ * milliseconds, or the times as text. */
 static mw_status netcdf_times_exact(const mw_netcdf *file, const mw_netcdf_variable *axis,
                                     mw_series_part *part, mw_error *error)
 {
@@ -88,8 +89,11 @@ static mw_status netcdf_times_exact(const mw_netcdf *file, const mw_netcdf_varia
     const mw_netcdf_variable *parts = mw__netcdf_find(file, "Itime2");
     char *unit;
     if (axis->type != MW_NETCDF_FLOAT || !days || !parts || days->rank != 1 || parts->rank != 1 ||
-        days->dimensions[0] != axis->dimensions[0] || parts->dimensions[0] != axis->dimensions[0])
-        return MW_OK;
+        days->dimensions[0] != axis->dimensions[0] || parts->dimensions[0] != axis->dimensions[0]) {
+        const mw_netcdf_variable *texts =
+            axis->type == MW_NETCDF_FLOAT ? mw__time_texts_find(file, axis->dimensions[0]) : NULL;
+        return texts ? mw__time_texts_refine(file, texts, part, error) : MW_OK;
+    }
     mw_status status = mw__netcdf_text(file, days, "units", &unit, error);
     bool same = !status && unit && part->time_unit && strcmp(unit, part->time_unit) == 0;
     free(unit);
@@ -102,6 +106,64 @@ static mw_status netcdf_times_exact(const mw_netcdf *file, const mw_netcdf_varia
         part->times[s] += rest[s] / milliseconds_a_day;
     free(rest);
     return status;
+}
+
+/* The date of 20120131.25. False: it is none. */
+static bool netcdf_times_date(double time, mw_date *date)
+{
+    if (!(time >= 101 && time < 1e8)) return false;
+    const int64_t day = (int64_t)time;
+    *date = (mw_date){.year = day / 10000, .month = day / 100 % 100, .day = day % 100};
+    date->second = (time - (double)day) * 86400;
+    return date->month >= 1 && date->month <= 12 && date->day >= 1 && date->day <= 31;
+}
+
+/* ICON tells dates as numbers, of which those of months do not follow one another: they become days
+ * since the first. */
+static mw_status netcdf_times_of_dates(const mw_netcdf *file, const mw_netcdf_variable *axis,
+                                       mw_series_part *part, mw_error *error)
+{
+    mw_calendar calendar;
+    mw_date first = {0}, date;
+    char unit[MW_TIME_UNIT];
+    if (!part->time_unit || strcmp(part->time_unit, "day as %Y%m%d.%f") != 0) return MW_OK;
+    if (!mw__calendar_find(part->calendar, &calendar))
+        return mw__netcdf_fail(file, axis, error, "dates of the calendar '%.80s' are not known",
+                               part->calendar);
+    for (size_t s = 0; s < part->step_count; s++) {
+        if (!netcdf_times_date(part->times[s], &date))
+            return mw__netcdf_fail(file, axis, error,
+                                   "step %zu: %.17g is not a date such as "
+                                   "20120131.25",
+                                   s, part->times[s]);
+        if (s == 0) first = (mw_date){.year = date.year, .month = date.month, .day = date.day};
+        part->times[s] =
+            (double)(mw__date_days(&date, calendar) - mw__date_days(&first, calendar)) +
+            date.second / 86400;
+    }
+    mw__date_unit("days", &first, unit);
+    free(part->time_unit);
+    part->time_unit = strdup(unit);
+    return part->time_unit ? MW_OK : mw__fail_memory(error);
+}
+
+/* ANUGA counts seconds from an attribute of the file, which counts them from 1970. */
+static mw_status netcdf_times_of_anuga(const mw_netcdf *file, const mw_netcdf_variable *axis,
+                                       mw_series_part *part, mw_error *error)
+{
+    double start;
+    char unit[MW_TIME_UNIT] = "seconds";
+    if (part->time_unit || !mw__netcdf_find(file, "volumes") || strcmp(axis->name, "time") != 0)
+        return MW_OK;
+    if (mw__netcdf_number(file, MW_NETCDF_FILE, "starttime", &start) && start >= 0 &&
+        start < 1e11) {
+        const mw_date since = mw__date_after_1970((int64_t)start);
+        const double part_of_second = start - floor(start);
+        mw__date_unit("seconds", &since, unit);
+        for (size_t s = 0; s < part->step_count; s++) part->times[s] += part_of_second;
+    }
+    part->time_unit = strdup(unit);
+    return part->time_unit ? MW_OK : mw__fail_memory(error);
 }
 
 static mw_status netcdf_times_check(const mw_netcdf *file, const mw_netcdf_variable *axis,
@@ -139,5 +201,7 @@ mw_status mw__netcdf_times(const mw_netcdf *file, int dimension, mw_series_part 
     if (!status) status = netcdf_times_calendar(file, axis, part, error);
     if (!status) status = mw__netcdf_column(file, axis, part->times, error);
     if (!status) status = netcdf_times_exact(file, axis, part, error);
+    if (!status) status = netcdf_times_of_dates(file, axis, part, error);
+    if (!status) status = netcdf_times_of_anuga(file, axis, part, error);
     return status ? status : netcdf_times_check(file, axis, part, error);
 }

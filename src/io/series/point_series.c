@@ -1,9 +1,14 @@
 /* point_series.c - values over time at points, as CF has them [CF 1.8, chapter 9 and appendix H]:
- * time series in the orthogonal multidimensional form, or a single trajectory. */
+ * time series in the orthogonal multidimensional form, or a single trajectory.
+ *
+ * The dimensions of a time series are (station, time), as CF recommends, but values come step by
+ * step. So a field is stored in chunks of many stations and few steps. */
+#include "io/layouts/crs_define.h"
 #include "io/netcdf/netcdf_output.h"
 
 #include <math.h>
 #include <meshwalk/point_series.h>
+#include <meshwalk/version.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -14,9 +19,9 @@ struct mw_point_series {
     int *variable; /* of each field */
 };
 
-/* Variables beside the fields. */
+/* Variables beside the fields; crs: -1 if there is none. */
 typedef struct series_axes {
-    int time, x, y, status, id;
+    int time, x, y, status, id, crs;
 } series_axes;
 
 static void text_if_known(mw_point_series *s, int variable, const char *attribute, const char *text)
@@ -30,27 +35,40 @@ static void series_define_place(mw_point_series *s, int variable, const char *na
                                 const char *unit, const char *axis)
 {
     mw__netcdf_output_text(s->file, variable, "standard_name", name);
-    if (unit) mw__netcdf_output_text(s->file, variable, "units", unit);
+    text_if_known(s, variable, "units", unit);
     mw__netcdf_output_text(s->file, variable, "axis", axis);
+}
+
+/* x, or y. */
+static int series_define_side(mw_point_series *s, const mw_point_series_layout *layout, int point,
+                              bool y)
+{
+    const bool degrees = layout->degrees;
+    static const char *const names[] = {"x", "y", "lon", "lat"},
+                             *const standard[] = {"projection_x_coordinate",
+                                                  "projection_y_coordinate", "longitude",
+                                                  "latitude"},
+                             *const units[] = {"degrees_east", "degrees_north"};
+    const int k = (degrees ? 2 : 0) + (y ? 1 : 0);
+    const int variable = mw__netcdf_output_variable(s->file, names[k], MW_NETCDF_DOUBLE, 1, &point);
+    series_define_place(s, variable, standard[k], degrees ? units[y] : layout->position_unit,
+                        y ? "Y" : "X");
+    return variable;
 }
 
 static void series_define_axes(mw_point_series *s, const mw_point_series_layout *layout, int time,
                                int point, series_axes *axes)
 {
-    const bool degrees = layout->degrees;
     axes->time = mw__netcdf_output_variable(s->file, "time", MW_NETCDF_DOUBLE, 1, &time);
     mw__netcdf_output_text(s->file, axes->time, "standard_name", "time");
     mw__netcdf_output_text(s->file, axes->time, "axis", "T");
     text_if_known(s, axes->time, "units", layout->time_unit);
     text_if_known(s, axes->time, "calendar", layout->calendar);
-    axes->x =
-        mw__netcdf_output_variable(s->file, degrees ? "lon" : "x", MW_NETCDF_DOUBLE, 1, &point);
-    axes->y =
-        mw__netcdf_output_variable(s->file, degrees ? "lat" : "y", MW_NETCDF_DOUBLE, 1, &point);
-    series_define_place(s, axes->x, degrees ? "longitude" : "projection_x_coordinate",
-                        degrees ? "degrees_east" : NULL, "X");
-    series_define_place(s, axes->y, degrees ? "latitude" : "projection_y_coordinate",
-                        degrees ? "degrees_north" : NULL, "Y");
+    axes->x = series_define_side(s, layout, point, false);
+    axes->y = series_define_side(s, layout, point, true);
+    axes->crs = mw__crs_define(s->file, layout->crs       ? layout->crs
+                                        : layout->degrees ? "EPSG:4326"
+                                                          : NULL);
 }
 
 /* The variable that tells stations, or tracks, apart. */
@@ -60,16 +78,24 @@ static void series_define_id(mw_point_series *s, int point, series_axes *axes)
                                           MW_NETCDF_INT, s->track ? 0 : 1, &point);
     mw__netcdf_output_text(s->file, axes->id, "cf_role",
                            s->track ? "trajectory_id" : "timeseries_id");
-    if (!s->track)
-        mw__netcdf_output_text(s->file, axes->id, "long_name", "row of the table, from 0");
+    mw__netcdf_output_text(s->file, axes->id, "long_name",
+                           s->track ? "number of the track" : "row of the table, from 0");
 }
 
 static void series_define_status(mw_point_series *s, int point, series_axes *axes)
 {
+    double values[MW_WHERE_COUNT];
+    char meanings[32 * MW_WHERE_COUNT] = "";
+    for (int k = 0; k < MW_WHERE_COUNT; k++) {
+        values[k] = k;
+        if (k) strcat(meanings, " ");
+        strcat(meanings, mw_where_name((mw_where)k));
+    }
     axes->status = mw__netcdf_output_variable(s->file, "status", MW_NETCDF_BYTE, 1, &point);
     mw__netcdf_output_text(s->file, axes->status, "long_name", "where the point lies");
-    mw__netcdf_output_text(s->file, axes->status, "comment",
-                           "0 inside, 1 edge, 2 vertex, 3 outside, 4 hole, 5 near, 6 bad");
+    mw__netcdf_output_list(s->file, axes->status, "flag_values", MW_NETCDF_BYTE, MW_WHERE_COUNT,
+                           values);
+    mw__netcdf_output_text(s->file, axes->status, "flag_meanings", meanings);
 }
 
 /* A name that CF allows: letters, digits and underscores, a letter first. */
@@ -87,23 +113,55 @@ static char *series_name(const char *name)
     return plain;
 }
 
-static bool series_define_field(mw_point_series *s, const mw_point_series_layout *layout, size_t k,
-                                int time, int point)
+/* Text k of a list that may be NULL; "": unknown. */
+static const char *series_text(const char *const *texts, size_t k)
 {
-    const int both[2] = {time, point};
+    return texts && texts[k] ? texts[k] : "";
+}
+
+static void series_define_chunks(mw_point_series *s, const mw_point_series_layout *layout,
+                                 int variable)
+{
+    enum { CHUNK = 4096 };
+    const size_t points = s->points < CHUNK ? s->points : CHUNK, steps = layout->time_count;
+    if (points == 0 || steps == 0) return;
+    const size_t most = CHUNK / points;
+    mw__netcdf_output_chunks(s->file, variable, (size_t[]){points, steps < most ? steps : most});
+}
+
+static bool series_define_field(mw_point_series *s, const mw_point_series_layout *layout, size_t k,
+                                int time, int point, const series_axes *axes)
+{
+    const int both[2] = {point, time};
     char *name = series_name(layout->names[k]);
     if (!name) return false;
     const int variable = mw__netcdf_output_variable(s->file, name, MW_NETCDF_DOUBLE,
                                                     s->track ? 1 : 2, s->track ? &point : both);
     s->variable[k] = variable;
-    if (strcmp(name, layout->names[k]))
-        mw__netcdf_output_text(s->file, variable, "long_name", layout->names[k]);
-    if (layout->units) text_if_known(s, variable, "units", layout->units[k]);
+    if (!s->track) series_define_chunks(s, layout, variable);
+    const char *long_name = series_text(layout->long_names, k);
+    mw__netcdf_output_text(s->file, variable, "long_name",
+                           *long_name ? long_name : layout->names[k]);
+    text_if_known(s, variable, "standard_name", series_text(layout->standard_names, k));
+    text_if_known(s, variable, "units", series_text(layout->units, k));
     mw__netcdf_output_number(s->file, variable, "_FillValue", MW_NETCDF_DOUBLE, NAN);
     mw__netcdf_output_text(s->file, variable, "coordinates",
                            layout->degrees ? "time lat lon" : "time y x");
+    if (axes->crs >= 0) mw__netcdf_output_text(s->file, variable, "grid_mapping", "crs");
     free(name);
     return true;
+}
+
+static void series_define_file(mw_point_series *s, const mw_point_series_layout *layout)
+{
+    static const char *const titles[] = {"Values over time at points", "Values along a track"};
+    const char *history = layout->history ? layout->history : "meshwalk " MW_VERSION_STRING;
+    mw__netcdf_output_text(s->file, MW_NETCDF_OUTPUT_FILE, "Conventions", "CF-1.8");
+    mw__netcdf_output_text(s->file, MW_NETCDF_OUTPUT_FILE, "featureType",
+                           s->track ? "trajectory" : "timeSeries");
+    mw__netcdf_output_text(s->file, MW_NETCDF_OUTPUT_FILE, "title",
+                           layout->title ? layout->title : titles[s->track]);
+    mw__netcdf_output_text(s->file, MW_NETCDF_OUTPUT_FILE, "history", history);
 }
 
 static bool series_define(mw_point_series *s, const mw_point_series_layout *layout,
@@ -117,10 +175,8 @@ static bool series_define(mw_point_series *s, const mw_point_series_layout *layo
     series_define_id(s, point, axes);
     if (layout->located) series_define_status(s, point, axes);
     for (size_t k = 0; k < s->fields && named; k++)
-        named = series_define_field(s, layout, k, time, point);
-    mw__netcdf_output_text(s->file, MW_NETCDF_OUTPUT_FILE, "Conventions", "CF-1.8");
-    mw__netcdf_output_text(s->file, MW_NETCDF_OUTPUT_FILE, "featureType",
-                           s->track ? "trajectory" : "timeSeries");
+        named = series_define_field(s, layout, k, time, point, axes);
+    series_define_file(s, layout);
     mw__netcdf_output_defined(s->file);
     return named;
 }
@@ -216,8 +272,7 @@ mw_status mw_point_series_open(const char *path, const mw_point_series_layout *l
 
 void mw_point_series_write(mw_point_series *s, size_t field, size_t step, const double *values)
 {
-    const size_t starts[2] = {s->track ? 0 : step, 0},
-                 counts[2] = {s->track ? s->points : 1, s->points};
+    const size_t starts[2] = {0, step}, counts[2] = {s->points, 1};
     if (field < s->fields && s->points)
         mw__netcdf_output_doubles(s->file, s->variable[field], starts, counts, values);
 }

@@ -16,6 +16,16 @@ static void selafin_piece(const char *text, char piece[17])
     piece[length] = 0;
 }
 
+/* Units stand in capitals there, "M/S": those of metres, seconds and kilograms become as all others
+ * write them, "m/s". */
+static void selafin_lower_unit(char *unit)
+{
+    for (const char *c = unit; *c; c++)
+        if (!strchr("MSKG/0123456789.- ", *c)) return;
+    for (char *c = unit; *c; c++)
+        if (strchr("MSKG", *c)) *c = (char)(*c - 'A' + 'a');
+}
+
 static mw_status selafin_add_to_part(const mw_selafin *s, mw_series_part *part, mw_error *error)
 {
     mw_status status = MW_OK;
@@ -24,10 +34,13 @@ static mw_status selafin_add_to_part(const mw_selafin *s, mw_series_part *part, 
         char name[17], field_unit[17];
         selafin_piece(s->names[f], name);
         selafin_piece(s->names[f] + 16, field_unit);
-        status = mw__series_part_add(
-            part, name, field_unit,
-            (mw_series_field){.location = MW_SERIES_VERTEX, .value_count = (size_t)s->vertices},
-            error);
+        selafin_lower_unit(field_unit);
+        status = mw__series_part_add(part,
+                                     (mw_series_field){.name = name,
+                                                       .unit = field_unit,
+                                                       .location = MW_SERIES_VERTEX,
+                                                       .value_count = (size_t)s->vertices},
+                                     error);
     }
     const int64_t *d = s->date;
     if (s->parameters[9] == 1)

@@ -31,9 +31,8 @@ typedef struct mw_series_kind {
     void (*close)(void *content);
 } mw_series_kind;
 
-/* Add a field; `name` and `unit` are copied, NULL is no unit. */
-mw_status mw__series_part_add(mw_series_part *part, const char *name, const char *unit,
-                              mw_series_field field, mw_error *error);
+/* Add a field. Its texts are copied; NULL becomes "". */
+mw_status mw__series_part_add(mw_series_part *part, mw_series_field field, mw_error *error);
 void mw__series_part_release(mw_series_part *part);
 
 extern const mw_series_kind mw__netcdf_series, mw__selafin_series, mw__adcirc_series,

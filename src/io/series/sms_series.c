@@ -222,8 +222,9 @@ static mw_status sms_add_to_part(const sms_data *d, mw_series_part *part, mw_err
         snprintf(name, sizeof name, "%s%s", *d->name ? d->name : "values",
                  d->width > 1 ? components[k] : "");
         status = mw__series_part_add(
-            part, name, "",
-            (mw_series_field){.location = d->on_faces ? MW_SERIES_FACE : MW_SERIES_VERTEX,
+            part,
+            (mw_series_field){.name = name,
+                              .location = d->on_faces ? MW_SERIES_FACE : MW_SERIES_VERTEX,
                               .value_count = (size_t)sms_count(d)},
             error);
     }

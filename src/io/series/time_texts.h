@@ -15,4 +15,9 @@ const mw_netcdf_variable *mw__time_texts_find(const mw_netcdf *file, int dimensi
 mw_status mw__time_texts_read(const mw_netcdf *file, const mw_netcdf_variable *texts,
                               mw_series_part *part, mw_error *error);
 
+/* Replace part->times, which were read as floats, by what the texts tell, in the same unit. Does
+ * nothing unless each text is the time that was rounded. */
+mw_status mw__time_texts_refine(const mw_netcdf *file, const mw_netcdf_variable *texts,
+                                mw_series_part *part, mw_error *error);
+
 #endif

@@ -1,0 +1,364 @@
+#include "cli/raster/scan_triangle.h"
+
+#include <math.h>
+
+/* --- rows ------------------------------------------------------------------------------------- */
+
+static int64_t limit(double value, int64_t least, int64_t most)
+{
+    return value >= (double)most ? most : value > (double)least ? (int64_t)value : least;
+}
+
+row_range rows_between(const raster_grid *g, double south, double north)
+{
+    int64_t rows = g->rows;
+    row_range r = {limit((g->north - north) / g->height - 0.5, 0, rows),
+                   limit((g->north - south) / g->height - 0.5, -1, rows - 1)};
+    while (r.first > 0 && g->y[r.first - 1] <= north) r.first--;
+    while (r.first < rows && g->y[r.first] > north) r.first++;
+    while (r.last + 1 < rows && g->y[r.last + 1] >= south) r.last++;
+    while (r.last >= 0 && g->y[r.last] < south) r.last--;
+    return r;
+}
+
+/* --- a triangle ------------------------------------------------------------------------------- */
+
+/* A side from one corner to the next counter-clockwise. A horizontal one is not used. */
+typedef struct scan_side {
+    double from[2], to[2];
+    double south, north;
+    double start;  /* the column, between centres, of its first corner */
+    double slope;  /* how many columns it goes east for each unit north */
+    double unsure; /* bound for the error of a column where it crosses a row */
+    double margin; /* a centre so many columns from the crossing is far enough for doubles */
+    bool is_left;  /* of the triangle's pixels */
+} scan_side;
+
+/* The plane of the values: a value is base + east * (x - x[0]) + north * (y - y[0]). */
+typedef struct scan_plane {
+    double base, east, north;
+    double error; /* bound for the difference of what the plane has from what mw_interpolate has;
+                   * infinite: the plane cannot be used */
+} scan_plane;
+
+typedef struct scan_triangle {
+    uint32_t number;
+    bool reversed;     /* the user gave it clockwise */
+    bool plain;        /* weights in doubles are those of the library where areas exceed `least` */
+    double x[3], y[3]; /* counter-clockwise, from the user's first corner */
+    double value[3];   /* of the same corners */
+    double least;
+    double width;
+    double south, north;
+    double middle[2]; /* rows between these northings, near the middle corner, need exact tests */
+    scan_side sides[3];
+    const scan_side *across; /* the long side */
+    const scan_side *lower, *upper;
+    scan_plane plane;
+} scan_triangle;
+
+/* Set `least`. The library uses areas in doubles if each exceeds its error bound, at most 7e-16 *
+ * width * height, and the sum of the bounds is below 2^-42 of the sum of the areas. The limit here
+ * is more than twice as large, which covers the rounding of these tests. */
+static void triangle_find_limits(scan_triangle *t, double area)
+{
+    double height = t->north - t->south, box = t->width * height;
+    t->least = 4e-15 * box;
+    t->plain = area > 0x1p-800 && area < 0x1p800 && 6e-15 * box < 0x1p-43 * area;
+}
+
+static void triangle_find_sides(scan_triangle *t, const raster_grid *g)
+{
+    const double u = 0x1p-53, reach = fmax(fabs(g->x[0]), fabs(g->x[g->columns - 1]));
+    const double height = t->north - t->south;
+    for (int k = 0; k < 3; k++) {
+        int n = k == 2 ? 0 : k + 1;
+        double dy = t->y[n] - t->y[k];
+        scan_side *side = &t->sides[k];
+        *side = (scan_side){.from = {t->x[k], t->y[k]},
+                            .to = {t->x[n], t->y[n]},
+                            .south = dy > 0 ? t->y[k] : t->y[n],
+                            .north = dy > 0 ? t->y[n] : t->y[k],
+                            .start = (t->x[k] - g->west) / g->width - 0.5,
+                            .slope = (t->x[n] - t->x[k]) / dy / g->width,
+                            .is_left = dy < 0};
+        /* Fewer than twelve roundings, each of at most u of one of these. */
+        side->unsure = 32 * u *
+                       (fabs(side->slope) * height + (fabs(t->x[k]) + reach + g->width) / g->width +
+                        g->columns);
+        /* The area between a side and a point is the height of the side times the distance along
+         * the row. It must be above `least` as computed, so twice that is enough. */
+        side->margin = side->unsure + 2 * t->least / fabs(dy) / g->width;
+    }
+}
+
+/* Name the sides. The area between the third side and a row falls with the distance of the row from
+ * the middle corner, from all of `area` to nothing. */
+static void triangle_name_sides(scan_triangle *t, double area)
+{
+    int across = 0;
+    for (int k = 1; k < 3; k++)
+        if (t->sides[k].north - t->sides[k].south > t->sides[across].north - t->sides[across].south)
+            across = k;
+    const int next = across == 2 ? 0 : across + 1, last = across == 0 ? 2 : across - 1;
+    /* A long left side goes down, so the side after it begins at the lowest corner. */
+    bool down = t->sides[across].is_left;
+    t->across = &t->sides[across];
+    t->lower = &t->sides[down ? next : last];
+    t->upper = &t->sides[down ? last : next];
+    const double middle = t->y[last], clear = 3 * t->least * (t->north - t->south) / area;
+    t->middle[0] = middle - clear;
+    t->middle[1] = middle + clear;
+    if (!t->plain) t->middle[0] = -(double)INFINITY;
+    if (!t->plain) t->middle[1] = (double)INFINITY;
+}
+
+/* The plane, and how far its values are from those of the library. With M the largest value, B the
+ * area of the bounding box over `area`, at least 1, and u = 2^-53: an area has an error below 6.3 u
+ * of the box. So the errors of the library's weights sum to less than 45 u B, and its value is off
+ * by less than 70 u M B. The roundings of both slopes make less than 50 u M B. `area` is off by
+ * less than 6.3 u B of itself, and so the plane by twice that times M. The roundings of a row and a
+ * value make less than 30 u M B. In all this is less than 256 u M B. */
+static void triangle_find_plane(scan_triangle *t, double area)
+{
+    const double *f = t->value, each = 1 / area;
+    double bf = f[1] - f[0], cf = f[2] - f[0], largest = 0;
+    double bx = t->x[1] - t->x[0], cx = t->x[2] - t->x[0];
+    double by = t->y[1] - t->y[0], cy = t->y[2] - t->y[0];
+    for (int k = 0; k < 3; k++) largest = fabs(f[k]) > largest ? fabs(f[k]) : largest;
+    t->plane.base = 0 + f[0];
+    t->plane.east = (bf * cy - cf * by) * each;
+    t->plane.north = (cf * bx - bf * cx) * each;
+    t->plane.error = 256 * 0x1p-53 * largest * (t->width * (t->north - t->south)) * each;
+    /* Between these limits nothing overflows, and a value and its neighbours within the error do
+     * not all round to a zero. */
+    bool sound = largest == 0 || (t->plane.error > 0x1p-100 && t->plane.error < 0x1p100);
+    if (!sound || !t->plain || isnan(f[0] + f[1] + f[2])) t->plane.error = (double)INFINITY;
+}
+
+/* False: it has no area, so no point is its own. */
+static bool triangle_load(scan_triangle *t, const scan_strip *s, uint32_t number,
+                          const scan_vertex *const corner[3])
+{
+    double p[3][2];
+    for (int k = 0; k < 3; k++) {
+        p[k][0] = corner[k]->x;
+        p[k][1] = corner[k]->y;
+    }
+    double area = mw_orient2d(p[0], p[1], p[2]);
+    if (area == 0) return false;
+    t->number = number;
+    t->reversed = area < 0;
+    for (int k = 0; k < 3; k++) {
+        int from = t->reversed && k > 0 ? 3 - k : k;
+        t->x[k] = p[from][0];
+        t->y[k] = p[from][1];
+        t->value[k] = corner[from]->value;
+    }
+    t->width = scan_greatest(t->x[0], t->x[1], t->x[2]) - scan_least(t->x[0], t->x[1], t->x[2]);
+    t->south = scan_least(t->y[0], t->y[1], t->y[2]);
+    t->north = scan_greatest(t->y[0], t->y[1], t->y[2]);
+    triangle_find_limits(t, fabs(area));
+    triangle_find_sides(t, s->grid);
+    triangle_name_sides(t, fabs(area));
+    if (s->rounded) triangle_find_plane(t, fabs(area));
+    return true;
+}
+
+/* --- where a row crosses a side --------------------------------------------------------------- */
+
+/* Does the closed half-plane of a side contain the centre of a column? */
+static bool side_holds(const scan_side *side, const raster_grid *g, int64_t column, double y)
+{
+    const double at[2] = {g->x[column], y};
+    return mw_orient2d(side->from, side->to, at) >= 0;
+}
+
+/* Where a side crosses a row, in columns, is somewhere between *low and *high. */
+static void side_cross(const scan_side *side, const raster_grid *g, double y, double *low,
+                       double *high)
+{
+    double column = side->start + (y - side->from[1]) * side->slope;
+    *low = column - side->unsure;
+    *high = column + side->unsure;
+    if (*low <= *high) return;
+    *low = -1; /* overflow */
+    *high = g->columns;
+}
+
+/* A double that is in the range -1 .. columns, rounded up. */
+static int64_t column_above(double value, uint32_t columns)
+{
+    double most = columns;
+    value = value > -1 ? value : -1;
+    value = value < most ? value : most;
+    int64_t whole = (int64_t)value;
+    return whole + ((double)whole < value);
+}
+
+/* The first column inside a left side, or the first column beyond a right side. */
+static int64_t side_first(const scan_side *side, const raster_grid *g, double y)
+{
+    double low, high;
+    side_cross(side, g, y, &low, &high);
+    int64_t first = column_above(low, g->columns), last = column_above(high, g->columns);
+    if (first < 0) first = 0;
+    while (first < last) {
+        int64_t middle = first + (last - first) / 2;
+        if (side_holds(side, g, middle, y) == side->is_left)
+            last = middle;
+        else
+            first = middle + 1;
+    }
+    return first;
+}
+
+/* The same if no centre is within the margin of the crossing; otherwise -1. */
+static int64_t side_first_clear(const scan_side *side, const raster_grid *g, double y)
+{
+    double column = side->start + (y - side->from[1]) * side->slope;
+    int64_t low = column_above(column - side->margin, g->columns),
+            high = column_above(column + side->margin, g->columns);
+    bool known = low == high && side->margin < 0x1p-4;
+    return !known ? -1 : low < 0 ? 0 : low;
+}
+
+/* --- pixels of a row -------------------------------------------------------------------------- */
+
+/* Values of pixels well within the triangle: the arithmetic of the library, in its order. */
+static void triangle_values(const scan_triangle *t, double py, const double *restrict px,
+                            double *restrict result, int64_t count)
+{
+    const double x0 = t->x[0], x1 = t->x[1], x2 = t->x[2];
+    const double y0 = t->y[0] - py, y1 = t->y[1] - py, y2 = t->y[2] - py;
+    const double f0 = t->value[0], f1 = t->value[1], f2 = t->value[2];
+    if (t->reversed) {
+        for (int64_t i = 0; i < count; i++) {
+            double a = x0 - px[i], b = x1 - px[i], c = x2 - px[i];
+            double area0 = b * y2 - y1 * c, area1 = c * y0 - y2 * a, area2 = a * y1 - y0 * b;
+            double sum = area0 + area1 + area2;
+            result[i] = 0 + area0 / sum * f0 + area2 / sum * f2 + area1 / sum * f1;
+        }
+        return;
+    }
+    for (int64_t i = 0; i < count; i++) {
+        double a = x0 - px[i], b = x1 - px[i], c = x2 - px[i];
+        double area0 = b * y2 - y1 * c, area1 = c * y0 - y2 * a, area2 = a * y1 - y0 * b;
+        double sum = area0 + area1 + area2;
+        result[i] = 0 + area0 / sum * f0 + area1 / sum * f1 + area2 / sum * f2;
+    }
+}
+
+/* The same, rounded to floats. If all doubles that are as near to the plane as the library's value
+ * round to one float, it is the float of that value. */
+static void triangle_rounded(const scan_triangle *t, double py, const double *restrict px,
+                             float *restrict result, int64_t count)
+{
+    const scan_plane *f = &t->plane;
+    const double base = f->base + f->north * (py - t->y[0]), x0 = t->x[0], east = f->east;
+    const double error = f->error;
+    bool sure = true;
+    for (int64_t i = 0; i < count; i++) {
+        double value = base + east * (px[i] - x0);
+        float low = (float)(value - error), high = (float)(value + error);
+        result[i] = low;
+        sure &= low == high;
+    }
+    for (int64_t i = 0; !sure && i < count; i++) {
+        double value;
+        triangle_values(t, py, px + i, &value, 1);
+        result[i] = (float)value;
+    }
+}
+
+/* Pixels first .. last of a row belong to the triangle, and are far enough from its sides. */
+static inline void triangle_fill_row(const scan_triangle *t, const scan_strip *s, int64_t row,
+                                     int64_t first, int64_t last)
+{
+    const raster_grid *g = s->grid;
+    const size_t begin = (size_t)(row - s->first) * g->columns + (size_t)first;
+    const int64_t count = last - first + 1;
+    if (s->rounded) triangle_rounded(t, g->y[row], g->x + first, s->rounded + begin, count);
+    if (s->result) triangle_values(t, g->y[row], g->x + first, s->result + begin, count);
+    for (int64_t i = 0; s->triangles && i < count; i++) s->triangles[begin + (size_t)i] = t->number;
+}
+
+/* The answer of the library for one pixel. */
+static void pixel_ask(const scan_strip *s, int64_t row, int64_t column)
+{
+    const raster_grid *g = s->grid;
+    mw_location at = mw_locate(s->locator, s->cursor, g->x[column], g->y[row]);
+    size_t i = (size_t)(row - s->first) * g->columns + (size_t)column;
+    double value;
+    if (s->triangles) s->triangles[i] = at.triangle;
+    if (!s->result && !s->rounded) return;
+    mw_interpolate(s->mesh, s->values, &at, 1, &value);
+    if (s->result) s->result[i] = value;
+    if (s->rounded) s->rounded[i] = (float)value;
+}
+
+/* Are the areas between the centre of a column and the sides large enough for doubles? */
+static bool triangle_is_sure(const scan_triangle *t, double px, double py)
+{
+    double x[3], y[3];
+    for (int k = 0; k < 3; k++) {
+        x[k] = t->x[k] - px;
+        y[k] = t->y[k] - py;
+    }
+    return t->plain && x[1] * y[2] - y[1] * x[2] > t->least &&
+           x[2] * y[0] - y[2] * x[0] > t->least && x[0] * y[1] - y[0] * x[1] > t->least;
+}
+
+/* Pixels first .. last of a row belong to the triangle. Only pixels near its sides need the test;
+ * all pixels between two safe ones are safe. */
+static void triangle_fill_tested(const scan_triangle *t, const scan_strip *s, int64_t row,
+                                 int64_t first, int64_t last)
+{
+    const raster_grid *g = s->grid;
+    double y = g->y[row];
+    for (; first <= last && !triangle_is_sure(t, g->x[first], y); first++) pixel_ask(s, row, first);
+    for (; first <= last && !triangle_is_sure(t, g->x[last], y); last--) pixel_ask(s, row, last);
+    if (first <= last) triangle_fill_row(t, s, row, first, last);
+}
+
+/* A row by exact tests. */
+static void triangle_test_row(const scan_triangle *t, const scan_strip *s, int64_t row)
+{
+    const raster_grid *g = s->grid;
+    int64_t first = 0, end = g->columns;
+    for (int k = 0; k < 3; k++) {
+        /* A triangle is convex: in a row, the sides that cross it bound the triangle. */
+        const scan_side *side = &t->sides[k];
+        if (side->south == side->north || g->y[row] < side->south || g->y[row] > side->north)
+            continue;
+        int64_t column = side_first(side, g, g->y[row]);
+        if (side->is_left && column > first) first = column;
+        if (!side->is_left && column < end) end = column;
+    }
+    if (first < end) triangle_fill_tested(t, s, row, first, end - 1);
+}
+
+/* A row by the crossings of two sides; false: it needs exact tests. */
+static inline bool triangle_clear_row(const scan_triangle *t, const scan_strip *s, int64_t row)
+{
+    const double y = s->grid->y[row];
+    if (y >= t->middle[0] && y <= t->middle[1]) return false;
+    const scan_side *other = y > t->middle[1] ? t->upper : t->lower;
+    const int64_t a = side_first_clear(t->across, s->grid, y),
+                  b = side_first_clear(other, s->grid, y);
+    if (a < 0 || b < 0) return false;
+    const int64_t first = t->across->is_left ? a : b, end = t->across->is_left ? b : a;
+    if (first < end) triangle_fill_row(t, s, row, first, end - 1);
+    return true;
+}
+
+void scan_triangle_fill(const scan_strip *s, uint32_t number, const scan_vertex *const corner[3])
+{
+    scan_triangle t;
+    if (!triangle_load(&t, s, number, corner)) return;
+    row_range rows = rows_between(s->grid, t.south, t.north);
+    if (rows.first < s->first) rows.first = s->first;
+    if (rows.last > s->last) rows.last = s->last;
+    for (int64_t row = rows.first; row <= rows.last; row++)
+        if (!triangle_clear_row(&t, s, row)) triangle_test_row(&t, s, row);
+}
