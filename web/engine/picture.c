@@ -165,9 +165,11 @@ int WEB_EXPORT(web_picture_light)(web_picture *p, int lit, int in_space, double 
 
 static uint32_t picture_shaded(uint32_t colour, float light)
 {
-    uint32_t shaded = colour & 0xff000000u;
-    for (int shift = 0; shift < 24; shift += 8)
-        shaded |= (uint32_t)least(255, (double)(colour >> shift & 255) * (double)light) << shift;
+    uint32_t shaded = colour & 0xff000000u, part = (uint32_t)(256 * light);
+    for (int shift = 0; shift < 24; shift += 8) {
+        uint32_t channel = (colour >> shift & 255) * part >> 8;
+        shaded |= (channel < 255 ? channel : 255) << shift;
+    }
     return shaded;
 }
 
@@ -188,13 +190,13 @@ typedef struct web_facet {
     double value[3], depth[3]; /* at the origin, per pixel to the right, per pixel down */
 } web_facet;
 
-/* The plane through three values at the corners. */
-static void facet_plane(const web_facet *f, double area, double a, double b, double c,
+/* The plane through three values at the corners; `part` is 1 / area. */
+static void facet_plane(const web_facet *f, double part, double a, double b, double c,
                         double plane[3])
 {
     const double *p = f->corner[0], *q = f->corner[1], *r = f->corner[2];
-    plane[1] = ((b - a) * (r[1] - p[1]) - (c - a) * (q[1] - p[1])) / area;
-    plane[2] = ((c - a) * (q[0] - p[0]) - (b - a) * (r[0] - p[0])) / area;
+    plane[1] = ((b - a) * (r[1] - p[1]) - (c - a) * (q[1] - p[1])) * part;
+    plane[2] = ((c - a) * (q[0] - p[0]) - (b - a) * (r[0] - p[0])) * part;
     plane[0] = a - plane[1] * p[0] - plane[2] * p[1];
 }
 
@@ -204,12 +206,12 @@ static void facet_prepare(const web_picture *p, web_facet *f, double area)
     f->light = p->shade ? p->shade[f->number] : 1;
     f->varies = p->values && !p->of_triangles;
     if (f->varies)
-        facet_plane(f, area, p->values[v[0]], p->values[v[1]], p->values[v[2]], f->value);
+        facet_plane(f, 1 / area, p->values[v[0]], p->values[v[1]], p->values[v[2]], f->value);
     if (!p->values) f->colour = p->palette[PLAIN];
     if (p->values && p->of_triangles) f->colour = picture_colour(p, p->values[f->number]);
     if (!f->varies && p->shade) f->colour = picture_shaded(f->colour, f->light);
     if (p->in_space)
-        facet_plane(f, area, f->corner[0][2], f->corner[1][2], f->corner[2][2], f->depth);
+        facet_plane(f, 1 / area, f->corner[0][2], f->corner[1][2], f->corner[2][2], f->depth);
 }
 
 static void facet_pixel(web_picture *p, const web_facet *f, int x, int y)
@@ -263,7 +265,7 @@ static void facet_draw(web_picture *p, web_facet *f)
     double area = (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]);
     int top = picture_limit(ceil(low[1] - 0.5), p->height);
     int bottom = picture_limit(ceil(high[1] - 0.5), p->height);
-    if (area == 0) return;
+    if (area == 0 || ceil(low[0] - 0.5) >= ceil(high[0] - 0.5)) return;
     bool ready = false; /* most small triangles have no pixel */
     for (int y = top; y < bottom; y++) {
         int first, last;

@@ -71,3 +71,11 @@ const char *WEB_EXPORT(web_points_column)(const web_points *p, size_t column)
 {
     return mw_point_reader_column(p->reader, column);
 }
+
+/* Does a column's name mean coordinate `axis` (0 x, 1 y, 2 z) by a set of names? 1 or 0; -1 beyond
+ * the last set. */
+int WEB_EXPORT(web_axis_match)(const char *column, size_t set, int axis)
+{
+    const mw_axis_names *names = mw_axis_names_at(set);
+    return names ? mw_axis_name_matches(column, names->axis[axis]) : -1;
+}

@@ -261,6 +261,9 @@ export class Meshwalk {
    * `beside`: further files by name, such as the .ele of a .node, or a .prj. */
   readMesh(name: string, bytes: Uint8Array, beside?: Record<string, Uint8Array>): Mesh;
   readPoints(name: string, bytes: Uint8Array): Points;
+  /** The pairs of columns that may be x and y by their names (x and y, lon and lat, easting and
+   * northing, ...), and whether any of the names means a coordinate. */
+  coordinateColumns(columns: string[]): { fits: [number, number][]; known: boolean };
   createMesh(arrays: {
     points: ArrayLike<number>;
     triangles: ArrayLike<number>;

@@ -66,6 +66,22 @@ export class Meshwalk {
     }));
   }
 
+  /** The columns that may be x and y by their names: all pairs, and whether any name is known. */
+  coordinateColumns(columns) {
+    const { engine } = this;
+    const matches = (column, set, axis) =>
+      engine.withText(column, (text) => engine.call.web_axis_match(text, set, axis));
+    const fits = [];
+    let known = false;
+    for (let set = 0; matches("", set, 0) >= 0; set++) {
+      const [xs, ys, zs] = [0, 1, 2].map((axis) =>
+        [...columns.keys()].filter((i) => matches(columns[i], set, axis) > 0));
+      for (const x of xs) for (const y of ys) fits.push([x, y]);
+      known = known || xs.length + ys.length + zs.length > 0;
+    }
+    return { fits, known };
+  }
+
   /** A mesh from arrays: points of `dimension` 2 or 3 numbers, triangles of 3 vertices. */
   createMesh({ points, triangles, dimension = 2, name = "mesh", fields = {},
     triangleFields = {} }) {

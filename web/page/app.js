@@ -154,6 +154,7 @@ class App {
       button.addEventListener("click", () => this.setTool(button.dataset.tool));
     byId("theme").addEventListener("click", () => this.setTheme(this.theme() === "dark"
       ? "light" : "dark"));
+    document.addEventListener("keydown", (event) => this.key(event));
     byId("open-files").addEventListener("change", (event) => this.openFiles(event.target.files));
     const target = document.body;
     target.addEventListener("dragover", (event) => {
@@ -168,6 +169,19 @@ class App {
       byId("drop-hint").hidden = true;
       this.openFiles(event.dataTransfer.files);
     });
+  }
+
+  /** Keys that mean the same everywhere; those of the picture are the stage's. */
+  key({ key, target }) {
+    if (key === "?" && target.tagName !== "INPUT") {
+      byId("keys-panel").open = true;
+      byId("keys-panel").scrollIntoView();
+      byId("keys-panel").querySelector("summary").focus();
+    }
+    if (key === "Escape" && !byId("race").hidden) {
+      this.race.close();
+      byId("walk-race").focus();
+    }
   }
 
   theme() {

@@ -30,15 +30,27 @@ async function readBytes(file) {
   return new Uint8Array(await new Response(file).arrayBuffer());
 }
 
-/** x and y among the columns of a table of points. */
-function pointsOf({ columns, width, count, values }) {
-  const named = (names) => columns.findIndex((column) => names.includes(column.toLowerCase()));
-  let x = named(["x", "lon", "longitude", "easting"]);
-  let y = named(["y", "lat", "latitude", "northing"]);
-  if (x < 0 || y < 0) [x, y] = [0, 1];
+/** The columns of x and y of a table; an error if they are not clear, as in `locate`. */
+function axesOf(meshwalk, name, columns) {
+  const { fits, known } = meshwalk.coordinateColumns(columns);
+  const unnamed = columns.every((column, i) => column === (["x", "y", "z"][i] || `c${i + 1}`));
+  if (unnamed && (columns.length <= 3 || /\.(xyz|las)(\.gz)?$/i.test(name))) return [0, 1];
+  if (fits.length === 1 && !unnamed) return fits[0];
+  if (!fits.length && !known && columns.length <= 3) return [0, 1];
+  const named = fits.slice(0, 2).map((pair) => pair.map((i) => columns[i]).join());
+  const doubt = unnamed ? " They have no names"
+    : `${named.length > 1 ? ` Both ${named.join(" and ")} fit.` : ""} They are: ` +
+      columns.join(", ");
+  throw new Error(`${name}: which of its columns are x,y?${doubt}; ` +
+    "'meshwalk view --points FILE --columns LIST' takes any");
+}
+
+/** The points of a table, and the names of their columns. */
+function pointsOf(meshwalk, name, { columns, width, count, values }) {
+  const [x, y] = axesOf(meshwalk, name, columns);
   const xy = new Float64Array(2 * count);
   for (let i = 0; i < count; i++) xy.set([values[i * width + x], values[i * width + y]], 2 * i);
-  return xy;
+  return { xy, axes: [columns[x], columns[y]] };
 }
 
 /** Open files as they were dropped: one mesh, with what stands beside it, or points. */
@@ -55,7 +67,7 @@ async function openFiles(app, files) {
 }
 
 function openPoints(app, name, bytes) {
-  const xy = pointsOf(app.meshwalk.readPoints(name, bytes));
+  const { xy, axes } = pointsOf(app.meshwalk, name, app.meshwalk.readPoints(name, bytes));
   if (!app.mesh) app.open(app.meshwalk.triangulate(xy, name));
-  app.points.show(name, xy);
+  app.points.show(name, xy, axes);
 }

@@ -13,8 +13,10 @@ class PointPanel {
     byId("point-panel").hidden = true;
   }
 
-  show(name, xy) {
+  /** `axes`: the names of the columns that are x and y, if a table told them. */
+  show(name, xy, axes = null) {
     const { app } = this;
+    this.axes = axes;
     this.name = name;
     this.xy = xy;
     byId("point-panel").hidden = false;
@@ -33,8 +35,10 @@ class PointPanel {
     this.statuses = Array.from(found.where, (where) => Locations.names[where]);
     const counts = new Map();
     for (const status of this.statuses) counts.set(status, (counts.get(status) || 0) + 1);
-    fillTable(byId("point-facts"), [...counts].map(([status, count]) =>
-      [status, count.toLocaleString("en"), STATUS_COLOURS[status]]));
+    const rows = [...counts].map(([status, count]) =>
+      [status, count.toLocaleString("en"), STATUS_COLOURS[status]]);
+    if (this.axes) rows.unshift(["x, y", this.axes.join(", ")]);
+    fillTable(byId("point-facts"), rows);
   }
 
   draw(pen, notes) {

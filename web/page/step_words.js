@@ -24,6 +24,17 @@ function tellStep({ beyond, leaves }, next) {
   return `${seen} The walk leaves over edge ${leaves}${why} into triangle ${next}.`;
 }
 
+/** Why a ring is one: in how many of its triangles the walk had a choice; "" without a ring. */
+function tellRing(app, { triangles }, point) {
+  const ring = findRing(triangles);
+  if (!ring) return "";
+  const once = Array.from(triangles.subarray(ring.begin, ring.begin + ring.length));
+  const choices = once.filter((triangle) => edgesBeyond(app, triangle, undefined, point)
+    .beyond.length > 1).length;
+  return choices ? ` In ${plural(choices, "triangle")} of the ring the point lies beyond two ` +
+    "edges, and this walk chooses the same one each time." : "";
+}
+
 /** Mark the edges beyond which the point lies, and the one that the walk takes. */
 function drawStep(pen, triangle, { beyond, leaves }) {
   const { topology } = pen;

@@ -104,7 +104,8 @@ class WalkPanel {
 
   goInPlane(name) {
     const walk = this.follow(name, this.from, this.to);
-    this.show(walk, tellWalk(name, walk), `--walk ${name}`);
+    const words = `${tellWalk(name, walk)}${tellRing(this.app, walk, this.to)}`;
+    this.show(walk, words, `--walk ${name}`);
   }
 
   goByRays(name) {

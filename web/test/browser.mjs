@@ -102,6 +102,11 @@ export class Browser {
         { type, x, y, button: type === "mouseMoved" ? "none" : "left", clickCount: 1 });
   }
 
+  async key(key) {
+    for (const type of ["keyDown", "keyUp"])
+      await this.send("Input.dispatchKeyEvent", { type, key });
+  }
+
   async press(selector) {
     await this.value(`document.querySelector(${JSON.stringify(selector)}).click()`);
   }

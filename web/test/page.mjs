@@ -87,6 +87,8 @@ async function compareRing(ring) {
       /beyond edges? .* leaves over edge/);
   }
   assert.deepEqual(seen.slice().sort(), [1, 1, 1, 1, 1, 2, 2, 2, 2, 2]);
+  assert.match(await browser.value("document.getElementById('walk-result').textContent"),
+    /ring of 10 triangles.* In 5 triangles of the ring the point lies beyond two edges/);
 }
 
 async function compareRace() {
@@ -96,7 +98,8 @@ async function compareRace() {
   const rings = lanes.filter(([, ring]) => ring).map(([name]) => name);
   assert.deepEqual(rings, ["lawson", "remembering", "barycentric", "direct"]);
   assert.equal(lanes.length, 16);
-  await browser.press("#race-close");
+  await browser.key("Escape");
+  assert.equal(await browser.value("document.getElementById('race').hidden"), true);
 }
 
 async function testTrap() {
@@ -110,6 +113,8 @@ async function testTrap() {
   await compareRing(ring);
   assert.equal(await compareWalk(mesh, "celestial", [0.9, 0.1], [0.5, 0.5]), null);
   await compareRace();
+  await browser.key("?");
+  assert.equal(await browser.value("document.activeElement.textContent"), "Keys and gestures");
   assert.equal(await browser.value("meshwalkPage.points.statuses.length"), 16);
 }
 
@@ -129,6 +134,22 @@ async function testFiles(shown) {
   const message = await browser.value("document.getElementById('failure').textContent");
   assert.equal(`meshwalk: ${message}`, stderr.trimEnd().split("\n")[0]);
   assert.equal(await browser.value("document.getElementById('file-name').textContent"), shown);
+}
+
+// Columns of points are taken if they are clear, else refused, as `locate` does.
+async function testColumns(mesh) {
+  for (const [text, axes] of [["id,y,x\n1,.5,.2\n", "x,y"], ["1 2\n3 4\n", "x,y"],
+    ["name,Lon,Lat\na,.1,.2\n", "Lon,Lat"], ["a,b\n1,2\n", "a,b"], ["1,2,3,4\n", ""],
+    ["lon,lat,x,y\n1,2,3,4\n", ""], ["lat,b\n1,2\n", ""], ["a,b,c,d\n1,2,3,4\n", ""]]) {
+    await drop("table.csv", text);
+    writeFileSync(join(scratch, "table.csv"), text);
+    const found = await browser.value(`document.getElementById("failure").hidden
+      ? meshwalkPage.points.axes.join() : ""`);
+    assert.equal(found, axes, text);
+    assert.equal(refuse("locate", mesh, "table.csv").status === 0, axes !== "", text);
+  }
+  assert.match(await browser.value("document.getElementById('failure').textContent"),
+    /table.csv: which of its columns are x,y\? They are: a, b, c, d/);
 }
 
 // A fold is listed, led to, and explained.
@@ -263,6 +284,7 @@ try {
     assert.equal(await browser.value("document.documentElement.scrollWidth"), width);
   }
   await testFiles("trap.off");
+  await testColumns(join(data, "trap.off"));
   await testDefects();
   await browser.size(1280, 800);
   await testTerrain();
