@@ -144,7 +144,7 @@ static bool box_is_empty(const mw_bvh_box *box)
 
 /* Nodes are fitted in the order of the tree, and their triangles may lie anywhere in memory. So
  * they are prefetched FAR_AHEAD nodes before, and their corners NEAR_AHEAD: those of the last fit,
- * which only flips of edges change. */
+ * which only flips of edges change. Nodes from `end` on are another thread's, which writes them. */
 enum { FAR_AHEAD = 12, NEAR_AHEAD = 6 };
 
 static MW_INLINE void bvh_prefetch(const mw_bvh *b, const mw_surface *surface, uint64_t i,
@@ -203,7 +203,7 @@ static void level_fit_chunk(void *work, uint64_t chunk, uint32_t member)
     (void)member;
     end = end < begin + CHUNK ? end : begin + CHUNK;
     for (uint64_t i = begin; i < end; i++) {
-        bvh_prefetch(b, f->surface, i, b->first[f->level + 1]);
+        bvh_prefetch(b, f->surface, i, end);
         finite = bvh_fit_node(b, f->surface, &b->node[i]) && finite;
     }
     if (!finite) atomic_store_explicit(&f->gaps, true, memory_order_relaxed);
