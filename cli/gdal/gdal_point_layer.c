@@ -2,14 +2,13 @@
 #include "cli/frame/message.h"
 #include "cli/frame/text.h"
 #include "cli/gdal/gdal_crs.h"
+#include "src/base/posix.h"
 
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
-#include <sys/stat.h>
 
 static bool path_ends(const char *path, const char *ending)
 {

@@ -6,9 +6,9 @@
 #include "batch/batch.h"
 
 #include "base/job.h"
+#include "base/posix.h"
 #include "base/random.h"
 
-#include <pthread.h>
 #include <stdlib.h>
 
 enum {
