@@ -15,7 +15,7 @@ from meshwalk._locations import LOCATION, Locations
 from meshwalk._locator import Locator
 from meshwalk._operator import Operator
 from meshwalk._prepared import map as map_file
-from meshwalk._tile_index import INDEX, TRIANGLES, VERTICES, read_index
+from meshwalk._tiling import INDEX, TRIANGLES, VERTICES, read_index
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator

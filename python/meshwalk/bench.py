@@ -286,7 +286,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         _print_times(times, sizes[1] * given.columns, "ns a value")
         return 0
     if given.task == "dask":
-        from meshwalk._bench_dask import measure_streams
+        from meshwalk.dask.bench import measure_streams
 
         streams = measure_streams(*sizes, given.workers, int(given.chunk), given.seed)
         print(f"{sizes[1]} random queries in {sizes[0]} random vertices, {given.workers} processes")

@@ -40,7 +40,7 @@ def test_other_tasks(task: str, first: str, capsys: pytest.CaptureFixture[str]) 
 
 
 def test_streams_have_the_same_sums() -> None:
-    from meshwalk._bench_dask import measure_streams
+    from meshwalk.dask.bench import measure_streams
 
     streams = measure_streams(200, 1000, 1, workers=1, chunk=300)
     assert streams.sums[0] == streams.sums[1] > 0

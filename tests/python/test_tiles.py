@@ -171,11 +171,11 @@ def test_files_that_are_not_what_they_were(tmp_path: Path, square: meshwalk.Mesh
 
 
 def _replaced(index: dict[str, Any], **changes: Any) -> str:
-    from meshwalk import _tile_index
+    from meshwalk import _tiling
 
     changed = {**index, **changes}
     if "checksum" not in changes:
-        changed["checksum"] = _tile_index._checksum(changed)
+        changed["checksum"] = _tiling._checksum(changed)
     return json.dumps(changed)
 
 

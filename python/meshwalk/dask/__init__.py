@@ -35,8 +35,8 @@ from meshwalk._locations import Locations as _Locations
 from meshwalk._locator import Locator
 from meshwalk._operator import Operator as _Operator
 from meshwalk._prepared import map as _map
-from meshwalk._tile_index import INDEX
 from meshwalk._tiles import TileLocations, Tiles
+from meshwalk._tiling import INDEX
 from meshwalk._where import Where
 
 if TYPE_CHECKING:
