@@ -10,7 +10,7 @@ extern const char *const ocean_weights_ways[OCEAN_WEIGHTS_WAYS];
 
 typedef struct ocean_weights {
     size_t points;
-    mw_operator *ordered, *scattered; /* points and vertices are numbered row by row; at random */
+    mw_operator *ordered, *scattered; /* points and vertices are in rows, or at random */
     double *values, *results;         /* of a block of steps */
 } ocean_weights;
 
