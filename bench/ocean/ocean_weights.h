@@ -14,8 +14,8 @@ typedef struct ocean_weights {
     double *values, *results;         /* of a block of steps */
 } ocean_weights;
 
-/* As many points as vertices, which `mesh` has in random order. Returns 0, or an exit code after a complaint; release in both
- * cases. */
+/* As many points as vertices, which `mesh` has in random order. Returns 0, or an exit code after a
+ * complaint; release in both cases. */
 int ocean_weights_make(ocean_weights *w, const mw_mesh *mesh, uint64_t seed);
 void ocean_weights_release(ocean_weights *w);
 
