@@ -6,31 +6,26 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* An edge of a flat triangle, by the numbers of its vertices, the lower one first. */
-typedef struct flat_edge {
-    int64_t low, high;
+/* A corner of a flat triangle, by its place: vertices with different numbers may lie at one. */
+typedef struct flat_corner {
+    double at[2];
     uint32_t flat;
-} flat_edge;
+} flat_corner;
 
-static flat_edge edge_between(int64_t a, int64_t b, uint32_t flat)
+static int compare_places(const void *left, const void *right)
 {
-    return a < b ? (flat_edge){a, b, flat} : (flat_edge){b, a, flat};
+    const flat_corner *a = left, *b = right;
+    if (a->at[0] != b->at[0]) return a->at[0] < b->at[0] ? -1 : 1;
+    return a->at[1] < b->at[1] ? -1 : a->at[1] > b->at[1];
 }
 
-static int compare_ends(const void *left, const void *right)
-{
-    const flat_edge *a = left, *b = right;
-    if (a->low != b->low) return a->low < b->low ? -1 : 1;
-    return a->high < b->high ? -1 : a->high > b->high;
-}
-
-/* All flat triangles of the mesh, joined to groups by their edges. */
+/* All flat triangles of the mesh, joined to groups by common places. */
 typedef struct flat_set {
     const mwp_record *flat;
     uint32_t count;
-    flat_edge *edge; /* three each, sorted */
-    uint32_t *leader; /* of the group, by union-find */
-    bool *wanted;     /* per leader: the group hangs together with the piece */
+    flat_corner *corner; /* three each, sorted */
+    uint32_t *leader;    /* of the group, by union-find */
+    bool *wanted;        /* per leader: the group hangs together with the piece */
 } flat_set;
 
 static uint32_t flat_leader(const flat_set *s, uint32_t f)
@@ -41,34 +36,32 @@ static uint32_t flat_leader(const flat_set *s, uint32_t f)
 
 static bool flats_group(flat_set *s)
 {
-    const size_t edges = 3 * (size_t)s->count;
-    s->edge = mwp__alloc(edges, sizeof *s->edge);
+    const size_t corners = 3 * (size_t)s->count;
+    s->corner = mwp__alloc(corners, sizeof *s->corner);
     s->leader = mwp__alloc(s->count, sizeof *s->leader);
     s->wanted = calloc(s->count ? s->count : 1, sizeof *s->wanted);
-    if (!s->edge || !s->leader || !s->wanted) return false;
+    if (!s->corner || !s->leader || !s->wanted) return false;
     for (uint32_t f = 0; f < s->count; f++) s->leader[f] = f;
-    for (size_t i = 0; i < edges; i++) {
-        const uint32_t f = (uint32_t)(i / 3);
-        s->edge[i] = edge_between(s->flat[f].vertex[i % 3], s->flat[f].vertex[(i + 1) % 3], f);
+    for (size_t i = 0; i < corners; i++) {
+        const double *p = &s->flat[i / 3].point[2 * (i % 3)];
+        s->corner[i] = (flat_corner){{p[0], p[1]}, (uint32_t)(i / 3)};
     }
-    qsort(s->edge, edges, sizeof *s->edge, compare_ends);
-    for (size_t i = 1; i < edges; i++)
-        if (compare_ends(&s->edge[i - 1], &s->edge[i]) == 0)
-            s->leader[flat_leader(s, s->edge[i].flat)] = flat_leader(s, s->edge[i - 1].flat);
+    qsort(s->corner, corners, sizeof *s->corner, compare_places);
+    for (size_t i = 1; i < corners; i++)
+        if (compare_places(&s->corner[i - 1], &s->corner[i]) == 0)
+            s->leader[flat_leader(s, s->corner[i].flat)] = flat_leader(s, s->corner[i - 1].flat);
     return true;
 }
 
-/* Mark the groups that have an edge of the piece. */
+/* Mark the groups that have a place of the piece. */
 static void flats_want(flat_set *s, const mwp_own *own)
 {
-    for (uint32_t t = 0; t < own->triangle_count; t++)
-        for (uint32_t k = 0; k < 3; k++) {
-            const flat_edge edge =
-                edge_between(mwp__own_number(own, t, k), mwp__own_number(own, t, (k + 1) % 3), 0);
-            const flat_edge *found =
-                bsearch(&edge, s->edge, 3 * (size_t)s->count, sizeof edge, compare_ends);
-            if (found) s->wanted[flat_leader(s, found->flat)] = true;
-        }
+    for (size_t v = 0; v < own->vertex_count; v++) {
+        const flat_corner here = {.at = {own->points[2 * v], own->points[2 * v + 1]}};
+        const flat_corner *found =
+            bsearch(&here, s->corner, 3 * (size_t)s->count, sizeof here, compare_places);
+        if (found) s->wanted[flat_leader(s, found->flat)] = true;
+    }
 }
 
 static bool flat_is_added(const flat_set *s, uint32_t f, int rank)
@@ -139,7 +132,7 @@ static mw_status flats_take(mwp_own *own, const mwp_wire *wire, const mwp_parcel
         flats_want(&set, own);
         done = flats_append(&set, own, wire->rank);
     }
-    free(set.edge);
+    free(set.corner);
     free(set.leader);
     free(set.wanted);
     return done ? MW_OK : mwp__fail_memory(error);

@@ -2,7 +2,7 @@
  *
  * A triangle without area contains no point, but it may join the edge of a triangle to vertices
  * inside that edge: without it a piece would be no embedding. So each piece gets those of other
- * ranks that hang together with it by edges. */
+ * ranks that hang together with it, directly or through others, by common places. */
 #ifndef MWP_MESH_FLATS_H
 #define MWP_MESH_FLATS_H
 

@@ -63,8 +63,7 @@ static mw_status mesh_prepare(mwp_mesh *m, mw_status status, mwp_error *error)
     status = mwp__wire_agree(&m->wire, status, error);
     if (!status) status = part_join(part, m, error);
     if (!status) status = mwp__flats_add(&part->own, &m->wire, error);
-    if (!status)
-        status = mwp__wire_agree(&m->wire, part_prepare(part, m->wire.rank, error), error);
+    if (!status) status = mwp__wire_agree(&m->wire, part_prepare(part, m->wire.rank, error), error);
     if (!status)
         status = mwp__router_create(&m->router, &m->wire, part->locator ? part->mesh : NULL,
                                     part->own.triangle_count, error);

@@ -14,7 +14,7 @@
 static int64_t piece_corner(const mw_arrays *a, size_t t, size_t k)
 {
     const size_t i = 3 * t + k;
-    int64_t v = a->integer_type == MW_UINT32   ? ((const uint32_t *)a->triangles)[i]
+    int64_t v = a->integer_type == MW_UINT32  ? ((const uint32_t *)a->triangles)[i]
                 : a->integer_type == MW_INT32 ? ((const int32_t *)a->triangles)[i]
                                               : ((const int64_t *)a->triangles)[i];
     return v < 0 || (uint64_t)v >= a->point_count ? -1 : v;
@@ -33,11 +33,10 @@ static mw_status piece_check_arguments(const mwp_piece *piece, mwp_error *error)
     if ((unsigned)a->integer_type > MW_INT64)
         return mwp__fail(error, MW_ERROR_ARGUMENT, "unknown type of vertex numbers");
     if (a->triangle_count > MW_MAX_TRIANGLES || a->point_count > MW_MAX_VERTICES)
-        return mwp__fail(error, MW_ERROR_LIMIT,
-                         "%zu triangles and %zu vertices in a piece; at most %" PRIu32
-                         " and %" PRIu32,
-                         a->triangle_count, a->point_count, MW_MAX_TRIANGLES,
-                         (uint32_t)MW_MAX_VERTICES);
+        return mwp__fail(
+            error, MW_ERROR_LIMIT,
+            "%zu triangles and %zu vertices in a piece; at most %" PRIu32 " and %" PRIu32,
+            a->triangle_count, a->point_count, MW_MAX_TRIANGLES, (uint32_t)MW_MAX_VERTICES);
     return MW_OK;
 }
 

@@ -147,8 +147,8 @@ mw_status mwp__fail_arrays(mwp_error *error, const mwp_names *names, const mw_er
     if (from->status != MW_ERROR_INPUT ||
         mw_check_arrays(&names->arrays, &(mw_check_options){.threads = 1}, &check, NULL))
         return mwp__fail_as(error, from);
-    mw_status status = check.valid ? mwp__fail_as(error, from)
-                                   : mwp__fail_defect(error, names, &check.defects[0]);
+    mw_status status =
+        check.valid ? mwp__fail_as(error, from) : mwp__fail_defect(error, names, &check.defects[0]);
     mw_check_release(&check);
     return status;
 }

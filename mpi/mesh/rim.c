@@ -12,8 +12,8 @@ static uint32_t outline_of(const mwp_part *part, uint32_t t)
     if (mwp__own_is_flat(&part->own, t)) return 0;
     for (unsigned k = 0; k < 3; k++) {
         const uint32_t other = mw_mesh_neighbour(part->mesh, t, k, NULL);
-        const bool alone = other == MW_NONE ? !(part->joined[t] >> k & 1)
-                                            : mwp__own_is_flat(&part->own, other);
+        const bool alone =
+            other == MW_NONE ? !(part->joined[t] >> k & 1) : mwp__own_is_flat(&part->own, other);
         edges |= (uint32_t)alone << k;
     }
     return edges;
@@ -169,8 +169,8 @@ static mw_status rim_gather(const mwp_wire *wire, const mwp_part *part, const mw
     mwp_parcels out = {0}, in = {0};
     mwp_record *mine = NULL;
     place *at = places_find(part, &count);
-    mw_status status = at && places_pack(&out, wire, router, at, count) ? MW_OK
-                                                                        : mwp__fail_memory(error);
+    mw_status status =
+        at && places_pack(&out, wire, router, at, count) ? MW_OK : mwp__fail_memory(error);
     out.record = sizeof *at;
     status = mwp__wire_exchange(wire, status, &out, &in, error);
     if (!status) {
@@ -211,8 +211,7 @@ static mw_status rim_number_holes(mwp_rim *rim, mwp_error *error)
     mw_hole_edge *edge = mwp__alloc(info.holes, sizeof *edge);
     rim->hole = mwp__alloc(info.holes, sizeof *rim->hole);
     mw_status status = edge && rim->hole ? MW_OK : mwp__fail_memory(error);
-    if (!status && mw_locator_holes(rim->locator, edge, &from))
-        status = mwp__fail_as(error, &from);
+    if (!status && mw_locator_holes(rim->locator, edge, &from)) status = mwp__fail_as(error, &from);
     for (uint32_t h = 0; h < info.holes && !status; h++) {
         const bool real = rim->all.record[edge[h].triangle].outline >> edge[h].edge & 1;
         rim->hole[h] = real ? rim->holes++ : MW_NONE;

@@ -111,8 +111,8 @@ mw_status mwp__router_create(mwp_router *router, const mwp_wire *wire, const mw_
                             : mwp__fail_memory(error);
     status = mwp__wire_gather(wire, status, mine, made, sizeof *mine, &all, error);
     if (!status)
-        status = mwp__wire_agree(
-            wire, router_build(router, &all) ? MW_OK : mwp__fail_memory(error), error);
+        status = mwp__wire_agree(wire, router_build(router, &all) ? MW_OK : mwp__fail_memory(error),
+                                 error);
     mwp__parcels_release(&all);
     free(mine);
     return status;

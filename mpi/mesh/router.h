@@ -15,8 +15,8 @@ typedef struct mwp_box {
 
 /* The boxes of all ranks, and above them boxes of eight each, up to one. */
 typedef struct mwp_router {
-    mwp_box *box;      /* level by level, the lowest first */
-    size_t *level;     /* where each level begins, and the end */
+    mwp_box *box;  /* level by level, the lowest first */
+    size_t *level; /* where each level begins, and the end */
     uint32_t levels;
     uint32_t count; /* boxes of the lowest level */
 } mwp_router;

@@ -180,8 +180,7 @@ static mw_status locate_answer(void *self, const void *questions, size_t n, void
     mw_location *found = mwp__alloc(n, sizeof *found);
     *count = 0;
     if (!found) return mwp__fail_memory(error);
-    mw_status status =
-        part_locate(&l->mesh->part, questions, n, l->options.threads, found, error);
+    mw_status status = part_locate(&l->mesh->part, questions, n, l->options.threads, found, error);
     for (size_t i = 0; i < n && !status; i++) {
         const mw_location *at = &found[i];
         if (at->triangle == MW_NONE) continue;
@@ -256,8 +255,8 @@ static mw_status locating_check(const mwp_locating *l, mwp_error *error)
     if (l->stride == 1)
         return mwp__fail(error, MW_ERROR_ARGUMENT, "a stride of 1 double, but points have 2");
     if (!(o->tolerance >= 0 && o->tolerance < INFINITY))
-        return mwp__fail(error, MW_ERROR_ARGUMENT,
-                         "the tolerance %g is negative or not finite", o->tolerance);
+        return mwp__fail(error, MW_ERROR_ARGUMENT, "the tolerance %g is negative or not finite",
+                         o->tolerance);
     if (o->budget > INT32_MAX / 2)
         return mwp__fail(error, MW_ERROR_ARGUMENT, "a budget of %u queries; at most 2^30 - 1",
                          o->budget);

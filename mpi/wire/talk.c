@@ -106,10 +106,10 @@ static void offers_begin(mwp_talk *t)
     const mwp_tables *b = t->tables;
     const bool active = !t->status && block_left(t) > 0;
     for (int r = 0; r < t->wire->size; r++)
-        b->offer[r] = (mwp_offer){
-            .questions = active ? (uint32_t)(t->block.count[r] - b->next[r]) : 0,
-            .active = active,
-            .failed = t->status != MW_OK};
+        b->offer[r] =
+            (mwp_offer){.questions = active ? (uint32_t)(t->block.count[r] - b->next[r]) : 0,
+                        .active = active,
+                        .failed = t->status != MW_OK};
     t->stage = MWP_TALK_OFFERS;
     talk_break(t, MPI_Ialltoall(b->offer, sizeof *b->offer, MPI_BYTE, b->offered,
                                 sizeof *b->offered, MPI_BYTE, t->wire->comm, &t->request));

@@ -1,10 +1,11 @@
 /* talk.h - questions to other ranks and their answers, in rounds, without waiting. Private.
  *
  * A rank has its questions in blocks. In each round every rank tells every other how many questions
- * of its present block it still has for it; each grants as many as it takes at a time, its budget;
+ * of its present block it has left for it; each grants as many as it takes at a time, its budget;
  * then the questions travel, are answered, and the answers travel back. So no rank ever has to hold
  * more than its budget of questions of others. A rank without questions takes part all the same. A
- * failure on one rank becomes known to all at the beginning of the next round, and ends the talk. */
+ * failure on one rank becomes known to all at the beginning of the next round, and ends the talk.
+ */
 #ifndef MWP_WIRE_TALK_H
 #define MWP_WIRE_TALK_H
 
@@ -48,7 +49,7 @@ typedef struct mwp_offer {
 typedef struct mwp_tables {
     mwp_offer *offer, *offered;
     uint32_t *grant, *granted, *count, *counted;
-    int *layout; /* four of all ranks: counts and places, of what goes and what comes */
+    int *layout;  /* four of all ranks: counts and places, of what goes and what comes */
     size_t *next; /* per rank: its next question in the parcels */
 } mwp_tables;
 
@@ -60,10 +61,10 @@ typedef struct mwp_talk {
     uint32_t budget;
     mwp_talk_stage stage;
     MPI_Request request;
-    MPI_Datatype question, answer; /* MPI_DATATYPE_NULL until they are made */
-    mwp_parcels block;             /* the present block */
-    bool more;                     /* there are further blocks */
-    bool broken;                   /* MPI failed */
+    MPI_Datatype question, answer;   /* MPI_DATATYPE_NULL until they are made */
+    mwp_parcels block;               /* the present block */
+    bool more;                       /* there are further blocks */
+    bool broken;                     /* MPI failed */
     void *asked, *to_send, *to_take; /* questions of others, answers to them, answers to ours */
     void *ours;                      /* questions of this round */
     size_t asked_room, take_room;

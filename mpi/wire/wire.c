@@ -125,16 +125,17 @@ mw_status mwp__wire_agree(const mwp_wire *wire, mw_status status, mwp_error *err
     const int mine = status ? wire->rank : wire->size;
     int first = wire->size;
     mwp_error broken;
-    mw_status told = mwp__wire_wait(
-        MPI_Iallreduce(&mine, &first, 1, MPI_INT, MPI_MIN, wire->comm, &request), &request, &broken);
+    mw_status told =
+        mwp__wire_wait(MPI_Iallreduce(&mine, &first, 1, MPI_INT, MPI_MIN, wire->comm, &request),
+                       &request, &broken);
     if (told) {
         *error = broken;
         return told;
     }
     if (first == wire->size) return MW_OK;
     if (first == wire->rank) error->rank = wire->rank;
-    told = mwp__wire_wait(
-        MPI_Ibcast(error, sizeof *error, MPI_BYTE, first, wire->comm, &request), &request, &broken);
+    told = mwp__wire_wait(MPI_Ibcast(error, sizeof *error, MPI_BYTE, first, wire->comm, &request),
+                          &request, &broken);
     if (told) *error = broken;
     return error->status;
 }
@@ -208,8 +209,7 @@ static mw_status parcels_check(const mwp_parcels *parcels, mwp_error *error)
 /* A record as a type of MPI, so that counts are those of records. */
 static mw_status record_type(size_t record, MPI_Datatype *type, mwp_error *error)
 {
-    mw_status status =
-        mwp__fail_mpi(error, MPI_Type_contiguous((int)record, MPI_BYTE, type));
+    mw_status status = mwp__fail_mpi(error, MPI_Type_contiguous((int)record, MPI_BYTE, type));
     return status ? status : mwp__fail_mpi(error, MPI_Type_commit(type));
 }
 
@@ -273,9 +273,9 @@ mw_status mwp__wire_gather(const mwp_wire *wire, mw_status status, const void *r
                            INT_MAX);
     status = mwp__wire_agree(wire, status, error);
     if (status) return status;
-    status = mwp__wire_wait(MPI_Iallgather(&mine, 1, MPI_UINT32_T, in->count, 1, MPI_UINT32_T,
-                                           wire->comm, &request),
-                            &request, error);
+    status = mwp__wire_wait(
+        MPI_Iallgather(&mine, 1, MPI_UINT32_T, in->count, 1, MPI_UINT32_T, wire->comm, &request),
+        &request, error);
     if (status) return status;
     int *to = NULL;
     if (!parcels_make_room(in, wire->size)) status = mwp__fail_memory(error);

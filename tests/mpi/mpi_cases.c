@@ -76,8 +76,8 @@ static arrays delaunay_of(uint32_t n, uint64_t *random)
 arrays mpi_mesh(int i, uint64_t seed, const char **name)
 {
     static const char *const names[MPI_MESHES] = {
-        "grid",    "holes",     "many holes",   "shreds",  "fan",
-        "flats",   "flats and holes", "torn", "delaunay", "one triangle"};
+        "grid",  "holes",           "many holes", "shreds",   "fan",
+        "flats", "flats and holes", "torn",       "delaunay", "one triangle"};
     uint64_t random = seed + (uint64_t)i;
     arrays a;
     *name = names[i];
@@ -85,7 +85,10 @@ arrays mpi_mesh(int i, uint64_t seed, const char **name)
     case 0: a = grid_of(12, 0.4, &random); break;
     case 4: a = arrays_fan(40); break;
     case 8: a = delaunay_of(400, &random); break;
-    case 9: a = arrays_fan(3); a.triangle_count = 1; break;
+    case 9:
+        a = arrays_fan(3);
+        a.triangle_count = 1;
+        break;
     default: a = grid_of(10, 0, &random); break;
     }
     if (i == 1 || i == 6) arrays_punch(&a, 0.15, &random);
@@ -105,7 +108,8 @@ arrays mpi_mesh(int i, uint64_t seed, const char **name)
 static double middle_x(const arrays *a, uint32_t t)
 {
     double sum = 0;
-    for (int k = 0; k < 3; k++) sum += a->points[2 * (size_t)a->triangles[3 * (size_t)t + (size_t)k]];
+    for (int k = 0; k < 3; k++)
+        sum += a->points[2 * (size_t)a->triangles[3 * (size_t)t + (size_t)k]];
     return sum / 3;
 }
 
@@ -123,8 +127,9 @@ static int stripe(const arrays *a, uint32_t t, int stripes)
 
 int *mpi_cut(int i, const arrays *a, int ranks, uint64_t seed, const char **name)
 {
-    static const char *const names[MPI_CUTS] = {"stripes",  "random", "by number", "narrow stripes",
-                                                "last has all", "one each",  "second half"};
+    static const char *const names[MPI_CUTS] = {"stripes",        "random",       "by number",
+                                                "narrow stripes", "last has all", "one each",
+                                                "second half"};
     int *rank_of = malloc((a->triangle_count + 1) * sizeof *rank_of);
     uint64_t random = seed;
     *name = names[i];

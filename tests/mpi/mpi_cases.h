@@ -1,5 +1,5 @@
-/* mpi_cases.h - meshes, and ways to cut them in pieces, for the tests of meshes in pieces. They know
- * nothing of MPI. */
+/* mpi_cases.h - meshes, and ways to cut them in pieces, for the tests of meshes in pieces. They
+ * know nothing of MPI. */
 #ifndef MW_TESTS_MPI_CASES_H
 #define MW_TESTS_MPI_CASES_H
 
@@ -7,15 +7,15 @@
 
 #include <stdbool.h>
 
-/* --- meshes: embeddings, most of them with holes, pockets and several components --------------- */
+/* --- meshes: embeddings, most of them with holes, pockets and several components -------------- */
 
 enum { MPI_MESHES = 10 };
 
 /* Mesh `i`, and its name. The same for the same seed. */
 arrays mpi_mesh(int i, uint64_t seed, const char **name);
 
-/* Put a vertex into the common edge of two triangles, here and there: one of them is cut in two, and
- * a triangle without area fills the gap to the other. Coordinates must be even. */
+/* Put a vertex into the common edge of two triangles, here and there: one of them is cut in two,
+ * and a triangle without area fills the gap to the other. Coordinates must be even. */
 void mpi_break_edges(arrays *a, uint32_t every, uint64_t *random);
 
 /* Give a share of the triangles vertices of their own, at the same places. */

@@ -7,6 +7,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 enum { SEED = 20261128 };
 
@@ -21,19 +22,26 @@ typedef struct both {
     const char *mesh_name, *cut_name;
 } both;
 
-static both both_make(int mesh, int cut, uint64_t seed)
+/* Make both of arrays, which become theirs. Either both are refused, or none; then false is
+ * returned. */
+static bool both_make(both *b, arrays a, const char *mesh_name, int cut, uint64_t seed)
 {
-    both b = {0};
     mwp_error error;
-    b.a = mpi_mesh(mesh, seed, &b.mesh_name);
-    b.mesh = arrays_mesh(&b.a, (mw_mesh_options){.threads = 1});
-    b.locator = mesh_locator(b.mesh, (mw_locator_options){.border = 1, .threads = 1});
-    b.rank_of = mpi_cut(cut, &b.a, mpi_ranks(), seed, &b.cut_name);
-    b.own = piece_make(&b.a, b.rank_of, mpi_rank(), seed);
-    const mwp_piece given = {arrays_view(&b.own.part), b.own.vertex, b.own.triangle};
-    mw_status status = mwp_mesh_create(MPI_COMM_WORLD, &given, NULL, &b.pieces, &error);
-    mpi_check(status == MW_OK, "%s, %s: %s", b.mesh_name, b.cut_name, error.message);
-    return b;
+    mw_error whole = {0};
+    *b = (both){.a = a, .mesh_name = mesh_name};
+    const mw_arrays view = arrays_view(&a);
+    const bool sound =
+        mw_mesh_create(&view, &(mw_mesh_options){.threads = 1}, &b->mesh, &whole) == MW_OK &&
+        mw_locator_create(b->mesh, &(mw_locator_options){.border = 1, .threads = 1}, &b->locator,
+                          &whole) == MW_OK;
+    b->rank_of = mpi_cut(cut, &a, mpi_ranks(), seed, &b->cut_name);
+    b->own = piece_make(&a, b->rank_of, mpi_rank(), seed);
+    const mwp_piece given = {arrays_view(&b->own.part), b->own.vertex, b->own.triangle};
+    mw_status status = mwp_mesh_create(MPI_COMM_WORLD, &given, NULL, &b->pieces, &error);
+    mpi_check((status == MW_OK) == sound && (sound || status == MW_ERROR_INPUT),
+              "%s, %s: the whole mesh: %s; in pieces: %s", mesh_name, b->cut_name,
+              sound ? "sound" : whole.message, status ? error.message : "sound");
+    return sound;
 }
 
 static void both_release(both *b)
@@ -101,8 +109,7 @@ static void check_batch(const both *b, const double *points, size_t from, size_t
     mw_status status = mw_locate_batch(b->locator, own, n, 3, &query, want, NULL, NULL);
     mpi_check(status == MW_OK, "the whole mesh");
     mwp_locating *locating = mwp_locate_begin(b->pieces, own, n, 3, options, at);
-    for (int i = 0; step_by_step && !mwp_locate_test(locating); i++)
-        ;
+    while (step_by_step && !mwp_locate_test(locating)) usleep(50);
     status = mwp_locate_end(locating, &error);
     mpi_check(status == MW_OK, "%s, %s: %s", b->mesh_name, b->cut_name, error.message);
     for (size_t i = 0; i < n; i++) {
@@ -156,19 +163,68 @@ static void check_info(const both *b)
               (long long)info.triangles, b->a.triangle_count, info.holes, whole.holes);
 }
 
-int main(int count, char **arguments)
+/* --- the meshes that the cases have ----------------------------------------------------------- */
+
+static void check_meshes(uint64_t seed)
 {
-    MPI_Init(&count, &arguments);
-    const uint64_t seed = environment_seed(SEED);
+    both b;
+    const char *name;
     const bool all = environment_is_long() || mpi_ranks() == 2;
     for (int mesh = 0; mesh < MPI_MESHES; mesh++)
         for (int cut = 0; cut < MPI_CUTS; cut++) {
             if (!all && (mesh + cut + mpi_ranks()) % 4) continue; /* each pair for some ranks */
-            both b = both_make(mesh, cut, seed);
+            arrays a = mpi_mesh(mesh, seed, &name);
+            mpi_check(both_make(&b, a, name, cut, seed), "%s is refused", name);
             check_info(&b);
             check_queries(&b, seed + (uint64_t)(mesh * MPI_CUTS + cut));
             both_release(&b);
         }
+}
+
+/* --- small meshes, most of them with a defect or two ------------------------------------------ */
+
+/* Change something. Nobody looks whether the mesh stays an embedding. */
+static void damage(arrays *a, uint64_t *random)
+{
+    const uint32_t v = mw__random_below(random, a->point_count),
+                   t = mw__random_below(random, a->triangle_count), k = mw__random_below(random, 3);
+    double *p = &a->points[2 * (size_t)v];
+    switch (mw__random_below(random, 5)) {
+    case 0: p[mw__random_below(random, 2)] += 4 * (double)mw__random_below(random, 3) - 4; break;
+    case 1: a->triangles[3 * (size_t)t + k] = v; break;
+    case 2: mpi_tear(a, 0.1, random); break;
+    case 3: arrays_punch(a, 0.2, random); break;
+    default: a->points[2 * (size_t)v + k % 2] += 1; break;
+    }
+}
+
+static void check_damaged(uint64_t seed)
+{
+    uint64_t random = seed;
+    int sound = 0, rounds = environment_is_long() ? 2000 : 40;
+    for (int i = 0; i < rounds; i++) {
+        both b;
+        arrays a = arrays_grid(3, 0, &random);
+        arrays_transform(&a, 4, 0, 0);
+        if (i % 3 == 0) arrays_punch(&a, 0.3, &random);
+        if (i % 4 == 0) mpi_break_edges(&a, 4, &random);
+        arrays_scramble(&a, i % 2, &random);
+        for (uint32_t n = mw__random_below(&random, 5); n > 0; n--) damage(&a, &random);
+        if (both_make(&b, a, "damaged", i % MPI_CUTS, seed + (uint64_t)i)) {
+            sound++;
+            check_queries(&b, seed + (uint64_t)i);
+        }
+        both_release(&b);
+    }
+    mpi_check(sound > rounds / 10 && sound < rounds * 9 / 10, "%d of %d are sound", sound, rounds);
+}
+
+int main(int count, char **arguments)
+{
+    MPI_Init(&count, &arguments);
+    const uint64_t seed = environment_seed(SEED);
+    check_meshes(seed);
+    check_damaged(seed);
     MPI_Finalize();
     return 0;
 }
