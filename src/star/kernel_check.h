@@ -15,8 +15,8 @@
 #include "mesh/defect.h"
 #include "star/star.h"
 
-/* Are the corners of a facet finite, and, in a welded surface, still where those are with which they
- * are one? */
+/* Are the corners of a facet finite, and, in a welded surface, still where those are with which
+ * they are one? */
 bool mw__star_corners_hold(const mw_star *star, const uint32_t v[3]);
 
 /* Decide whether the surface is star-shaped, and orient star->tri, which holds its triangles, as
