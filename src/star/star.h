@@ -218,6 +218,15 @@ void mw__star_fill_angles(mw_star *star);
 /* The same for one facet, whose corners may have moved. */
 void mw__star_renew_angles(mw_star *star, mw_star_facet *facet);
 
+/* --- star_follow.c --- */
+
+/* Bring a star up to date in which nothing has changed since but the places of `count` vertices;
+ * all its facets have an area. Returns false, with nothing changed but star->place, where all
+ * facets must be decided: because there are many vertices, the surface is not star-shaped any more,
+ * a facet has lost its area, or memory is short. O(k log k) for the k facets round the vertices,
+ * and O(n) when star->place is made. */
+bool mw__star_follow(mw_star *star, const uint32_t *moved, size_t count);
+
 /* --- star_walk_run.c --- */
 
 /* The stored facet that the ray from the centre along d, rounded, meets; exact for some ray close

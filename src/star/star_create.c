@@ -3,7 +3,6 @@
 #include "base/options.h"
 #include "star/flat_facets.h"
 #include "star/kernel_check.h"
-#include "star/star_follow.h"
 #include "star/star_hubs.h"
 
 #include <inttypes.h>

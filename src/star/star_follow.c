@@ -5,8 +5,6 @@
  * the facets round moved vertices that the centre lies strictly behind them; and that some ray
  * meets one facet only. The ray through the inside of a facet that did not move met no other facet
  * before, so now it can meet only those that moved. All of these are tested. */
-#include "star/star_follow.h"
-
 #include "star/kernel_check.h"
 #include "star/star_hubs.h"
 #include "topology/coincident.h"
@@ -75,7 +73,7 @@ static double facet_side(const mw_star *star, const mw_star_facet *facet, uint32
 }
 
 /* Is the centre still strictly behind a facet? Facets are counter-clockwise from outside. */
-static bool facet_is_front(const mw_star *star, const mw_star_facet *facet)
+static bool facet_still_faces_out(const mw_star *star, const mw_star_facet *facet)
 {
     return mw__star_corners_hold(star, facet->v) &&
            mw__orient3d(mw__star_corner_point(star, facet->v, 0),
@@ -122,7 +120,7 @@ static bool facets_are_star_shaped(const mw_star *star, const facet_list *list)
     if (!find_still_ray(star, list, q)) return false;
     for (uint32_t i = 0; i < list->count; i++) {
         const mw_star_facet *facet = &star->facet[list->item[i]];
-        if (!facet_is_front(star, facet) || facet_meets(star, facet, q)) return false;
+        if (!facet_still_faces_out(star, facet) || facet_meets(star, facet, q)) return false;
     }
     return true;
 }
