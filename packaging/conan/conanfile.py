@@ -8,7 +8,7 @@ from conan.tools.cmake import CMake, CMakeDeps, CMakeToolchain, cmake_layout
 from conan.tools.files import copy, rm, rmdir
 
 TREE = ("CMakeLists.txt", "LICENSE", "README.md", "CHANGELOG.md")
-FOLDERS = ("cmake", "docs/man", "include", "src", "tools", "web/platform")
+FOLDERS = ("cmake", "docs/man", "include", "mpi", "src", "tools", "web/platform")
 
 
 class Meshwalk(ConanFile):
@@ -51,6 +51,7 @@ class Meshwalk(ConanFile):
         toolchain = CMakeToolchain(self)
         toolchain.cache_variables.update(
             MW_BUILD_CLI=False,
+            MW_BUILD_MPI=False,
             MW_BUILD_WEB=False,
             MW_WITH_ZLIB=bool(self.options.with_zlib),
             MW_WITH_JANSSON=bool(self.options.with_jansson),

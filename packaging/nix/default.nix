@@ -29,6 +29,7 @@ stdenv.mkDerivation {
   ];
   cmakeFlags = [
     "-DBUILD_SHARED_LIBS=ON"
+    "-DMW_BUILD_MPI=OFF"
     "-DMW_BUILD_WEB=OFF"
   ];
 

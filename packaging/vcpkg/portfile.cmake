@@ -4,7 +4,8 @@ get_filename_component(SOURCE_PATH "${CURRENT_PORT_DIR}/../.." ABSOLUTE)
 
 vcpkg_find_acquire_program(PKGCONFIG)
 vcpkg_cmake_configure(SOURCE_PATH "${SOURCE_PATH}"
-  OPTIONS -DMW_BUILD_CLI=OFF -DMW_BUILD_WEB=OFF "-DPKG_CONFIG_EXECUTABLE=${PKGCONFIG}")
+  OPTIONS -DMW_BUILD_CLI=OFF -DMW_BUILD_MPI=OFF -DMW_BUILD_WEB=OFF
+    "-DPKG_CONFIG_EXECUTABLE=${PKGCONFIG}")
 vcpkg_cmake_install()
 vcpkg_cmake_config_fixup(CONFIG_PATH lib/cmake/meshwalk)
 vcpkg_fixup_pkgconfig()
