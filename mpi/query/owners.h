@@ -1,5 +1,5 @@
-/* owners.h - what the owners of triangles know: for each location, one answer of fixed size from the
- * rank that has its triangle. Private. */
+/* owners.h - what the owners of triangles know: for each location, one answer of fixed size from
+ * the rank that has its triangle. Private. */
 #ifndef MWP_QUERY_OWNERS_H
 #define MWP_QUERY_OWNERS_H
 

@@ -115,8 +115,8 @@ MW_API void mwp_mesh_piece(const mwp_mesh *mesh, mwp_piece *piece);
 
 /** Number of fields of a mesh from a file; heights are the field "z". Not collective. */
 MW_API size_t mwp_mesh_field_count(const mwp_mesh *mesh);
-/** The name of a field by its index, owned by the mesh, at most 127 bytes; NULL beyond the last. Not
- * collective. */
+/** The name of a field by its index, owned by the mesh, at most 127 bytes; NULL beyond the last.
+ * Not collective. */
 MW_API const char *mwp_mesh_field_name(const mwp_mesh *mesh, size_t index);
 /** Set `table` to the values of a field at the vertices of this rank's piece, for
  * mwp_interpolate(); they belong to the mesh. Returns 0 if no field has that name, else 1. Not
