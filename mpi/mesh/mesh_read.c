@@ -1,10 +1,8 @@
-/* mesh_read.c - a mesh in pieces from a file. Rank 0 reads it, and cuts it into runs of triangles
+/* mesh_read.c - a mesh in pieces from a file. Rank 0 reads it and cuts it into runs of triangles
  * along a Hilbert curve. */
 #include "mpi/mesh/mesh.h"
 
 #include "mpi/mesh/records.h"
-
-#include <meshwalk/io.h>
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,20 +10,20 @@
 
 /* What rank 0 has; nothing on the others. */
 typedef struct whole {
-    mw_mesh_file file;
+    const mw_mesh_file *file;
     mw_mesh *mesh;
     uint32_t *order; /* triangles along the curve */
     uint32_t fields; /* heights, if the file has any, and the fields */
 } whole;
 
-static mw_status whole_read(whole *w, const char *path, mwp_error *error)
+static mw_status whole_order(whole *w, const mw_mesh_file *file, mwp_error *error)
 {
     mw_error from;
-    if (!path) return mwp__fail(error, MW_ERROR_ARGUMENT, "the path is NULL");
-    if (mw_read_mesh(path, NULL, &w->file, &from)) return mwp__fail_as(error, &from);
-    const mw_arrays arrays = mw_mesh_file_arrays(&w->file);
-    w->fields = (uint32_t)w->file.field_count + (w->file.has_z != 0);
-    w->order = mwp__alloc(w->file.triangle_count, sizeof *w->order);
+    if (!file) return mwp__fail(error, MW_ERROR_ARGUMENT, "the mesh of the file is NULL");
+    const mw_arrays arrays = mw_mesh_file_arrays(file);
+    w->file = file;
+    w->fields = (uint32_t)file->field_count + (file->has_z != 0);
+    w->order = mwp__alloc(file->triangle_count, sizeof *w->order);
     if (!w->order) return mwp__fail_memory(error);
     if (mw_mesh_create(&arrays, &(mw_mesh_options){.threads = 1}, &w->mesh, &from) ||
         mw_mesh_hilbert_order(w->mesh, w->order, NULL, &from)) {
@@ -40,20 +38,19 @@ static mw_status whole_read(whole *w, const char *path, mwp_error *error)
 static void whole_release(whole *w)
 {
     mw_mesh_destroy(w->mesh);
-    mw_mesh_file_release(&w->file);
     free(w->order);
 }
 
 static double whole_value(const whole *w, uint32_t field, size_t vertex)
 {
-    if (!w->file.has_z) return w->file.fields[field][vertex];
-    return field == 0 ? w->file.points[3 * vertex + 2] : w->file.fields[field - 1][vertex];
+    if (!w->file->has_z) return w->file->fields[field][vertex];
+    return field == 0 ? w->file->points[3 * vertex + 2] : w->file->fields[field - 1][vertex];
 }
 
 static const char *whole_field_name(const whole *w, uint32_t field)
 {
-    if (!w->file.has_z) return w->file.field_names[field];
-    return field == 0 ? "z" : w->file.field_names[field - 1];
+    if (!w->file->has_z) return w->file->field_names[field];
+    return field == 0 ? "z" : w->file->field_names[field - 1];
 }
 
 /* The first triangle of rank r along the curve. */
@@ -68,16 +65,16 @@ static mwp_record whole_record(const whole *w, uint32_t t)
 {
     mwp_record record = {.triangle = t};
     for (size_t k = 0; k < 3; k++) {
-        const uint32_t v = w->file.triangles[3 * (size_t)t + k];
+        const uint32_t v = w->file->triangles[3 * (size_t)t + k];
         record.vertex[k] = v;
-        memcpy(&record.point[2 * k], &w->file.points[3 * (size_t)v], 2 * sizeof(double));
+        memcpy(&record.point[2 * k], &w->file->points[3 * (size_t)v], 2 * sizeof(double));
     }
     return record;
 }
 
 static bool triangles_pack(const whole *w, const mwp_wire *wire, mwp_parcels *out)
 {
-    const size_t n = w->file.triangle_count;
+    const size_t n = w->file->triangle_count;
     uint32_t *count = calloc((size_t)wire->size, sizeof *count);
     for (int r = 0; count && r < wire->size; r++)
         count[r] = (uint32_t)(run_begin(wire, n, r + 1) - run_begin(wire, n, r));
@@ -107,11 +104,11 @@ static int compare_vertex_numbers(const void *left, const void *right)
 /* The vertices of rank r in the order of their numbers. Returns how many. */
 static uint32_t run_vertices(const whole *w, const mwp_wire *wire, int r, int *seen, uint32_t *list)
 {
-    const size_t n = w->file.triangle_count;
+    const size_t n = w->file->triangle_count;
     uint32_t count = 0;
     for (size_t i = run_begin(wire, n, r); i < run_begin(wire, n, r + 1); i++)
         for (size_t k = 0; k < 3; k++) {
-            const uint32_t v = w->file.triangles[3 * (size_t)w->order[i] + k];
+            const uint32_t v = w->file->triangles[3 * (size_t)w->order[i] + k];
             if (vertex_is_new(seen, v, r)) list[count++] = v;
         }
     qsort(list, count, sizeof *list, compare_vertex_numbers);
@@ -126,7 +123,7 @@ static void seen_clear(int *seen, size_t n)
 /* For each rank a record of all fields for each of its vertices. */
 static bool values_pack(const whole *w, const mwp_wire *wire, mwp_parcels *out)
 {
-    const size_t points = w->file.point_count;
+    const size_t points = w->file->point_count;
     int *seen = mwp__alloc(points, sizeof *seen);
     uint32_t *list = mwp__alloc(points, sizeof *list),
              *count = calloc((size_t)wire->size, sizeof *count);
@@ -229,8 +226,8 @@ static mw_status mesh_of_union(MPI_Comm comm, const mwp_wire *wire, const mwp_un
     return status;
 }
 
-mw_status mwp_mesh_read(MPI_Comm comm, const char *path, const mwp_mesh_options *options,
-                        mwp_mesh **out, mwp_error *error)
+mw_status mwp_mesh_scatter(MPI_Comm comm, const mw_mesh_file *file, const mwp_mesh_options *options,
+                           mwp_mesh **out, mwp_error *error)
 {
     mwp_error own_error;
     mwp_wire wire;
@@ -243,7 +240,7 @@ mw_status mwp_mesh_read(MPI_Comm comm, const char *path, const mwp_mesh_options 
     if (!status) {
         status = out ? MW_OK
                      : mwp__fail(error, MW_ERROR_ARGUMENT, "the pointer to the new mesh is NULL");
-        if (!status && wire.rank == 0) status = whole_read(&w, path, error);
+        if (!status && wire.rank == 0) status = whole_order(&w, file, error);
         status = mwp__wire_agree(&wire, status, error);
     }
     if (!status) status = piece_receive(&w, &wire, &all, error);
@@ -256,5 +253,28 @@ mw_status mwp_mesh_read(MPI_Comm comm, const char *path, const mwp_mesh_options 
         (*out)->fields = fields;
     mwp__union_release(&all);
     mwp__wire_close(&wire);
+    return status;
+}
+
+mw_status mwp_mesh_read(MPI_Comm comm, const char *path, const mwp_mesh_options *options,
+                        mwp_mesh **out, mwp_error *error)
+{
+    mwp_error own_error;
+    mw_error from;
+    mwp_wire wire;
+    mw_mesh_file file = {0};
+    if (!error) error = &own_error;
+    if (out) *out = NULL;
+    mw_status status = mwp__wire_open(&wire, comm, error);
+    if (!status) {
+        status =
+            path || wire.rank ? MW_OK : mwp__fail(error, MW_ERROR_ARGUMENT, "the path is NULL");
+        if (!status && wire.rank == 0 && mw_read_mesh(path, NULL, &file, &from))
+            status = mwp__fail_as(error, &from);
+        status = mwp__wire_agree(&wire, status, error);
+    }
+    mwp__wire_close(&wire);
+    if (!status) status = mwp_mesh_scatter(comm, &file, options, out, error);
+    mw_mesh_file_release(&file);
     return status;
 }

@@ -269,6 +269,9 @@ static void check_file(uint64_t seed)
                           a.triangles[3 * (size_t)mine.triangle_numbers[t] + k],
                       "the piece");
         }
+    mpi_check(mwp_update(mesh, mine.arrays.points, 0, &error) == MW_OK &&
+                  mwp_mesh_field(mesh, "z", &table) && mwp_mesh_field_count(mesh) == 1,
+              "the fields of a mesh that has moved");
     mwp_mesh_destroy(mesh);
     status = mwp_mesh_read(MPI_COMM_WORLD, "/nowhere/mesh.off", NULL, &mesh, &error);
     mpi_check(status == MW_ERROR_SYSTEM && error.rank == 0 && !mesh, "%s", error.message);

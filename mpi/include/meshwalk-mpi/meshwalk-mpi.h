@@ -20,6 +20,7 @@
 #ifndef MESHWALK_MPI_H
 #define MESHWALK_MPI_H
 
+#include <meshwalk/io.h>
 #include <meshwalk/locate.h>
 #include <mpi.h>
 
@@ -83,10 +84,24 @@ MW_API mw_status mwp_mesh_create(MPI_Comm comm, const mwp_piece *piece,
                                  const mwp_mesh_options *options, mwp_mesh **out, mwp_error *error);
 
 /**
- * Prepare a mesh in pieces from a file. Rank 0 reads it, so rank 0 needs memory for all of it
- * meanwhile: about 100 bytes a triangle more than mw_read_mesh(). Each rank gets a run of triangles
- * along a Hilbert curve, equally many, and the fields of their vertices. Numbers are those of the
- * file.
+ * Distribute a mesh that rank 0 has. Each rank gets a run of triangles along a Hilbert curve,
+ * equally many, and the heights and fields of their vertices. Numbers are those of the file.
+ * Meanwhile rank 0 needs about 200 bytes a triangle.
+ *
+ * @param comm     the communicator; it is duplicated
+ * @param file     on rank 0 the mesh, which is only read; not looked at on the others
+ * @param options  NULL selects the defaults
+ * @param out      receives the mesh, owned by the caller (mwp_mesh_destroy()); NULL on failure
+ * @param error    NULL, or receives the message of a failure
+ * @return as mwp_mesh_create().
+ */
+MW_API mw_status mwp_mesh_scatter(MPI_Comm comm, const mw_mesh_file *file,
+                                  const mwp_mesh_options *options, mwp_mesh **out,
+                                  mwp_error *error);
+
+/**
+ * Prepare a mesh in pieces from a file, which rank 0 reads: mw_read_mesh(), then
+ * mwp_mesh_scatter().
  *
  * @param comm     the communicator; it is duplicated
  * @param path     the file, on rank 0: any that mw_read_mesh() reads
