@@ -70,8 +70,8 @@ if "$meshwalk" --version | grep -q 'GDAL .*found'; then
             "$logs/err")"
     }
     # Longitudes that are rounded when turns are added to them, and vertices at the poles.
-    awk 'BEGIN { n = 37; print "OFF\n" n + 2, 2 * n, 0
-        for (i = 0; i < n; i++) printf "%.15g %.15g 0\n", -179.95 + 360 / n * i, 9 * sin(i)
+    awk 'BEGIN { n = 4; print "OFF\n" n + 2, 2 * n, 0
+        for (i = 0; i < n; i++) printf "%.15g %.15g 0\n", 77 * i - 77.7, 9 * sin(i)
         print "17 90 0\n5 -90 0"
         for (i = 0; i < n; i++) { print 3, i, (i + 1) % n, n; print 3, (i + 1) % n, i, n + 1 } }' \
         >fans.off
