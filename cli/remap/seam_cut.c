@@ -7,8 +7,8 @@
 
 enum { MOST_CORNERS = 8 }; /* of a quadrilateral that two meridians cut */
 
-/* A corner of a piece. `vertex` is the file's, or MW_NONE of one that is new. `own` is its longitude
- * without turns, as the file has it; NaN where the seam cuts an edge. */
+/* A corner of a piece. `vertex` is the file's, or MW_NONE of one that is new. `own` is its
+ * longitude without turns, as the file has it; NaN where the seam cuts an edge. */
 typedef struct seam_corner {
     double lon, lat, own;
     uint32_t vertex;
