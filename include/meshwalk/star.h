@@ -62,8 +62,9 @@ typedef struct mw_star_options {
     /** 1: store longitude and polar angle of each vertex, 16 bytes per vertex; the walk
      * MW_STAR_WALK_ORTHOGONAL needs them. */
     int angles;
+    uint32_t threads;            /**< threads that prepare the star; 0: one per processor */
     const mw_progress *progress; /**< progress and cancelling, see base.h; NULL: none */
-    uint32_t reserved[5];        /**< must be zero */
+    uint32_t reserved[4];        /**< must be zero */
 } mw_star_options;
 
 /**
@@ -89,20 +90,37 @@ MW_API mw_status mw_star_create(const mw_surface *surface, const mw_star_options
 /** Destroy a star. NULL is allowed. */
 MW_API void mw_star_destroy(mw_star *star);
 
+/** Options of mw_star_update(). Zero-initialised options select the defaults. */
+typedef struct mw_star_update_options {
+    /** The vertices that moved since the last update, in any order; no other vertex may have moved.
+     * NULL: any vertex may have moved. Read during the call only. */
+    const uint32_t *moved;
+    size_t moved_count;          /**< how many vertices `moved` lists */
+    uint32_t threads;            /**< threads; 0: one per processor */
+    const mw_progress *progress; /**< progress and cancelling, see base.h; NULL: none */
+    uint32_t reserved[4];        /**< must be zero */
+} mw_star_update_options;
+
 /**
  * Bring a star up to date with its changed surface, during the surface's update
  * (mw_surface_begin_update()).
  *
  * Decides again whether the surface is star-shaped about the centre. Until this succeeds, all
- * queries return MW_BAD.
+ * queries return MW_BAD. Where mw_star_update_options.moved lists few vertices, only the facets
+ * round these are decided again. All facets are decided if edges were flipped, if the last update
+ * failed or one was left out, and where facets have no area.
  *
- * @param star   the star
- * @param error  NULL, or receives the message of a failure
- * @return as mw_star_create().
+ * @param star     the star
+ * @param options  NULL selects the defaults
+ * @param error    NULL, or receives the message of a failure
+ * @return as mw_star_create(); also MW_ERROR_ARGUMENT if `moved` has a number that is no vertex.
+ *         After a failure the star answers MW_BAD until an update succeeds.
  *
- * O(n). Not thread-safe.
+ * O(n), or O(k log k) for the k facets round the moved vertices; the first such update takes O(n)
+ * and 4 bytes a facet. Not thread-safe.
  */
-MW_API mw_status mw_star_update(mw_star *star, mw_error *error);
+MW_API mw_status mw_star_update(mw_star *star, const mw_star_update_options *options,
+                                mw_error *error);
 
 /** Sizes of a star. */
 typedef struct mw_star_info {
@@ -329,6 +347,44 @@ MW_API mw_status mw_star_locate_batch(const mw_star *star, const double *points,
                                       size_t stride, const mw_star_query_options *options,
                                       mw_location *locations, mw_counters *counters,
                                       mw_error *error);
+
+/**
+ * The point at which the ray from the centre through a point meets the polyhedron.
+ *
+ * Each coordinate is rounded once: it is the double nearest to the exact coordinate, and of two
+ * equally near the one with an even last bit. So it does not depend on how it was found. A ray
+ * through a vertex ends exactly there.
+ *
+ * @param star     the star
+ * @param cursor   a cursor of this star
+ * @param point    x, y, z
+ * @param meeting  receives x, y, z; NaN if the location is MW_BAD
+ * @return the location, as of mw_star_locate().
+ *
+ * Thread-safe with one cursor per thread. No allocation.
+ */
+MW_API mw_location mw_star_project(const mw_star *star, mw_star_cursor *cursor,
+                                   const double point[3], double meeting[3]);
+
+/**
+ * Project n points as mw_star_project() does.
+ *
+ * @param star       the star
+ * @param points     x, y, z of point i at points[i * stride]
+ * @param n          number of points
+ * @param stride     doubles from one point to the next; 0 means 3
+ * @param options    as for mw_star_locate_batch(); NULL selects the defaults
+ * @param meetings   receives n points x, y, z, packed; unspecified on failure. It must not overlap
+ *                   the points
+ * @param locations  NULL, or receives n locations
+ * @param error      NULL, or receives the message of a failure
+ * @return as mw_star_locate_batch().
+ *
+ * Thread-safe. Results are equal for every number of threads.
+ */
+MW_API mw_status mw_star_project_batch(const mw_star *star, const double *points, size_t n,
+                                       size_t stride, const mw_star_query_options *options,
+                                       double *meetings, mw_location *locations, mw_error *error);
 
 /**
  * The facets that one query visits, in order, the first one included. Each is linked to the one
