@@ -10,6 +10,8 @@ from meshwalk._mesh import Mesh
 from meshwalk._triangulate import constrained_delaunay
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from numpy.typing import NDArray
 
 
@@ -94,16 +96,9 @@ def cut_faces(points: NDArray[np.float64], faces: NDArray[np.intp]) -> CutFaces:
     ValueError
         A face has fewer than three corners.
     """
-    there = faces >= 0
-    sizes = there.sum(axis=1)
-    wrong = (sizes < 3) | (there != (np.arange(faces.shape[1]) < sizes[:, None])).any(axis=1)
-    if wrong.any():
-        face = int(wrong.argmax())
-        raise ValueError(f"face {face} has no three corners, or a gap between them: {faces[face]}")
+    sizes, first = _sizes(faces)
     if (sizes == 3).all():
         return CutFaces(Mesh(points, faces[:, :3], tolerant=True), faces, sizes, None)
-    first = np.zeros(len(faces) + 1, np.intp)
-    np.cumsum(sizes - 2, out=first[1:])
     triangles = np.empty((first[-1], 3), np.intp)
     for n in np.unique(sizes):
         chosen = np.flatnonzero(sizes == n)
@@ -114,18 +109,44 @@ def cut_faces(points: NDArray[np.float64], faces: NDArray[np.intp]) -> CutFaces:
     return CutFaces(Mesh(points, triangles, tolerant=True), faces, sizes, face_of)
 
 
-def _cut(points: NDArray[Any], faces: NDArray[np.intp]) -> NDArray[np.intp]:
-    """Cut faces of n corners each into n - 2 triangles: as the fan whose least area is largest."""
+def _sizes(faces: NDArray[np.intp]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Numbers of corners; the first triangle of each face, and the one behind the last."""
+    there = faces >= 0
+    sizes = there.sum(axis=1)
+    wrong = (sizes < 3) | (there != (np.arange(faces.shape[1]) < sizes[:, None])).any(axis=1)
+    if wrong.any():
+        face = int(wrong.argmax())
+        raise ValueError(f"face {face} has no three corners, or a gap between them: {faces[face]}")
+    first = np.zeros(len(faces) + 1, np.intp)
+    np.cumsum(sizes - 2, out=first[1:])
+    return sizes, first
+
+
+def _best_fans(
+    points: NDArray[Any], faces: NDArray[np.intp], area: Callable[..., NDArray[Any]]
+) -> tuple[NDArray[np.intp], NDArray[Any]]:
+    """Cut faces of n corners each into n - 2 triangles, and tell the least area in each face.
+
+    Of the n fans the one whose least area is largest is taken; a negative one is turned over.
+    """
     count, n = faces.shape
     best, chosen = np.full(count, -np.inf), np.zeros((count, n - 2, 3), np.intp)
-    corners = points[faces]
-    side = np.sign(_turn(corners[:, :1], corners[:, 1:-1], corners[:, 2:]).sum(axis=1))
+    side = np.zeros((count, 1))
     for apex in range(n):
         turned = np.roll(faces, -apex, axis=1)
         fan = np.stack([np.repeat(turned[:, :1], n - 2, 1), turned[:, 1:-1], turned[:, 2:]], 2)
-        least = (side[:, None] * _turn(*np.moveaxis(points[fan], 2, 0))).min(axis=1)
+        areas = area(*np.moveaxis(points[fan], 2, 0))
+        if apex == 0:
+            side = np.sign(areas.sum(axis=1, keepdims=True))
+        least = (side * areas).min(axis=1)
         better = least > best
         best[better], chosen[better] = least[better], fan[better]
+    return chosen, best
+
+
+def _cut(points: NDArray[Any], faces: NDArray[np.intp]) -> NDArray[np.intp]:
+    """Cut faces of the plane of n corners each into n - 2 triangles."""
+    chosen, best = _best_fans(points, faces, _turn)
     for k in np.flatnonzero(best < 0):  # no fan: not star-shaped about a corner
         chosen[k] = _cut_one(points, faces[k])
     return chosen
@@ -139,3 +160,44 @@ def _cut_one(points: NDArray[Any], face: NDArray[np.intp]) -> NDArray[np.intp]:
     if mesh.triangle_count != len(face) - 2:
         raise ValueError(f"a face with the corners {face} crosses itself")
     return face[mesh.triangles]
+
+
+def _turn_in_space(a: NDArray[Any], b: NDArray[Any], c: NDArray[Any]) -> NDArray[Any]:
+    """Six times the volumes of tetrahedra with the origin: positive if counter-clockwise there."""
+    volume: NDArray[Any] = (np.cross(a, b) * c).sum(axis=-1)
+    return volume
+
+
+def cut_facets(
+    points: NDArray[np.float64], faces: NDArray[np.intp]
+) -> tuple[NDArray[np.intp], NDArray[np.intp] | None]:
+    """Cut faces of a sphere about the origin into triangles that turn counter-clockwise.
+
+    Parameters
+    ----------
+    points : ndarray of double, shape (n, 3)
+        The nodes.
+    faces : ndarray of intp, shape (m, k)
+        Corners of the faces, -1 behind the last one. A corner may follow itself.
+
+    Returns
+    -------
+    triangles : ndarray of intp, shape (p, 3)
+        Their corners.
+    face : ndarray of intp, shape (p,), or None
+        The face of each triangle, ascending; None where all faces are triangles.
+
+    Raises
+    ------
+    ValueError
+        A face has fewer than three corners.
+    """
+    sizes, first = _sizes(faces)
+    triangles = np.empty((first[-1], 3), np.intp)
+    for n in np.unique(sizes):
+        chosen = np.flatnonzero(sizes == n)
+        fans, _ = _best_fans(points, faces[chosen, :n], _turn_in_space)
+        triangles[first[chosen][:, None] + np.arange(n - 2)] = fans
+    turned = _turn_in_space(*np.moveaxis(points[triangles], 1, 0)) < 0
+    triangles[turned] = triangles[turned][:, ::-1]
+    return triangles, None if (sizes == 3).all() else np.repeat(np.arange(len(faces)), sizes - 2)
