@@ -112,9 +112,7 @@ def test_faces_hold_their_points(random: np.random.Generator, queries: NDArray[A
 def test_points_fields_and_times(random: np.random.Generator) -> None:
     ds = ugrid(random)
     access = ds.meshwalk
-    one = access.sample(
-        [[4.0, 51.0]], "sea_surface_height_above_geoid", time="2026-01-01T02"
-    )
+    one = access.sample([[4.0, 51.0]], "sea_surface_height_above_geoid", time="2026-01-01T02")
     assert list(one.data_vars) == ["zeta"]
     assert one.zeta.shape == (1, 1) or one.zeta.shape == (1,)
     few = access.sample([[4, 51]], ["zeta", "h"], time=slice("2026-01-01T01", "2026-01-01T03"))

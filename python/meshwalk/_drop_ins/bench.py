@@ -185,36 +185,33 @@ def measure(
     list of pairs of Figure
         The original, then the drop-in.
     """
-    from meshwalk.bench import _best, _seconds
+    there = [name for name in names if find_spec(PAIRS[name].original) is not None]
+    return [_measure_pair(name, vertices, queries, rounds, seed) for name in there]
 
-    figures = []
-    for name in names:
-        pair = PAIRS[name]
-        if find_spec(pair.original) is None:
-            continue
-        random = np.random.default_rng(seed)
-        draw = _on_sphere if pair.on_sphere else _on_square
-        points, triangles = _mesh(pair, vertices, random)
-        xy = draw(queries, random)
-        small = _mesh(pair, 50, random)
-        made = []
-        for make in (pair.theirs, pair.ours):
-            make(*small)(xy[:9])  # loads and compiles what it needs
-            seconds, ask = _seconds(lambda make=make: make(points, triangles))  # type: ignore[misc]
-            made.append((seconds, ask, ask(xy)))
-        best = _best([lambda ask=ask: ask(xy) for _, ask, _ in made], rounds)  # type: ignore[misc]
-        same = float(np.mean(made[0][2] == made[1][2]))
-        with get_context("spawn").Pool(1, maxtasksperchild=1) as pool:
-            sides = [(name, side, vertices, seed) for side in ("theirs", "ours")]
-            kept = pool.starmap(_kept, sides, chunksize=1)
-        theirs, ours = (
-            Figure(label, seconds, quickest / queries, bytes_, same)
-            for label, (seconds, _, _), quickest, bytes_ in zip(
-                (pair.original, f"meshwalk.{name}"), made, best, kept, strict=True
-            )
-        )
-        figures.append((theirs, ours))
-    return figures
+
+def _measure_pair(
+    name: str, vertices: int, queries: int, rounds: int, seed: int
+) -> tuple[Figure, Figure]:
+    from meshwalk.bench import _seconds, best
+
+    pair = PAIRS[name]
+    random = np.random.default_rng(seed)
+    draw = _on_sphere if pair.on_sphere else _on_square
+    points, triangles = _mesh(pair, vertices, random)
+    xy, small = draw(queries, random), _mesh(pair, 50, random)
+    for make in (pair.theirs, pair.ours):
+        make(*small)(xy[:9])  # loads and compiles what it needs
+    built, theirs = _seconds(lambda: pair.theirs(points, triangles))
+    our_built, ours = _seconds(lambda: pair.ours(points, triangles))
+    same = float(np.mean(theirs(xy) == ours(xy)))
+    quickest = best([lambda: theirs(xy), lambda: ours(xy)], rounds)
+    with get_context("spawn").Pool(1, maxtasksperchild=1) as pool:
+        sides = [(name, side, vertices, seed) for side in ("theirs", "ours")]
+        kept = pool.starmap(_kept, sides, chunksize=1)
+    return (
+        Figure(pair.original, built, quickest[0] / queries, kept[0], same),
+        Figure(f"meshwalk.{name}", our_built, quickest[1] / queries, kept[1], same),
+    )
 
 
 def report(figures: Sequence[tuple[Figure, Figure]]) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 
 _LEAST_HEIGHT = 0.05
 """How high nodes must stand above the plane through the centre, to be projected from it."""
+_MOST_STEPS = 200
 _NEAR = 1e-12
 """Points outside by so much are decided exactly; the projection errs by some 1e-15."""
 _SIDE_ERROR = 1e-14
@@ -68,11 +69,10 @@ class SphereLocator:
             self._star = Star(Surface(nodes, triangles, weld=True, tolerant=True))
             return
         except InputError as error:
-            used = nodes[np.unique(triangles)]
-            centre = used.mean(axis=0)
-            self._centre = centre / (np.linalg.norm(centre) or 1.0)
-            if not (used @ self._centre).min() > _LEAST_HEIGHT:
+            centre = _pole_of(nodes[np.unique(triangles)])
+            if centre is None:
                 raise InputError(f"{error}; and it does not fit in a hemisphere") from None
+            self._centre = centre
         across = np.cross(self._centre, np.eye(3)[np.abs(self._centre).argmin()])
         across /= np.linalg.norm(across)
         self._axes = np.stack([across, np.cross(self._centre, across)], axis=1)
@@ -146,6 +146,21 @@ class SphereLocator:
         if self._fans is None:
             self._fans = fans_of_places(self._nodes, self._triangles)
         return self._fans
+
+
+def _pole_of(nodes: NDArray[np.float64]) -> NDArray[np.float64] | None:
+    """A direction above whose equator all nodes lie: their mean, moved to the lowest in turns.
+
+    Such steps end at one if there is one with room below the nodes.
+    """
+    pole = nodes.mean(axis=0)
+    for _ in range(_MOST_STEPS):
+        height = nodes @ (pole / (np.linalg.norm(pole) or 1.0))
+        lowest = int(height.argmin())
+        if height[lowest] > _LEAST_HEIGHT:
+            return np.asarray(pole / np.linalg.norm(pole))
+        pole = pole + 0.1 * nodes[lowest]
+    return None
 
 
 def _determinant(a: list[Fraction], b: list[Fraction], p: list[Fraction]) -> Fraction:

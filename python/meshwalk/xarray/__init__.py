@@ -195,9 +195,7 @@ class MeshAccessor:
             if rows.ndim != 2 or rows.shape[1] != 2:
                 raise ValueError(f"points must have the shape (n, 2), not {rows.shape}")
             x, y = rows.T
-        x, y = (
-            given if isinstance(given, xarray.DataArray) else _bare(given) for given in (x, y)
-        )
+        x, y = (given if isinstance(given, xarray.DataArray) else _bare(given) for given in (x, y))
         x, y = xarray.broadcast(x, y)
         place = np.stack([x.to_numpy(), y.to_numpy()], axis=-1).astype(np.float64)
         coords = {name: (x.dims, value.to_numpy(), attributes) for value, (name, attributes)
@@ -217,9 +215,7 @@ class MeshAccessor:
                     break
         return found
 
-    def _fields(
-        self, fields: str | Iterable[str] | None
-    ) -> dict[Hashable, xarray.DataArray]:
+    def _fields(self, fields: str | Iterable[str] | None) -> dict[Hashable, xarray.DataArray]:
         """The fields wanted, by name."""
         along = {self.vertex_dim, self.face_dim} - {None}
         dataset = self._dataset

@@ -20,9 +20,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from meshwalk._drop_ins.faces import cut_facets
+from meshwalk._drop_ins.sphere import Directions, SphereLocator, fans_of_places
 from meshwalk._errors import InputError
-from meshwalk._faces import cut_facets
-from meshwalk._sphere import Directions, SphereLocator, fans_of_places
 from meshwalk._where import Where
 
 if TYPE_CHECKING:

@@ -21,8 +21,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from meshwalk import _arrays
+from meshwalk._drop_ins.faces import cut_faces
 from meshwalk._errors import InputError
-from meshwalk._faces import cut_faces
 from meshwalk._locator import Locator
 from meshwalk._overlap import remap
 
