@@ -40,7 +40,7 @@ static mw_status prober_make_boxes(mw_prober *prober, mw_job *job, mw_error *err
 bool mw__prober_rebuild(mw_prober *prober, mw_job *job)
 {
     mw_bvh former = prober->bvh;
-    bool done = mw__bvh_create(&prober->bvh, prober->surface, job) && prober_fit(prober, job) &&
+    bool done = prober_make_boxes(prober, job, NULL) == MW_OK &&
                 (!former.parent || mw__bvh_follow(&prober->bvh, prober->surface));
     mw_bvh gone = done ? former : prober->bvh;
     if (!done) prober->bvh = former;

@@ -68,8 +68,8 @@ static mw_status create_job(surface_call *call, mw_error *error)
     return mw_surface_editor_create(call->surface, &call->options, &call->made, error);
 }
 
-/* Each edit is applied, with failures, and undone, with failures; then the twin does the same as its
- * editor. */
+/* Each edit is applied, with failures, and undone, with failures; then the twin does the same as
+ * its editor. */
 static void test_edits(void **state)
 {
     (void)state;

@@ -1,4 +1,5 @@
-/* surface_collapse.c - collapses an edge, if its link condition holds [Dey, Edelsbrunner, Guha, Nekhayev 1999].
+/* surface_collapse.c - collapses an edge, if its link condition holds
+ * [Dey, Edelsbrunner, Guha, Nekhayev 1999].
  *
  * The link of a vertex: the edges opposite to it, and their ends. The link of edge ab: the corners
  * opposite to it. The surface stays what it is if the links of a and b have in common what the link

@@ -16,7 +16,8 @@ typedef struct mw_surface_needs {
     size_t vertex_entries; /* vertices made, freed and moved */
 } mw_surface_needs;
 
-/* Reserve memory, and begin the edit. Nothing can fail after it. MW_ERROR_LIMIT, MW_ERROR_MEMORY. */
+/* Reserve memory, and begin the edit. Nothing can fail after it. MW_ERROR_LIMIT,
+ * MW_ERROR_MEMORY. */
 mw_status mw__surface_edit_begin(mw_surface_editor *e, const mw_surface_needs *needs,
                                  mw_error *error);
 
