@@ -1,6 +1,6 @@
 /* surface_twin.h - the twin of an editor of a surface: a list of triangles, edited by looking at
- * all of them. It predicts which edits are refused and what the others make, and compares the editor's
- * surface with one made anew, its boxes with brute force. Failures end the program
+ * all of them. It predicts which edits are refused and what the others make, and compares the
+ * editor's surface with one made anew, its boxes with brute force. Failures end the program
  * (edit_require.h). */
 #ifndef MW_TESTS_ORACLE_SURFACE_SURFACE_TWIN_H
 #define MW_TESTS_ORACLE_SURFACE_SURFACE_TWIN_H
