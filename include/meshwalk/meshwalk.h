@@ -21,6 +21,7 @@
 #include <meshwalk/star.h>
 #include <meshwalk/probe.h>
 #include <meshwalk/surface_edit.h>
+#include <meshwalk/remesh.h>
 #include <meshwalk/io.h>
 #include <meshwalk/prepared.h>
 #include <meshwalk/weights.h>
