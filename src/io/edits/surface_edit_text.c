@@ -188,7 +188,9 @@ static mw_status surface_parse_line(mw_surface_edit_reader *r, char *text,
     if (!status) status = mw__edit_expect_end(&words);
     if (status) return status;
     line->kind = form->line;
-    text[words.p - text] = 0; /* what is left is a comment */
+    char *end = text + (words.p - text); /* what is left is a comment */
+    while (end > text && mw__edit_ends_word(end[-1])) end--;
+    *end = 0;
     line->text = text;
     return MW_OK;
 }

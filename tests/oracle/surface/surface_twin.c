@@ -468,7 +468,7 @@ static bool predict(twin_surface *s, const mw_surface_edit *e)
 surface_twin surface_twin_make(const shape *s, size_t undo)
 {
     surface_twin t = {.undo = undo};
-    t.surface = shape_surface(s, (mw_surface_options){0});
+    t.surface = shape_surface(s, (mw_surface_options){.shared = 1});
     mw_prober_options boxes = {.boxes = 1, .threads = 1};
     REQUIRE(mw_prober_create(t.surface, &boxes, &t.prober, NULL) == MW_OK);
     mw_surface_editor_options options = {.prober = t.prober, .undo = undo};

@@ -29,7 +29,7 @@ typedef struct surface_twin {
     uint64_t applied, refused;
 } surface_twin;
 
-/* An editor of a surface made of the shape, with a prober, and its twin. */
+/* An editor of a shared surface made of the shape, with a prober, and its twin. */
 surface_twin surface_twin_make(const shape *s, size_t undo);
 void surface_twin_free(surface_twin *t);
 
