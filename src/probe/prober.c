@@ -46,7 +46,7 @@ bool mw__prober_rebuild(mw_prober *prober, mw_job *job)
     if (!done) prober->bvh = former;
     mw__bvh_release(&gone);
     if (done) prober->closed = mw__surface_is_closed(prober->surface);
-    if (done) prober->shape = prober->surface->shape;
+    if (done) prober->edit_count = prober->surface->edit_count;
     return done;
 }
 
@@ -88,7 +88,7 @@ mw_status mw_prober_create(const mw_surface *surface, const mw_prober_options *o
     if (!prober) return mw__fail_memory(error);
     prober->surface = surface;
     prober->version = surface->version;
-    prober->shape = surface->shape;
+    prober->edit_count = surface->edit_count;
     prober->has_bvh = options->boxes != 0;
     prober->variance = prober_sample_variance(surface);
     if (prober->has_bvh) {
@@ -115,7 +115,7 @@ void mw_prober_update(mw_prober *prober, double moved, uint32_t threads)
     /* if a version is missing, its movement is not known */
     bool known = moved >= 0 && isfinite(moved) && prober->surface->version - prober->version <= 1;
     mw_job job = mw__job(threads, NULL);
-    bool reshaped = prober->has_bvh && prober->shape != prober->surface->shape;
+    bool reshaped = prober->has_bvh && prober->edit_count != prober->surface->edit_count;
     if (reshaped && !mw__prober_rebuild(prober, &job)) return; /* it stays out of date */
     prober->version = prober->surface->version;
     if (!prober->has_bvh || reshaped) return;

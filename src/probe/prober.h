@@ -22,7 +22,7 @@ struct mw_prober {
     /* About the mean squared distance of the vertices from their mean, when created. */
     double variance;
     uint64_t version;   /* version of the surface that the BVH is valid for */
-    uint64_t shape;     /* shape of the surface whose triangles the BVH holds */
+    uint64_t edit_count;    /* shape of the surface whose triangles the BVH holds */
     double slack;       /* boxes are widened by this */
     double slack_limit; /* beyond this they are fitted again */
     uint64_t fits;

@@ -18,7 +18,7 @@ struct mw_surface {
     /* Of these numbers, how many an editor has freed. */
     uint32_t freed_points, freed_triangles;
     uint64_t version;  /* each update adds one */
-    uint64_t shape;    /* each edit of an editor adds one */
+    uint64_t edit_count;   /* each edit of an editor adds one */
     mw_rwlock *rwlock; /* NULL: the caller must not run queries during updates */
     bool borrowed;     /* the points belong to the caller */
     bool tolerant;

@@ -110,8 +110,8 @@ static void compact_conclude(mw_surface_editor *e)
 {
     mw_surface *s = e->surface;
     s->freed_triangles = s->freed_points = 0;
-    s->shape++;
-    if (e->prober) e->prober->shape = s->shape;
+    s->edit_count++;
+    if (e->prober) e->prober->edit_count = s->edit_count;
     mw__corners_fill(e);
     e->search = 0;
     e->tri_room = s->tri_count;

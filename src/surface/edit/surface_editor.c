@@ -89,7 +89,7 @@ static mw_status editor_take_prober(mw_surface_editor *e, mw_error *error)
         e->prober = NULL; /* nothing to follow */
         return MW_OK;
     }
-    if (prober->shape != e->surface->shape && !mw__prober_rebuild(prober, &job))
+    if (prober->edit_count != e->surface->edit_count && !mw__prober_rebuild(prober, &job))
         return mw__fail_memory(error);
     return mw__bvh_follow(&prober->bvh, e->surface) ? MW_OK : mw__fail_memory(error);
 }

@@ -76,7 +76,7 @@ static bool boxes_reserve(mw_surface_editor *e, size_t made)
 {
     if (!e->prober || made == 0) return true;
     mw_job job = mw__job(1, NULL);
-    if (mw__bvh_is_deep(&e->prober->bvh) && e->prober->shape == e->surface->shape &&
+    if (mw__bvh_is_deep(&e->prober->bvh) && e->prober->edit_count == e->surface->edit_count &&
         !mw__prober_rebuild(e->prober, &job))
         return false;
     return mw__bvh_reserve(&e->prober->bvh, e->surface->tri_count + made, made);
@@ -192,12 +192,12 @@ void mw__surface_follow(mw_surface_editor *e)
 {
     mw_surface *s = e->surface;
     mw_prober *prober = e->prober;
-    s->shape++;
-    if (!prober || prober->shape + 1 != s->shape) return;
+    s->edit_count++;
+    if (!prober || prober->edit_count + 1 != s->edit_count) return;
     boxes_follow_triangles(e, last_step(e));
     boxes_follow_vertices(e, last_step(e));
     prober->closed = e->borders == 0;
-    prober->shape = s->shape;
+    prober->edit_count = s->edit_count;
 }
 
 /* --- the report --- */
