@@ -322,6 +322,7 @@ def star_from_surface(
     x: float,
     y: float,
     z: float,
+    threads: int,
     progress: Progress | None,
     /,
 ) -> _Star: ...

@@ -17,10 +17,11 @@ struct mw_surface {
     uint32_t point_count, tri_count;
     /* Of these numbers, how many an editor has freed. */
     uint32_t freed_points, freed_triangles;
-    uint64_t version;  /* each update adds one */
-    uint64_t edit_count;   /* each edit of an editor adds one */
-    mw_rwlock *rwlock; /* NULL: the caller must not run queries during updates */
-    bool borrowed;     /* the points belong to the caller */
+    uint64_t version;    /* each update adds one */
+    uint64_t edit_count; /* each edit of an editor adds one */
+    uint64_t shape;      /* each change of its triangles adds one */
+    mw_rwlock *rwlock;   /* NULL: the caller must not run queries during updates */
+    bool borrowed;       /* the points belong to the caller */
     bool tolerant;
     bool updating; /* between begin and end of an update; only the updating thread looks */
     bool edited;   /* it has an editor */

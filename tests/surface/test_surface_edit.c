@@ -272,7 +272,7 @@ static void test_others_catch_up(void **state)
         shape now = surface_twin_shape(&t, &number);
         mw_surface *fresh = shape_surface(&now, (mw_surface_options){0});
         mw_status status = mw_star_create(fresh, NULL, &fresh_star, NULL);
-        assert_int_equal(mw_star_update(star, NULL), status);
+        assert_int_equal(mw_star_update(star, NULL, NULL), status);
         for (int i = 0; i < 50; i++) {
             double q[3];
             for (int k = 0; k < 3; k++) q[k] = (double)mw__random_below(&random, 41) - 20;

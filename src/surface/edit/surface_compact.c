@@ -111,6 +111,7 @@ static void compact_conclude(mw_surface_editor *e)
     mw_surface *s = e->surface;
     s->freed_triangles = s->freed_points = 0;
     s->edit_count++;
+    s->shape++;
     if (e->prober) e->prober->edit_count = s->edit_count;
     mw__corners_fill(e);
     e->search = 0;

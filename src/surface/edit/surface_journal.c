@@ -193,6 +193,7 @@ void mw__surface_follow(mw_surface_editor *e)
     mw_surface *s = e->surface;
     mw_prober *prober = e->prober;
     s->edit_count++;
+    s->shape++;
     if (!prober || prober->edit_count + 1 != s->edit_count) return;
     boxes_follow_triangles(e, last_step(e));
     boxes_follow_vertices(e, last_step(e));
