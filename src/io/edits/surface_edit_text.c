@@ -8,8 +8,8 @@
 #include <string.h>
 #include <strings.h>
 
-/* What follows the first word: p a point, m a motion, o a point that may be missing, v w x vertices,
- * t a triangle, c vertices to the end, s vertices, "to", and as many. */
+/* What follows the first word: p a point, m a motion, o a point that may be missing, v w x
+ * vertices, t a triangle, c vertices to the end, s vertices, "to", and as many. */
 typedef struct surface_edit_form {
     const char *word, *arguments;
     mw_surface_edit_line_kind line;
