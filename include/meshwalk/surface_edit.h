@@ -57,7 +57,8 @@ typedef struct mw_surface_editor_options {
  *         NULL, a surface that was welded, borrows its points or has an editor already, or a prober
  *         of another surface; MW_ERROR_MEMORY.
  *
- * Belongs to the updating thread. O(n) time; 24 bytes a triangle and 4 a vertex.
+ * Belongs to the updating thread. O(n) time; 24 bytes a triangle and 8 a vertex, and room for half as
+ * many of both more.
  */
 MW_API mw_status mw_surface_editor_create(mw_surface *surface,
                                           const mw_surface_editor_options *options,
@@ -368,9 +369,11 @@ typedef struct mw_surface_editor_info {
     uint32_t vertex_range, triangle_range;
     uint32_t border_edges; /**< edges of one triangle */
     size_t undoable;       /**< edits that can be undone */
-    size_t bytes;          /**< memory of the editor, without the surface and the prober */
-    size_t undo_bytes;     /**< of these, for undo */
-    uint64_t edits;        /**< edits applied since the editor was created, undone ones included */
+    /** Memory of the editor, with the room in the surface that edits will use, without the prober.
+     */
+    size_t bytes;
+    size_t undo_bytes; /**< of these, for undo */
+    uint64_t edits;    /**< edits applied since the editor was created, undone ones included */
     uint32_t reserved[8];
 } mw_surface_editor_info;
 

@@ -114,6 +114,7 @@ mw_status mw_surface_editor_create(mw_surface *surface, const mw_surface_editor_
         editor_fill(e);
         status = editor_check_triangles(e, error);
         if (!status) status = editor_take_prober(e, error);
+        if (!status && !mw__surface_reserve_some(e)) status = mw__fail_memory(error);
     } else {
         status = mw__fail_memory(error);
     }
@@ -364,7 +365,9 @@ void mw_surface_editor_describe(const mw_surface_editor *editor, mw_surface_edit
         .border_edges = editor->borders,
         .undoable = editor->undoable,
         .undo_bytes = undo,
-        .bytes = sizeof *editor + undo + 3 * (size_t)editor->tri_room * sizeof *editor->corner +
+        .bytes = sizeof *editor + undo + (editor->tri_room - s->tri_count) * sizeof *s->tri +
+                 (editor->point_room - s->point_count) * 3 * sizeof *s->point +
+                 3 * (size_t)editor->tri_room * sizeof *editor->corner +
                  editor->point_room * sizeof *editor->at +
                  editor->changed_triangle_room * sizeof *editor->changed_triangle +
                  editor->changed_vertex_room * sizeof *editor->changed_vertex,

@@ -90,6 +90,12 @@ static bool report_reserve(mw_surface_editor *e, size_t triangles, size_t vertic
                         sizeof *e->changed_vertex);
 }
 
+bool mw__surface_reserve_some(mw_surface_editor *e)
+{
+    return triangles_reserve(e, (size_t)e->surface->tri_count + 1) &&
+           points_reserve(e, (size_t)e->surface->point_count + 1) && boxes_reserve(e, 1);
+}
+
 mw_status mw__surface_edit_begin(mw_surface_editor *e, const mw_surface_needs *needs,
                                  mw_error *error)
 {

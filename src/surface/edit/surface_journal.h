@@ -16,6 +16,10 @@ typedef struct mw_surface_needs {
     size_t vertex_entries; /* vertices made, freed and moved */
 } mw_surface_needs;
 
+/* Make room for half as many triangles and vertices more, so that the first edits need not. False
+ * when out of memory. */
+bool mw__surface_reserve_some(mw_surface_editor *e);
+
 /* Reserve memory, and begin the edit. Nothing can fail after it. MW_ERROR_LIMIT,
  * MW_ERROR_MEMORY. */
 mw_status mw__surface_edit_begin(mw_surface_editor *e, const mw_surface_needs *needs,
