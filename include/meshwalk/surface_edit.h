@@ -57,8 +57,8 @@ typedef struct mw_surface_editor_options {
  *         NULL, a surface that was welded, borrows its points or has an editor already, or a prober
  *         of another surface; MW_ERROR_MEMORY.
  *
- * Belongs to the updating thread. O(n) time; 24 bytes a triangle and 8 a vertex, and room for half as
- * many of both more.
+ * Belongs to the updating thread. O(n) time; 24 bytes a triangle and 8 a vertex, and room for half
+ * as many of both more.
  */
 MW_API mw_status mw_surface_editor_create(mw_surface *surface,
                                           const mw_surface_editor_options *options,
