@@ -119,7 +119,7 @@ static void test_creation(void **state)
     failures_seen = 0;
     REQUIRE(exhaust(create_job, &call) == MW_OK);
     printf("%ld allocations of a creation failed\n", failures_seen);
-    REQUIRE(failures_seen >= 10);
+    REQUIRE(failures_seen >= 8); /* what one try got is there in the next */
     mw_surface_editor_destroy(call.made);
     mw_prober_destroy(call.options.prober);
     mw_surface_destroy(call.surface);
