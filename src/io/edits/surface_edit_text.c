@@ -1,12 +1,12 @@
 /* surface_edit_text.c - edits of a surface as lines of text. */
 #include "io/edits/surface_edit_text.h"
+#include "base/posix.h"
 #include "io/edits/edit_words.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 /* What follows the first word: p a point, m a motion, o a point that may be missing, v w x
  * vertices, t a triangle, c vertices to the end, s vertices, "to", and as many. */
