@@ -77,7 +77,7 @@ struct mw_star {
     uint32_t front;      /* the facet at phi = 0, theta = pi/2 */
     uint32_t fuel;       /* step limit of walks that may not end */
     uint64_t version;    /* version of the surface that all this is valid for */
-    uint64_t shape;      /* and its shape */
+    uint64_t flips;      /* and how many edges had been flipped */
     bool ready;          /* the last check found it star-shaped */
 };
 

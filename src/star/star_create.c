@@ -106,7 +106,7 @@ static void star_finish(mw_star *star)
     static const double front[3] = {1, 0, 0};
     star->front = mw__star_facet_along(star, front, star->front);
     star->version = star->surface->version;
-    star->shape = star->surface->shape;
+    star->flips = star->surface->flips;
     star->ready = true;
 }
 
@@ -189,7 +189,7 @@ mw_status mw_star_create(const mw_surface *surface, const mw_star_options *optio
 static bool star_can_follow(const mw_star *star)
 {
     return star->ready && star->surface->version - star->version <= 1 &&
-           star->surface->shape == star->shape && star->area_count == star->tri_count;
+           star->surface->flips == star->flips && star->area_count == star->tri_count;
 }
 
 mw_status mw_star_update(mw_star *star, const mw_star_update_options *options, mw_error *error)
