@@ -33,7 +33,7 @@ _meshwalk_options() {
             ;;
         star) echo "--centre --lonlat --walk --start --finish --sample --cells --levels --columns $stream $common" ;;
         probe)
-            echo "--max-distance --certain --extent --faces --min-distance --inside --start --samples --iterations --race --weld --any --columns $stream $common"
+            echo "--max-distance --certain --extent --faces --min-distance --inside --start --guide --samples --iterations --race --weld --any --columns $stream $common"
             ;;
         walk) echo "--from --to --walk --animate --max-distance --samples --iterations --as --centre --lonlat --weld $common" ;;
         convert) echo "--format --crs $common" ;;
