@@ -2,18 +2,25 @@
 # program and its manual pages are installed by cli/. Only a top-level build installs.
 include(CMakePackageConfigHelpers)
 
-set_target_properties(meshwalk_shared PROPERTIES EXPORT_NAME meshwalk)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/meshwalk)
 
 # Two export sets: users of the shared library need the development files of neither zlib nor
 # Jansson.
-install(TARGETS meshwalk_shared EXPORT meshwalkSharedTargets)
 install(TARGETS meshwalk_static EXPORT meshwalkStaticTargets)
-foreach(kind Shared Static)
-  install(EXPORT meshwalk${kind}Targets NAMESPACE meshwalk:: DESTINATION ${package_dir})
-endforeach()
+install(EXPORT meshwalkStaticTargets NAMESPACE meshwalk:: DESTINATION ${package_dir})
+if(TARGET meshwalk_shared)
+  set_target_properties(meshwalk_shared PROPERTIES EXPORT_NAME meshwalk)
+  install(TARGETS meshwalk_shared EXPORT meshwalkSharedTargets)
+  install(EXPORT meshwalkSharedTargets NAMESPACE meshwalk:: DESTINATION ${package_dir})
+endif()
 install(DIRECTORY include/meshwalk DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
   FILES_MATCHING PATTERN "*.h" PATTERN "*.def")
+
+if(MW_HAS_MPI)
+  install(TARGETS meshwalk_mpi EXPORT meshwalkMpiTargets)
+  install(EXPORT meshwalkMpiTargets NAMESPACE meshwalk:: DESTINATION ${package_dir})
+  install(DIRECTORY mpi/include/meshwalk-mpi DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+endif()
 
 # Manual pages of section 3 come from the comments of the headers.
 file(GLOB headers CONFIGURE_DEPENDS include/meshwalk/*.h)
@@ -24,6 +31,10 @@ add_custom_command(OUTPUT ${man3_dir}/meshwalk-base.3
 add_custom_target(man3 ALL DEPENDS ${man3_dir}/meshwalk-base.3)
 install(DIRECTORY ${man3_dir}/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man3)
 
+set(needs_threads ON)
+if(MW_WASI)
+  set(needs_threads OFF)
+endif()
 set(needs_jansson OFF)
 if(TARGET PkgConfig::JANSSON)
   set(needs_jansson ON)
@@ -53,4 +64,9 @@ if(needs_jansson)
 endif()
 configure_file(cmake/meshwalk.pc.in ${PROJECT_BINARY_DIR}/meshwalk.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/meshwalk.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+if(MW_HAS_MPI) # for mpicc, which knows where MPI is
+  configure_file(cmake/meshwalk-mpi.pc.in ${PROJECT_BINARY_DIR}/meshwalk-mpi.pc @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/meshwalk-mpi.pc
+    DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+endif()
 install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
