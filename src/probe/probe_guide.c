@@ -56,11 +56,13 @@ static void guide_find_box(mw_probe_guide *guide, const mw_surface *surface)
 static void guide_enter(mw_probe_guide *guide, const mw_surface *surface, size_t cells)
 {
     for (size_t i = 0; i < cells; i++) guide->cell[i] = MW_NONE;
-    for (uint32_t t = 0; t < surface->tri_count; t++)
+    for (uint32_t t = 0; t < surface->tri_count; t++) {
+        if (mw__surface_is_freed(surface, t)) continue;
         for (uint32_t c = 0; c < 3 && mw__corners_finite(surface, t); c++) {
             uint32_t *cell = &guide->cell[guide_cell(guide, mw__surface_corner(surface, t, c))];
             if (*cell == MW_NONE) *cell = t;
         }
+    }
 }
 
 /* Cells whose neighbours are to be looked at, in the order in which they got their triangle. */
