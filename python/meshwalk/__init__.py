@@ -64,10 +64,23 @@ if TYPE_CHECKING:
     from meshwalk._plot import explain, plot
     from meshwalk._polygons import PolygonHits, Polygons
     from meshwalk._prepared import map
-    from meshwalk._prober import NearestPoints, Prober, SurfaceSide, Touches, TouchState
+    from meshwalk._prober import (
+        Deviation,
+        NearestPoints,
+        Prober,
+        SurfaceSide,
+        Touches,
+        TouchState,
+    )
     from meshwalk._segments import Segments
     from meshwalk._sight import Sights, SightState, visible
-    from meshwalk._star import Star, StarInfo, direction_to_lonlat, lonlat_to_direction
+    from meshwalk._star import (
+        Remeshed,
+        Star,
+        StarInfo,
+        direction_to_lonlat,
+        lonlat_to_direction,
+    )
     from meshwalk._surface import Surface, SurfaceInfo
     from meshwalk._triangulate import (
         DuplicateWarning,
@@ -117,10 +130,10 @@ _MODULES = {
     "_plot": ("explain", "plot"),
     "_polygons": ("PolygonHits", "Polygons"),
     "_prepared": ("map",),
-    "_prober": ("NearestPoints", "Prober", "SurfaceSide", "Touches", "TouchState"),
+    "_prober": ("Deviation", "NearestPoints", "Prober", "SurfaceSide", "Touches", "TouchState"),
     "_segments": ("Segments",),
     "_sight": ("SightState", "Sights", "visible"),
-    "_star": ("Star", "StarInfo", "direction_to_lonlat", "lonlat_to_direction"),
+    "_star": ("Remeshed", "Star", "StarInfo", "direction_to_lonlat", "lonlat_to_direction"),
     "_surface": ("Surface", "SurfaceInfo"),
     "_triangulate": (
         "DuplicateWarning",
@@ -139,6 +152,7 @@ __all__ = [
     "Constraints",
     "Cursor",
     "Defect",
+    "Deviation",
     "DuplicateWarning",
     "EdgeKind",
     "Edit",
@@ -166,6 +180,7 @@ __all__ = [
     "Polygons",
     "Prober",
     "Remap",
+    "Remeshed",
     "Reordered",
     "Segments",
     "SightState",

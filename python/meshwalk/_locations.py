@@ -63,6 +63,7 @@ class Locations:
     """
 
     __slots__ = ("mesh", "records")
+    _KIND = "locations"
 
     def __init__(self, mesh: Mesh | Surface | BorrowedMesh, records: NDArray[Any]) -> None:
         if records.dtype != LOCATION:

@@ -7,14 +7,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from meshwalk import _arrays, _core
+from meshwalk._locations import Locations
 from meshwalk._mesh import Mesh
+from meshwalk._prober import Found
+from meshwalk._surface import Surface
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
     from scipy.sparse import csr_array
 
     from meshwalk._core import Progress
-    from meshwalk._locations import Locations
 
 
 class Operator:
@@ -26,8 +28,9 @@ class Operator:
 
     Parameters
     ----------
-    hit : Locations
-        Points that were located in a `Mesh`, which the operator does not keep.
+    hit : Locations, Touches or NearestPoints
+        Points that were located in a `Mesh`; or answers of a `Star` or `Prober`, at places of its
+        surface. The operator keeps neither.
     threads : int, optional
         How many threads work on it; 0 lets the library choose.
     progress : callable, optional
@@ -53,14 +56,26 @@ class Operator:
     __slots__ = ("_columns", "_points", "_transposed", "_values", "_weights")
 
     def __init__(
-        self, hit: Locations, threads: int = 0, *, progress: Progress | None = None
+        self,
+        hit: Locations | Found,
+        threads: int = 0,
+        *,
+        progress: Progress | None = None,
     ) -> None:
-        if not isinstance(hit.mesh, Mesh):
-            raise TypeError(f"points must be located in a Mesh, not in a {type(hit.mesh).__name__}")
+        mesh = hit.mesh if isinstance(hit, Locations) else hit.surface
         records = np.ascontiguousarray(hit.records).reshape(-1)
-        self._weights = _core.operator_from_locations(hit.mesh, records, threads, progress)
+        if isinstance(mesh, Mesh):
+            self._weights = _core.operator_from_locations(mesh, records, threads, progress)
+        elif isinstance(mesh, Surface):
+            kind = hit._KIND
+            with mesh._lock:
+                self._weights = _core.operator_on_surface(mesh, kind, records, threads, progress)
+        else:
+            raise TypeError(
+                f"points must be located in a Mesh or a Surface, not in a {type(mesh).__name__}"
+            )
         self._points: tuple[int, ...] = hit.shape
-        self._values: tuple[int, ...] = (hit.mesh.vertex_count,)
+        self._values: tuple[int, ...] = (mesh.vertex_count,)
         self._transposed = False
         self._columns = "vertices"
 

@@ -318,18 +318,9 @@ class Surface(_core.Surface):
         threads: int,
         progress: Progress | None,
     ) -> None:
-        """As the library does it in the plane: a weight of 0 ignores even NaN."""
-        there = records["triangle"] >= 0
-        corners = self.triangles[records["triangle"][there]]
-        weights = records["weights"][there]
-        out.fill(np.nan)
-        columns = out.T if _arrays.lies_in_rows(values) else out
-        for k in range(values.shape[1]):
-            total = np.zeros(len(weights))
-            for c in range(3):
-                part = weights[:, c] * values[corners[:, c], k]
-                total += np.where(weights[:, c] != 0, part, 0)
-            columns[k, there] = total
+        with self._lock:
+            weights = _core.operator_on_surface(self, "locations", records, threads, progress)
+        weights.apply(values, narrow, out, False, False, threads, progress)
 
     def __len__(self) -> int:
         """Number of triangles."""
