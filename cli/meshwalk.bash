@@ -37,7 +37,7 @@ _meshwalk_options() {
         probe)
             echo "--max-distance --certain --extent --faces --min-distance --inside --start --samples --iterations --race --weld --any --columns $stream $common"
             ;;
-        walk) echo "--from --to --walk --animate --max-distance --samples --iterations --as --centre --lonlat --weld $common" ;;
+        walk) echo "--from --to --walk --animate --plane --grid --cells --max-distance --samples --iterations --as --centre --lonlat --weld $common" ;;
         convert) echo "--format --crs $common" ;;
         prepare) echo "--border --fields --crs $common" ;;
         view) echo "--points --columns --as --centre --lonlat --weld $common" ;;
@@ -67,6 +67,7 @@ _meshwalk_names() {
             ;;
         --help | -h) echo all ;;
         --fix) echo 'weld orient drop split all' ;;
+        --grid) echo 'none uniform nonuniform' ;;
         --as) [[ $1 == sample ]] && echo 'plane star' || echo 'plane surface star' ;;
         --walk)
             [[ $1 == star ]] && echo 'auto stochastic forgetful barycentric orthogonal straight' &&
