@@ -53,8 +53,8 @@ PICTURES = [
             "meshwalk walk --as star globe.off --walk straight --from 1,0.2,0.3 --to -0.2,1,-0.4 "
             "-o globe.svg"),
     Picture("grid.svg", "Longitude and polar angle",
-            "The orthogonal walk goes along a parallel, then along a meridian. It begins in the first "
-            "facet of a cell of a grid; these facets are yellow.",
+            "The orthogonal walk goes along a parallel, then along a meridian. It begins in the "
+            "first facet of a cell of a grid; these facets are yellow.",
             "meshwalk walk --as star --plane --grid nonuniform globe.off --walk orthogonal "
             "--to -0.2,1,-0.4 -o grid.svg"),
     Picture("probe.svg", "A probe touches a surface",
