@@ -131,7 +131,8 @@ static int ray_queries_make_index(ray_queries *r)
 static int ray_queries_open(ray_queries *r, const char *path)
 {
     const star_settings *s = r->settings;
-    const star_input_settings how = {&s->centre, s->lonlat, s->walk == MW_STAR_WALK_ORTHOGONAL};
+    const star_input_settings how = {&s->centre, s->lonlat, s->walk == MW_STAR_WALK_ORTHOGONAL,
+                                     s->stream.common.threads};
     mw_mesh_file file;
     int end = files_read_mesh(path, &file);
     if (end) return end;

@@ -210,7 +210,9 @@ static int remeshing_check_result(const remeshing *r, const mw_surface *surface)
     mw_error error;
     mw_star *star;
     const double *c = r->how.centre->at;
-    const mw_star_options options = {.centre = {c[0], c[1], c[2]}, .progress = progress_of_call()};
+    const mw_star_options options = {.centre = {c[0], c[1], c[2]},
+                                     .threads = r->common->threads,
+                                     .progress = progress_of_call()};
     mw_status status = mw_star_create(surface, &options, &star, &error);
     if (status == MW_OK) mw_star_destroy(star);
     if (status == MW_ERROR_INPUT && !r->common->quiet)
@@ -255,7 +257,10 @@ static void remeshing_take_crs(remeshing *r, bool onto_sphere)
 int remeshed_star_run(const remesh_settings *s, const common_settings *common,
                       const coordinates *centre, bool lonlat, const char *path)
 {
-    remeshing r = {.settings = s, .common = common, .how = {centre, lonlat, false}, .path = path};
+    remeshing r = {.settings = s,
+                   .common = common,
+                   .how = {centre, lonlat, false, common->threads},
+                   .path = path};
     int end = remeshing_check(&r);
     if (end == 0) end = files_read_mesh(path, &r.given);
     if (end) return end;

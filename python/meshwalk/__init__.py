@@ -82,6 +82,8 @@ if TYPE_CHECKING:
         lonlat_to_direction,
     )
     from meshwalk._surface import Surface, SurfaceInfo
+    from meshwalk._tiles import TileLocations, Tiles
+    from meshwalk._tiling import prepare_tiles
     from meshwalk._triangulate import (
         DuplicateWarning,
         OptimumWarning,
@@ -135,6 +137,8 @@ _MODULES = {
     "_sight": ("SightState", "Sights", "visible"),
     "_star": ("Remeshed", "Star", "StarInfo", "direction_to_lonlat", "lonlat_to_direction"),
     "_surface": ("Surface", "SurfaceInfo"),
+    "_tiles": ("TileLocations", "Tiles"),
+    "_tiling": ("prepare_tiles",),
     "_triangulate": (
         "DuplicateWarning",
         "OptimumWarning",
@@ -192,6 +196,8 @@ __all__ = [
     "SurfaceAreaInfo",
     "SurfaceInfo",
     "SurfaceSide",
+    "TileLocations",
+    "Tiles",
     "TouchState",
     "Touches",
     "VolumeInfo",
@@ -209,6 +215,7 @@ __all__ = [
     "mend",
     "mesh_formats",
     "plot",
+    "prepare_tiles",
     "read",
     "read_constraints",
     "read_points",

@@ -7,16 +7,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from meshwalk import _arrays, _core
-from meshwalk._locations import Locations
-from meshwalk._mesh import Mesh
-from meshwalk._prober import Found
-from meshwalk._surface import Surface
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
     from scipy.sparse import csr_array
 
     from meshwalk._core import Progress
+    from meshwalk._locations import Locations
+    from meshwalk._prober import Found
 
 
 class Operator:
@@ -29,8 +27,8 @@ class Operator:
     Parameters
     ----------
     hit : Locations, Touches or NearestPoints
-        Points that were located in a `Mesh`; or answers of a `Star` or `Prober`, at places of its
-        surface. The operator keeps neither.
+        Points that were located in a `Mesh` or in `Tiles`; or answers of a `Star` or `Prober`, at
+        places of its surface. The operator keeps none of these.
     threads : int, optional
         How many threads work on it; 0 lets the library choose.
     progress : callable, optional
@@ -62,20 +60,9 @@ class Operator:
         *,
         progress: Progress | None = None,
     ) -> None:
-        mesh = hit.mesh if isinstance(hit, Locations) else hit.surface
-        records = np.ascontiguousarray(hit.records).reshape(-1)
-        if isinstance(mesh, Mesh):
-            self._weights = _core.operator_from_locations(mesh, records, threads, progress)
-        elif isinstance(mesh, Surface):
-            kind = hit._KIND
-            with mesh._lock:
-                self._weights = _core.operator_on_surface(mesh, kind, records, threads, progress)
-        else:
-            raise TypeError(
-                f"points must be located in a Mesh or a Surface, not in a {type(mesh).__name__}"
-            )
+        self._weights = hit._core_operator(threads, progress)
         self._points: tuple[int, ...] = hit.shape
-        self._values: tuple[int, ...] = (mesh.vertex_count,)
+        self._values: tuple[int, ...] = (self._weights.describe()[1],)
         self._transposed = False
         self._columns = "vertices"
 

@@ -155,6 +155,11 @@ class Found:
             values = _arrays.named(self.surface.fields, values)
         return Operator(self, threads, progress=progress).apply(values, threads, progress=progress)
 
+    def _core_operator(self, threads: int, progress: Progress | None) -> _core.Operator:
+        """The weights, for an `Operator`."""
+        records = np.ascontiguousarray(self.records).reshape(-1)
+        return self.surface._operator(self._KIND, records, threads, progress)
+
     def operator(self) -> csr_array:
         """The interpolation as a sparse matrix, as of `Locations.operator`.
 

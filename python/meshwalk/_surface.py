@@ -240,7 +240,7 @@ class Surface(_core.Surface):
             larger, which is quick, and fitted anew only now and then. By default they are fitted
             anew.
         threads : int, optional
-            How many threads fit boxes; 0 lets the library choose.
+            How many threads fit boxes and check stars; 0 lets the library choose.
 
         Raises
         ------
@@ -309,6 +309,13 @@ class Surface(_core.Surface):
         """
         return SurfaceInfo(**self._describe())
 
+    def _operator(
+        self, kind: str, records: NDArray[Any], threads: int, progress: Progress | None
+    ) -> _core.Operator:
+        """The weights of answers: "locations", "touches" or "nearest"."""
+        with self._lock:
+            return _core.operator_on_surface(self, kind, records, threads, progress)
+
     def _interpolate_table(
         self,
         values: NDArray[Any],
@@ -318,8 +325,7 @@ class Surface(_core.Surface):
         threads: int,
         progress: Progress | None,
     ) -> None:
-        with self._lock:
-            weights = _core.operator_on_surface(self, "locations", records, threads, progress)
+        weights = self._operator("locations", records, threads, progress)
         weights.apply(values, narrow, out, False, False, threads, progress)
 
     def __len__(self) -> int:
