@@ -28,7 +28,7 @@ _meshwalk_options() {
             echo "--nodata --columns --crs --points-crs $stream $common"
             ;;
         edit)
-            echo "--answers --heights --changes --numbers --log --constraints --undo --delaunay --skip --strict --walk"
+            echo "--as --answers --heights --changes --numbers --log --constraints --undo --delaunay --skip --strict --walk"
             echo "--start --cells --layers --descent --format --stats --json $common"
             ;;
         star)
@@ -68,7 +68,13 @@ _meshwalk_names() {
         --help | -h) echo all ;;
         --fix) echo 'weld orient drop split all' ;;
         --grid) echo 'none uniform nonuniform' ;;
-        --as) [[ $1 == sample ]] && echo 'plane star' || echo 'plane surface star' ;;
+        --as)
+            case $1 in
+                sample) echo 'plane star' ;;
+                edit) echo 'plane surface' ;;
+                *) echo 'plane surface star' ;;
+            esac
+            ;;
         --walk)
             [[ $1 == star ]] && echo 'auto stochastic forgetful barycentric orthogonal straight' &&
                 return
