@@ -71,7 +71,7 @@ static void chunk_measure_vertices(void *work, uint64_t chunk, uint32_t member)
     mw_nearest_surface_point hit = {.triangle = MW_NONE};
     (void)member;
     for (uint64_t t = chunk * DEVIATION_CHUNK; t < chunk_end(w, chunk); t++)
-        for (int k = 0; k < 3; k++) {
+        for (int k = 0; k < 3 && !mw__surface_is_freed(w->surface, (uint32_t)t); k++) {
             const uint32_t v = w->surface->tri[t].v[k];
             if (w->owner[v] != t) continue;
             w->at_vertex[v] = sample_measure(w, mw__surface_point(w->surface, v), &hit);
@@ -185,6 +185,7 @@ static void chunk_measure_triangles(void *work, uint64_t chunk, uint32_t member)
     cut_triangle c = {.work = w, .sum = &w->sum[chunk], .hit = {.triangle = MW_NONE}};
     (void)member;
     for (uint64_t t = chunk * DEVIATION_CHUNK; t < chunk_end(w, chunk); t++) {
+        if (mw__surface_is_freed(w->surface, (uint32_t)t)) continue;
         const double area = triangle_area(w->surface, (uint32_t)t), parts = sqrt(area / w->piece);
         c.t = (uint32_t)t;
         c.parts = !(parts > 1) ? 1 : parts < MOST_PARTS ? (uint32_t)ceil(parts) : MOST_PARTS;
@@ -210,7 +211,7 @@ static mw_status deviation_find_owners(const deviation_work *w, mw_error *error)
 {
     for (uint32_t v = 0; v < w->surface->point_count; v++) w->owner[v] = MW_NONE;
     for (uint32_t t = 0; t < w->surface->tri_count; t++)
-        for (uint32_t k = 0; k < 3; k++) {
+        for (uint32_t k = 0; k < 3 && !mw__surface_is_freed(w->surface, t); k++) {
             const uint32_t v = w->surface->tri[t].v[k];
             if (w->owner[v] != MW_NONE) continue;
             if (!mw__is_finite3(mw__surface_point(w->surface, v)))
@@ -236,6 +237,7 @@ static void deviation_sum_up(const deviation_work *w, uint64_t chunks, mw_deviat
     mw_nearest_surface_point hit;
     for (uint64_t c = 0; c < chunks; c++) {
         const deviation_sum *s = &w->sum[c];
+        if (s->triangle == MW_NONE) continue; /* its triangles are freed */
         all.area += s->area;
         all.moment += s->moment;
         all.samples += s->samples;
@@ -285,7 +287,7 @@ mw_status mw_surface_deviation(const mw_surface *surface, const mw_prober *other
     static const mw_remesh_options defaults;
     if (!surface || !other || !out)
         return mw__fail(error, MW_ERROR_ARGUMENT, "the surface, the prober or the result is NULL");
-    if (surface->tri_count == 0)
+    if (surface->tri_count == surface->freed_triangles)
         return mw__fail(error, MW_ERROR_INPUT, "the surface has no triangle");
     if (!options) options = &defaults;
     mw_status status = MW_RESERVED_CHECK(mw_remesh_options, options, error);
