@@ -30,7 +30,7 @@ static mw_status file_map(int fd, const char *path, void **bytes, size_t *size, 
     *size = (size_t)s.st_size;
     void *map = mmap(NULL, *size, PROT_READ, MAP_SHARED, fd, 0);
     if (map == MAP_FAILED) return mw__fail_system(path, errno, error);
-    /* Large pages, where the file system has them: walks miss fewer translations of addresses, and
+        /* Large pages, where the file system has them: walks miss fewer translations of addresses, and
      * a file that is not in memory yet is read in larger pieces. */
 #ifdef MADV_HUGEPAGE
     if (*size >= LARGE_FILE) (void)madvise(map, *size, MADV_HUGEPAGE);
