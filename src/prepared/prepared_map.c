@@ -13,8 +13,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* Where the file system has large pages, walks miss fewer translations of addresses, and a file that
- * is not in memory yet is read in larger pieces. */
+/* Where the file system has large pages, walks miss fewer translations of addresses, and a file
+ * that is not in memory yet is read in larger pieces. */
 static void map_ask_large_pages(void *map, size_t size)
 {
 #ifdef MADV_HUGEPAGE
