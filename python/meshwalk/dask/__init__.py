@@ -119,6 +119,8 @@ def _names(source: _Source) -> tuple[list[str], list[str]]:
 
 
 def _check_fields(source: _Source, fields: Sequence[str]) -> None:
+    if not fields:
+        raise ValueError("fields must name one field at least")
     of_vertices, of_triangles = _names(source)
     known = of_vertices + of_triangles
     for name in fields:
