@@ -257,6 +257,21 @@ def test_each_process_maps_the_file_once(
     assert any(counts.values())
 
 
+def test_workers_give_tiles_up(
+    client: distributed.Client, folder: Path, locator: meshwalk.Locator, xy: NDArray[Any]
+) -> None:
+    path = folder / "few"
+    shutil.copytree(folder / "tiles", path)
+    tiles = meshwalk.Tiles(path, memory=1)
+    hit = meshwalk.dask.locate(tiles, da.from_array(xy, chunks=(1000, 2)), 0.01)
+    _same(hit.compute(), locator.locate(xy, 0.01))
+    assert all(count <= 1 for count in client.run(_tiles_mapped, str(path)).values())
+
+
+def _tiles_mapped(path: str) -> int:
+    return Path("/proc/self/maps").read_text().count(f"{path}/tile-")
+
+
 def test_a_file_that_workers_do_not_have(
     client: distributed.Client, folder: Path, locator: meshwalk.Locator, square: meshwalk.Mesh
 ) -> None:
