@@ -2,11 +2,11 @@
 #include "cli/frame/message.h"
 #include "cli/frame/progress.h"
 #include "cli/output/csv_row.h"
+#include "src/base/posix.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 enum { SEGMENTS_AT_A_TIME = 1 << 16 };
 

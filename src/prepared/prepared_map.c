@@ -1,17 +1,14 @@
 /* prepared_map.c - prepared files are mapped: read when they are needed, and shared by all
  * processes that map them. */
 #include "base/options.h"
+#include "base/posix.h"
 #include "io/text/descriptor.h"
 #include "io/text/system_error.h"
 #include "prepared/prepared.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/mman.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 /* Where the file system has large pages, walks miss fewer translations of addresses, and a file
  * that is not in memory yet is read in larger pieces. */

@@ -1,10 +1,10 @@
 #include "io/series/time_dates.h"
+#include "base/posix.h"
 
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <strings.h>
 
 enum { DAY = 86400 };
 
