@@ -127,6 +127,14 @@ int64_t mw__date_days(const mw_date *date, mw_calendar calendar)
     return 365 * year + (calendar == MW_GREGORIAN ? leap : 0) + before[month] + date->day - 1;
 }
 
+bool mw__date_exists(const mw_date *date, mw_calendar calendar)
+{
+    const bool last = date->month == 12;
+    const mw_date first = {.year = date->year, .month = date->month, .day = 1},
+                  next = {.year = date->year + last, .month = last ? 1 : date->month + 1, .day = 1};
+    return date->day <= mw__date_days(&next, calendar) - mw__date_days(&first, calendar);
+}
+
 double mw__date_seconds(const mw_date *date, mw_calendar calendar)
 {
     return (double)(DAY * mw__date_days(date, calendar) + 3600 * date->hour + 60 * date->minute) +
