@@ -3,7 +3,7 @@
 
 # Blocks of code in the documentation: C blocks become programs, the shell blocks of a page one
 # test.
-file(GLOB pages CONFIGURE_DEPENDS README.md docs/*.md docs/proofs/*.md docs/measurements/*.md)
+file(GLOB pages CONFIGURE_DEPENDS README.md docs/*.md docs/*/*.md)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${pages} tools/doc_blocks.awk)
 set(blocks_dir ${PROJECT_BINARY_DIR}/documentation)
 file(REMOVE_RECURSE ${blocks_dir})

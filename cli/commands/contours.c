@@ -7,6 +7,7 @@
 #include "cli/gdal/mesh_crs.h"
 #include "cli/input/mesh_field.h"
 #include "cli/lines/contour_lines.h"
+#include "cli/lines/contour_mesh.h"
 #include "cli/lines/contour_polygons.h"
 #include "cli/lines/row_output.h"
 #include "cli/output/csv_row.h"
@@ -251,15 +252,6 @@ static int contours_check_mesh(const contours_settings *s, const mw_mesh *mesh, 
     return end;
 }
 
-static int contours_of_mesh(const contours_settings *s, const mw_mesh *mesh, const char *path,
-                            const char *crs, contour_levels *levels)
-{
-    const double *values = mw_mesh_field(mesh, s->field ? s->field : "z");
-    int end = 0;
-    if (s->interval) end = levels_make(levels, s, values, mw_mesh_vertex_count(mesh));
-    return end ? end : contours_write(s, mesh, values, levels, path, crs);
-}
-
 static int contours_check(const contours_settings *s, const char *const *operands)
 {
     double value;
@@ -324,37 +316,66 @@ static int contours_drop_flat(const contours_settings *s, const char *path, mw_m
     return end ? end : contours_create_mesh(s, path, file, mesh);
 }
 
-static int contours_read(const contours_settings *s, const char *path, mesh_field_choice *field,
-                         mw_mesh **mesh, char **crs)
-{
+/* What a run has. */
+typedef struct contours_work {
     mw_mesh_file file;
-    int end = files_read_mesh(path, &file);
-    if (end) return end;
-    end = mesh_crs_settle(path, s->crs, file.crs, s->common.quiet, crs);
-    if (end == 0) end = contours_create_mesh(s, path, &file, mesh);
-    if (end == 0 && s->polygons && contours_mesh_has_flat(*mesh))
-        end = contours_drop_flat(s, path, &file, mesh);
-    if (end == 0) end = mesh_field_load(*mesh, path, &file, field);
-    mw_mesh_file_release(&file);
-    return end;
+    char *crs;
+    double *values; /* of the vertices of the file */
+    contour_levels levels;
+    contour_mesh crossed; /* for lines */
+    mw_mesh *mesh;        /* for polygons */
+} contours_work;
+
+static void contours_work_release(contours_work *w)
+{
+    mw_mesh_file_release(&w->file);
+    free(w->crs);
+    free(w->values);
+    free(w->levels.values);
+    contour_mesh_release(&w->crossed);
+    mw_mesh_destroy(w->mesh);
+}
+
+static int contours_make_polygons(const contours_settings *s, const char *path, contours_work *w)
+{
+    int end = contours_create_mesh(s, path, &w->file, &w->mesh);
+    if (end == 0 && contours_mesh_has_flat(w->mesh))
+        end = contours_drop_flat(s, path, &w->file, &w->mesh);
+    return end ? end : contours_check_mesh(s, w->mesh, path);
+}
+
+static int contours_make_lines(const contours_settings *s, const char *path, contours_work *w)
+{
+    const mw_mesh_options options = {.threads = s->common.threads, .progress = progress_of_call()};
+    progress_phase("preparing", path);
+    return contour_mesh_create(&w->crossed, path, &w->file, w->values, w->levels.values,
+                               w->levels.count, &options);
+}
+
+static int contours_make(const contours_settings *s, const char *path, contours_work *w)
+{
+    mesh_field_choice field = {.field = s->field ? s->field : "z", .quiet = s->common.quiet};
+    int end = nodata_parse("nodata", s->nodata, &field.nodata);
+    if (end == 0 && s->levels) end = levels_parse(&w->levels, s->levels);
+    if (end == 0) end = files_read_mesh(path, &w->file);
+    if (end == 0) end = mesh_crs_settle(path, s->crs, w->file.crs, s->common.quiet, &w->crs);
+    if (end == 0 && s->polygons) end = contours_make_polygons(s, path, w);
+    if (end == 0) end = mesh_field_copy(path, &w->file, &field, &w->values);
+    if (end == 0 && s->interval) end = levels_make(&w->levels, s, w->values, w->file.point_count);
+    return end || s->polygons ? end : contours_make_lines(s, path, w);
 }
 
 static int contours_run(const void *settings, const char *const *operands)
 {
     const contours_settings *s = settings;
-    mesh_field_choice field = {.field = s->field ? s->field : "z", .quiet = s->common.quiet};
-    contour_levels levels = {0};
-    mw_mesh *mesh = NULL;
-    char *crs = NULL;
+    contours_work w = {0};
     int end = contours_check(s, operands);
-    if (end == 0) end = nodata_parse("nodata", s->nodata, &field.nodata);
-    if (end == 0 && s->levels) end = levels_parse(&levels, s->levels);
-    if (end == 0) end = contours_read(s, operands[0], &field, &mesh, &crs);
-    if (end == 0 && s->polygons) end = contours_check_mesh(s, mesh, operands[0]);
-    if (end == 0) end = contours_of_mesh(s, mesh, operands[0], crs, &levels);
-    free(levels.values);
-    free(crs);
-    mw_mesh_destroy(mesh);
+    if (end == 0) end = contours_make(s, operands[0], &w);
+    if (end == 0 && s->polygons)
+        end = contours_write(s, w.mesh, w.values, &w.levels, operands[0], w.crs);
+    else if (end == 0)
+        end = contours_write(s, w.crossed.mesh, w.crossed.values, &w.levels, operands[0], w.crs);
+    contours_work_release(&w);
     return end;
 }
 

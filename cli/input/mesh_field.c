@@ -87,38 +87,46 @@ static int mesh_field_take_triangles(mw_mesh *mesh, const char *path,
     return end;
 }
 
-static int mesh_field_set(mw_mesh *mesh, const char *path, const mesh_field_choice *choice,
-                          const double *values, size_t stride)
+/* The values of a field of vertices, `stride` apart. NULL: there is none of this name. */
+static const double *mesh_field_of_vertices(const mw_mesh_file *file, const char *field,
+                                            size_t *stride)
 {
-    mw_error error;
-    size_t count = mw_mesh_vertex_count(mesh);
-    double *copy =
-        nodata_copy(values, stride, count, &choice->nodata, path, choice->field, choice->quiet);
-    if (!copy) return fail_memory();
-    mw_status status = mw_mesh_set_field(mesh, choice->field, copy, 1, &error);
-    free(copy);
-    return status == MW_OK ? 0 : fail_mesh(path, &error);
+    *stride = 1;
+    for (size_t i = 0; i < file->field_count; i++)
+        if (strcmp(file->field_names[i], field) == 0) return file->fields[i];
+    *stride = 3;
+    return file->has_z && strcmp(field, "z") == 0 ? file->points + 2 : NULL;
+}
+
+int mesh_field_copy(const char *path, const mw_mesh_file *file, const mesh_field_choice *choice,
+                    double **copy)
+{
+    size_t stride;
+    const double *values = mesh_field_of_vertices(file, choice->field, &stride);
+    if (!values) return mesh_field_fail(path, file, choice);
+    if (file->step_count > 1 && stride == 1 && !choice->quiet)
+        complain("%s: warning: has values at %zu times; '%s' is that of the first ('meshwalk "
+                 "sample --time' takes others)",
+                 path, file->step_count, choice->field);
+    *copy = nodata_copy(values, stride, file->point_count, &choice->nodata, path, choice->field,
+                        choice->quiet);
+    return *copy ? 0 : fail_memory();
 }
 
 int mesh_field_load(mw_mesh *mesh, const char *path, const mw_mesh_file *file, const void *self)
 {
     const mesh_field_choice *choice = self;
     const char *field = choice->field;
-    const double *values = NULL;
-    size_t stride = 1;
-    for (size_t i = 0; i < file->field_count && !values; i++)
-        if (strcmp(file->field_names[i], field) == 0) values = file->fields[i];
-    if (!values && file->has_z && strcmp(field, "z") == 0) {
-        values = file->points + 2;
-        stride = 3;
-    }
-    const size_t triangles = values ? SIZE_MAX : mesh_field_of_triangles(file, field);
+    mw_error error;
+    double *copy;
+    size_t stride;
+    const bool of_vertices = mesh_field_of_vertices(file, field, &stride) != NULL;
+    const size_t triangles = of_vertices ? SIZE_MAX : mesh_field_of_triangles(file, field);
     if (triangles != SIZE_MAX && (choice->recover || choice->triangles))
         return mesh_field_take_triangles(mesh, path, choice, file->triangle_fields[triangles]);
-    if (!values) return mesh_field_fail(path, file, choice);
-    if (file->step_count > 1 && stride == 1 && !choice->quiet)
-        complain("%s: warning: has values at %zu times; '%s' is that of the first ('meshwalk "
-                 "sample --time' takes others)",
-                 path, file->step_count, field);
-    return mesh_field_set(mesh, path, choice, values, stride);
+    int end = mesh_field_copy(path, file, choice, &copy);
+    if (end) return end;
+    mw_status status = mw_mesh_set_field(mesh, field, copy, 1, &error);
+    free(copy);
+    return status == MW_OK ? 0 : fail_mesh(path, &error);
 }

@@ -23,4 +23,8 @@ typedef struct mesh_field_choice {
  * 0, or an exit code after a complaint. */
 int mesh_field_load(mw_mesh *mesh, const char *path, const mw_mesh_file *file, const void *self);
 
+/* The same values of a field of vertices, one for each, without a mesh. *values is for free(). */
+int mesh_field_copy(const char *path, const mw_mesh_file *file, const mesh_field_choice *choice,
+                    double **values);
+
 #endif

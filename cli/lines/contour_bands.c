@@ -28,14 +28,14 @@ static uint32_t bands_find(const double *levels, uint32_t count, double scale, d
     return levels[guess - 1] <= value ? guess : bands_search(levels, 0, guess - 1, value);
 }
 
-uint32_t *contour_bands_of_vertices(const mw_mesh *mesh, const double *values, const double *levels,
-                                    size_t level_count)
+uint32_t *contour_bands_of_values(const double *values, size_t n, const double *levels,
+                                  size_t level_count)
 {
-    uint32_t n = mw_mesh_vertex_count(mesh), count = (uint32_t)level_count;
-    uint32_t *band = malloc(((size_t)n + 1) * sizeof *band);
+    uint32_t count = (uint32_t)level_count;
+    uint32_t *band = malloc((n + 1) * sizeof *band);
     double scale = count > 1 ? (count - 1) / (levels[count - 1] - levels[0]) : 0;
     if (!isfinite(scale)) scale = 0;
-    for (uint32_t v = 0; band && v < n; v++)
+    for (size_t v = 0; band && v < n; v++)
         band[v] = isnan(values[v]) ? CONTOUR_NO_BAND
                   : count == 0     ? 0
                                    : bands_find(levels, count, scale, values[v]);

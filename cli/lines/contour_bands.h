@@ -11,11 +11,10 @@
 /* The band of a vertex without a value. */
 #define CONTOUR_NO_BAND MW_NONE
 
-/* The band of each vertex, CONTOUR_NO_BAND where its value is NaN. The caller frees it. NULL:
- * memory ran out.
+/* The band of each of n values, CONTOUR_NO_BAND of NaN. The caller frees it. NULL: memory ran out.
  *   levels  ascending */
-uint32_t *contour_bands_of_vertices(const mw_mesh *mesh, const double *values, const double *levels,
-                                    size_t level_count);
+uint32_t *contour_bands_of_values(const double *values, size_t n, const double *levels,
+                                  size_t level_count);
 
 typedef struct contour_bands {
     uint32_t low, high;
@@ -23,11 +22,8 @@ typedef struct contour_bands {
 
 /* The lowest and the highest band of a triangle's vertices; both CONTOUR_NO_BAND if one has none.
  */
-static inline contour_bands contour_bands_of_triangle(const mw_mesh *mesh, const uint32_t *band,
-                                                      uint32_t t)
+static inline contour_bands contour_bands_of_corners(const uint32_t *band, const uint32_t v[3])
 {
-    uint32_t v[3];
-    mw_mesh_triangle(mesh, t, v);
     contour_bands b = {band[v[0]], band[v[0]]};
     for (int k = 1; k < 3; k++) {
         uint32_t other = band[v[k]];
@@ -36,6 +32,14 @@ static inline contour_bands contour_bands_of_triangle(const mw_mesh *mesh, const
     }
     if (b.high == CONTOUR_NO_BAND) b.low = CONTOUR_NO_BAND;
     return b;
+}
+
+static inline contour_bands contour_bands_of_triangle(const mw_mesh *mesh, const uint32_t *band,
+                                                      uint32_t t)
+{
+    uint32_t v[3];
+    mw_mesh_triangle(mesh, t, v);
+    return contour_bands_of_corners(band, v);
 }
 
 #endif

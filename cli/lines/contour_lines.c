@@ -29,7 +29,8 @@ static int tracer_collect(contour_tracer *c)
     uint32_t count = mw_mesh_triangle_count(c->mesh), crossed = 0;
     contour_bands *bands = malloc(((size_t)count + 1) * sizeof *bands);
     uint32_t *which = malloc(((size_t)count + 1) * sizeof *which);
-    c->band = contour_bands_of_vertices(c->mesh, c->values, c->levels, c->level_count);
+    c->band = contour_bands_of_values(c->values, mw_mesh_vertex_count(c->mesh), c->levels,
+                                      c->level_count);
     c->first = calloc(c->level_count + 2, sizeof *c->first);
     c->pending = calloc((size_t)count + 1, 1);
     bool made = bands && which && c->band && c->first && c->pending;

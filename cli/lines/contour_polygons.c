@@ -242,7 +242,7 @@ int contour_polygons_make(const mw_mesh *mesh, const double *values, const doubl
                     .level_count = level_count,
                     .sink = sink,
                     .self = self};
-    b.band = contour_bands_of_vertices(mesh, values, levels, level_count);
+    b.band = contour_bands_of_values(values, mw_mesh_vertex_count(mesh), levels, level_count);
     int end = b.band ? bands_collect(&b) : fail_memory();
     for (size_t i = 0; end == 0 && i <= level_count; i++) {
         if (b.first[i + 1] > b.first[i]) end = band_make(&b, i);

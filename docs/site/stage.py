@@ -165,9 +165,16 @@ def _sections() -> dict[str, list[str]]:
     return found
 
 
+def _below(files: list[Path], path: Path) -> list[str]:
+    """Return the pages in the folder that has the name of a page."""
+    folder = path.with_suffix("")
+    return [p.as_posix() for p in files if p.suffix == ".md" and p.parent == folder]
+
+
 def _index(pages: Pages, made: dict[str, list[str]]) -> str:
     sections = _sections()
     listed = {page for group in sections.values() for page in group}
+    listed.update(below for page in tuple(listed) for below in _below(pages.files, Path(page)))
     rest = [p.as_posix() for p in pages.files if p.suffix == ".md" and p.as_posix() not in listed]
     sections["Inside"] += [page for page in rest if page != "README.md"]
     text = pages.markdown(Path("README.md"))
@@ -188,9 +195,12 @@ def main(program: str, page: str, out: Path) -> None:
     for path in pages.files:
         if path.suffix == ".md" and path.as_posix() != "README.md":
             text = pages.markdown(path)
-            pages.write(
-                path, _bibliography(text) if path.as_posix() == f"{BIBLIOGRAPHY}.md" else text
-            )
+            if path.as_posix() == f"{BIBLIOGRAPHY}.md":
+                text = _bibliography(text)
+            below = [Path(page).relative_to(path.parent) for page in _below(pages.files, path)]
+            if below:
+                text += _toctree("Pages", [page.as_posix() for page in below])
+            pages.write(path, text)
     made = {
         "see": [
             gallery.make(pages, program),

@@ -9,6 +9,11 @@
  *     mw_operator_create(mesh, locations, n, NULL, &weights, &error);
  *     for (each step) mw_operator_apply(weights, &table, NULL, result, &error);
  *
+ * Answers of queries in space serve too: rays from the centre of a star, probes, nearest points.
+ *
+ *     mw_hits hits = mw_hits_of_touches(touches, n);
+ *     mw_operator_create_on_surface(surface, &hits, NULL, &weights, &error);
+ *
  * The results are those of mw_interpolate_table(), bit for bit. An operator takes 40 bytes a point
  * and does not refer to the mesh. It orders its rows so that consecutive rows read nearby values.
  */
@@ -16,6 +21,7 @@
 #define MESHWALK_OPERATOR_H
 
 #include <meshwalk/locate.h>
+#include <meshwalk/probe.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -52,6 +58,59 @@ typedef struct mw_operator_options {
 MW_API mw_status mw_operator_create(const mw_mesh *mesh, const mw_location *locations, size_t n,
                                     const mw_operator_options *options, mw_operator **out,
                                     mw_error *error);
+
+/** Places in triangles of a surface: the triangle and the weights in records of any type. */
+typedef struct mw_hits {
+    const uint32_t *triangle; /**< of the first record; MW_NONE: it is in no triangle */
+    const double *weight;     /**< the three weights of the first record */
+    size_t stride;            /**< bytes from one record to the next, for both */
+    size_t count;             /**< number of records */
+} mw_hits;
+
+/** View n locations, as of mw_star_locate_batch(), as places. They stay the caller's. O(1). */
+MW_API mw_hits mw_hits_of_locations(const mw_location *locations, size_t n);
+/** View n touches, as of mw_probe_batch(), as places. They stay the caller's. O(1). */
+MW_API mw_hits mw_hits_of_touches(const mw_touch *touches, size_t n);
+/** View n nearest points (mw_nearest_on_surface()) as places. They stay the caller's. O(1). */
+MW_API mw_hits mw_hits_of_nearest(const mw_nearest_surface_point *points, size_t n);
+
+/**
+ * Create the operator that interpolates values at the vertices of a surface linearly at places in
+ * its triangles.
+ *
+ * On a star the place is where the ray meets the flat facet.
+ *
+ * @param surface  the surface in which the places were found; read during the call only
+ * @param hits     the places: row i is record i. As for mw_operator_create(), records without a
+ *                 triangle give rows without entries, and weights of 0 are left out
+ * @param options  NULL selects the defaults
+ * @param out      receives the operator, owned by the caller (mw_operator_destroy()); NULL on
+ *                 failure
+ * @param error    NULL, or receives the message of a failure
+ * @return as mw_operator_create().
+ *
+ * Thread-safe; not during an update of the surface. O(n).
+ */
+MW_API mw_status mw_operator_create_on_surface(const mw_surface *surface, const mw_hits *hits,
+                                               const mw_operator_options *options,
+                                               mw_operator **out, mw_error *error);
+
+/**
+ * Interpolate values at the vertices of a surface linearly: result[i] is the sum of weight[k] *
+ * values[vertex k] over the weights that are not 0.
+ *
+ * For many fields, or missing values to be left out, use an operator: its results are the same.
+ *
+ * @param surface  the surface in which the places were found
+ * @param values   one value per vertex
+ * @param hits     the places
+ * @param result   receives hits->count values: exact at vertices; NaN for a record without a
+ *                 triangle
+ *
+ * Thread-safe; not during an update of the surface. O(n), without allocation.
+ */
+MW_API void mw_surface_interpolate(const mw_surface *surface, const double *values,
+                                   const mw_hits *hits, double *result);
 
 /** The entries of a sparse matrix in any order, as ESMF's files of weights have them. */
 typedef struct mw_operator_entries {

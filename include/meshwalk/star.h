@@ -331,6 +331,44 @@ MW_API mw_status mw_star_locate_batch(const mw_star *star, const double *points,
                                       mw_error *error);
 
 /**
+ * The point at which the ray from the centre through a point meets the polyhedron.
+ *
+ * Each coordinate is rounded once: it is the double nearest to the exact coordinate, and of two
+ * equally near the one with an even last bit. So it does not depend on how it was found. A ray
+ * through a vertex ends exactly there.
+ *
+ * @param star     the star
+ * @param cursor   a cursor of this star
+ * @param point    x, y, z
+ * @param meeting  receives x, y, z; NaN if the location is MW_BAD
+ * @return the location, as of mw_star_locate().
+ *
+ * Thread-safe with one cursor per thread. No allocation.
+ */
+MW_API mw_location mw_star_project(const mw_star *star, mw_star_cursor *cursor,
+                                   const double point[3], double meeting[3]);
+
+/**
+ * Project n points as mw_star_project() does.
+ *
+ * @param star       the star
+ * @param points     x, y, z of point i at points[i * stride]
+ * @param n          number of points
+ * @param stride     doubles from one point to the next; 0 means 3
+ * @param options    as for mw_star_locate_batch(); NULL selects the defaults
+ * @param meetings   receives n points x, y, z, packed; unspecified on failure. It must not overlap
+ *                   the points
+ * @param locations  NULL, or receives n locations
+ * @param error      NULL, or receives the message of a failure
+ * @return as mw_star_locate_batch().
+ *
+ * Thread-safe. Results are equal for every number of threads.
+ */
+MW_API mw_status mw_star_project_batch(const mw_star *star, const double *points, size_t n,
+                                       size_t stride, const mw_star_query_options *options,
+                                       double *meetings, mw_location *locations, mw_error *error);
+
+/**
  * The facets that one query visits, in order, the first one included. Each is linked to the one
  * before, unless the walk has jumped round a vertex of many facets (mw_star_cursor_init()).
  *

@@ -5,7 +5,6 @@
  * and a chunk knows nothing of the one before it. */
 #include "batch/batch.h"
 
-#include "base/job.h"
 #include "base/random.h"
 
 #include <pthread.h>
@@ -62,8 +61,8 @@ static bool block_run(mw_batch *batch, mw_key *keys, size_t block, double share,
     return block_answer(batch, (uint32_t)block, job, sum);
 }
 
-static mw_status batch_run_blocks(mw_batch *batch, size_t n, mw_job *job, mw_counters *sum,
-                                  mw_error *error)
+mw_status mw__batch_run_part(mw_batch *batch, size_t n, mw_job *job, mw_counters *sum,
+                             mw_error *error)
 {
     size_t block = n < BLOCK ? n : BLOCK;
     mw_key *keys = batch->sort ? mw__alloc_lines(2 * block, sizeof *keys) : NULL;
@@ -87,7 +86,7 @@ mw_status mw__batch_run(mw_batch *batch, size_t n, uint32_t threads, const mw_pr
 {
     mw_job job = mw__job(threads, progress);
     mw_counters sum = {0};
-    mw_status status = mw__job_end(&job, batch_run_blocks(batch, n, &job, &sum, error), error);
+    mw_status status = mw__job_end(&job, mw__batch_run_part(batch, n, &job, &sum, error), error);
     if (counters) *counters = sum;
     return status;
 }

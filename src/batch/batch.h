@@ -4,6 +4,7 @@
 #define MW_SRC_BATCH_BATCH_H
 
 #include "base/hilbert.h"
+#include "base/job.h"
 
 #include <meshwalk/locate.h>
 
@@ -26,6 +27,11 @@ struct mw_batch {
     /* Answers the queries first .. first + count - 1 (of the order), on one thread. */
     mw_counters (*answer)(const mw_batch *batch, uint32_t first, uint32_t count);
 };
+
+/* Answer n queries, as stages of the present part of the job. What was done is added to *sum.
+ * MW_OK also where the job is to stop, or MW_ERROR_MEMORY. */
+mw_status mw__batch_run_part(mw_batch *batch, size_t n, mw_job *job, mw_counters *sum,
+                             mw_error *error);
 
 /* Answer n queries as a job of its own. What was done goes to *counters unless that is NULL.
  * MW_ERROR_MEMORY, MW_CANCELLED. */

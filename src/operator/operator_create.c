@@ -1,6 +1,6 @@
 /* operator_create.c - operators from locations, from entries, and from the rows of another. */
 #include "base/options.h"
-#include "mesh/mesh.h"
+#include "operator/hits.h"
 #include "operator/row_order.h"
 #include "operator/sparse_rows.h"
 
@@ -9,71 +9,77 @@
 
 static const mw_operator_options defaults;
 
-/* --- from locations --------------------------------------------------------------------------- */
+/* --- from places ------------------------------------------------------------------------------ */
 
-/* The locations in a mesh and the operator that is made of them. */
-typedef struct location_rows {
-    const mw_mesh *mesh;
-    const mw_location *at;
+/* The places and the operator that is made of them. */
+typedef struct place_rows {
+    const mw_placed_hits *at;
     mw_operator *o;
-} location_rows;
+} place_rows;
 
-static bool location_fits(const mw_mesh *mesh, const mw_location *at)
+static bool place_fits(const mw_placed_hits *at, size_t i)
 {
-    return at->triangle == MW_NONE ||
-           (at->triangle < mw_mesh_triangle_count(mesh) && isfinite(at->weight[0]) &&
-            isfinite(at->weight[1]) && isfinite(at->weight[2]));
+    const uint32_t triangle = mw__hit_triangle(&at->hits, i);
+    const double *weight = mw__hit_weights(&at->hits, i);
+    return triangle == MW_NONE ||
+           (triangle < mw__placed_triangle_count(at) && isfinite(weight[0]) &&
+            isfinite(weight[1]) && isfinite(weight[2]));
 }
 
-static mw_status locations_check(const mw_mesh *mesh, const mw_location *at, size_t n,
-                                 mw_error *error)
+static mw_status places_check(const mw_placed_hits *at, mw_error *error)
 {
+    const size_t n = at->hits.count;
     if (n >= MW_NONE)
         return mw__fail(error, MW_ERROR_LIMIT, "an operator of %zu rows; at most %u are possible",
                         n, MW_NONE - 1);
-    for (size_t i = 0; i < n; i++)
-        if (!location_fits(mesh, &at[i]))
+    for (size_t i = 0; i < n; i++) {
+        const double *weight = mw__hit_weights(&at->hits, i);
+        if (!place_fits(at, i))
             return mw__fail(
                 error, MW_ERROR_ARGUMENT,
-                "location %zu is not one of this mesh: triangle %u of %u, weights %g %g "
-                "%g",
-                i, at[i].triangle, mw_mesh_triangle_count(mesh), at[i].weight[0], at[i].weight[1],
-                at[i].weight[2]);
+                "location %zu is not one of this mesh: triangle %u of %u, weights %g %g %g", i,
+                mw__hit_triangle(&at->hits, i), mw__placed_triangle_count(at), weight[0], weight[1],
+                weight[2]);
+    }
     return MW_OK;
 }
 
-static bool locations_order(const mw_mesh *mesh, const mw_location *at, mw_operator *o)
+static bool places_order(const mw_placed_hits *at, mw_operator *o)
 {
     uint32_t *key = mw__alloc(o->rows, sizeof *key);
     if (!key) return false;
-    for (uint32_t i = 0; i < o->rows; i++)
-        key[i] = at[i].triangle == MW_NONE ? MW_NONE : mw__triangle_slot(mesh, at[i].triangle);
+    for (uint32_t i = 0; i < o->rows; i++) {
+        const uint32_t triangle = mw__hit_triangle(&at->hits, i);
+        key[i] = triangle == MW_NONE ? MW_NONE : mw__placed_slot(at, triangle);
+    }
     const bool done = mw__row_order(key, o->rows, &o->row);
     free(key);
     return done;
 }
 
-/* The entries of a location; the column of a weight of 0 is one that is read anyway. */
-static void location_fill(const location_rows *work, size_t rank)
+/* The entries of a place; the column of a weight of 0 is one that is read anyway. */
+static void place_fill(const place_rows *work, size_t rank)
 {
-    const mw_location *at = &work->at[mw__operator_row(work->o, rank)];
+    const size_t i = mw__operator_row(work->o, rank);
+    const uint32_t triangle = mw__hit_triangle(&work->at->hits, i);
+    const double *given = mw__hit_weights(&work->at->hits, i);
     uint32_t v[3] = {0}, *column = &work->o->column[3 * rank];
     double *weight = &work->o->weight[3 * rank];
-    const bool there = at->triangle != MW_NONE;
-    if (there) mw_mesh_triangle(work->mesh, at->triangle, v);
-    const uint32_t any = at->weight[0] != 0 ? v[0] : at->weight[1] != 0 ? v[1] : v[2];
+    const bool there = triangle != MW_NONE;
+    if (there) mw__placed_vertices(work->at, triangle, v);
+    const uint32_t any = given[0] != 0 ? v[0] : given[1] != 0 ? v[1] : v[2];
     for (int k = 0; k < 3; k++) {
-        weight[k] = there ? at->weight[k] : 0;
+        weight[k] = there ? given[k] : 0;
         column[k] = weight[k] != 0 ? v[k] : any;
     }
 }
 
-static void locations_fill(void *work, uint64_t from, uint64_t to)
+static void places_fill(void *work, uint64_t from, uint64_t to)
 {
-    for (uint64_t rank = from; rank < to; rank++) location_fill(work, rank);
+    for (uint64_t rank = from; rank < to; rank++) place_fill(work, rank);
 }
 
-static void locations_measure(mw_operator *o)
+static void places_measure(mw_operator *o)
 {
     for (size_t rank = 0; rank < o->rows; rank++) {
         const double *w = &o->weight[3 * rank];
@@ -84,40 +90,38 @@ static void locations_measure(mw_operator *o)
     }
 }
 
-static mw_operator *locations_pack(const mw_mesh *mesh, const mw_location *at, uint32_t n,
-                                   mw_job *job)
+static mw_operator *places_pack(const mw_placed_hits *at, mw_job *job)
 {
+    const size_t n = at->hits.count;
     mw_operator *o = mw__calloc(1, sizeof *o);
     if (!o) return NULL;
-    o->rows = n;
-    o->columns = mw_mesh_vertex_count(mesh);
+    o->rows = (uint32_t)n;
+    o->columns = mw__placed_vertex_count(at);
     o->column = mw__alloc(n, 3 * sizeof *o->column);
     o->weight = mw__alloc(n, 3 * sizeof *o->weight);
     mw__job_stage(job, "ordering points", 0.5);
-    bool made = o->column && o->weight && locations_order(mesh, at, o) && mw__job_step(job, 1, 1);
+    bool made = o->column && o->weight && places_order(at, o) && mw__job_step(job, 1, 1);
     mw__job_stage(job, "collecting weights", 0.5);
-    made = made && mw__job_ranges(job, n, locations_fill, &(location_rows){mesh, at, o});
+    made = made && mw__job_ranges(job, n, places_fill, &(place_rows){at, o});
     if (made) {
-        locations_measure(o);
+        places_measure(o);
         return o;
     }
     mw_operator_destroy(o);
     return NULL;
 }
 
-mw_status mw_operator_create(const mw_mesh *mesh, const mw_location *locations, size_t n,
-                             const mw_operator_options *options, mw_operator **out, mw_error *error)
+static mw_status places_run(const mw_placed_hits *at, const mw_operator_options *options,
+                            mw_operator **out, mw_error *error)
 {
-    if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "the pointer to the new operator is NULL");
-    *out = NULL;
     if (!options) options = &defaults;
-    if (!mesh || (n && !locations))
+    if ((!at->mesh && !at->surface) || (at->hits.count && (!at->hits.triangle || !at->hits.weight)))
         return mw__fail(error, MW_ERROR_ARGUMENT, "the mesh or the locations are NULL");
     mw_status status = MW_RESERVED_CHECK(mw_operator_options, options, error);
-    if (!status) status = locations_check(mesh, locations, n, error);
+    if (!status) status = places_check(at, error);
     if (status) return status;
     mw_job job = mw__job(options->threads, options->progress);
-    mw_operator *made = locations_pack(mesh, locations, (uint32_t)n, &job);
+    mw_operator *made = places_pack(at, &job);
     if (!made) status = mw__fail_memory(error);
     status = mw__job_end(&job, status, error);
     if (status)
@@ -125,6 +129,26 @@ mw_status mw_operator_create(const mw_mesh *mesh, const mw_location *locations, 
     else
         *out = made;
     return status;
+}
+
+mw_status mw_operator_create(const mw_mesh *mesh, const mw_location *locations, size_t n,
+                             const mw_operator_options *options, mw_operator **out, mw_error *error)
+{
+    if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "the pointer to the new operator is NULL");
+    *out = NULL;
+    mw_placed_hits at = {.mesh = mesh, .hits = {.count = n}};
+    if (locations) at.hits = mw_hits_of_locations(locations, n);
+    return places_run(&at, options, out, error);
+}
+
+mw_status mw_operator_create_on_surface(const mw_surface *surface, const mw_hits *hits,
+                                        const mw_operator_options *options, mw_operator **out,
+                                        mw_error *error)
+{
+    if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "the pointer to the new operator is NULL");
+    *out = NULL;
+    if (!hits) return mw__fail(error, MW_ERROR_ARGUMENT, "the places are NULL");
+    return places_run(&(mw_placed_hits){.surface = surface, .hits = *hits}, options, out, error);
 }
 
 /* --- from entries ----------------------------------------------------------------------------- */

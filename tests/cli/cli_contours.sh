@@ -221,6 +221,19 @@ else
     done
 fi
 
+# Only triangles that a level crosses are looked at, but for what is never right.
+printf '%s\n' OFF '7 5 0' '0 0 0' '4 0 0' '0 4 9' '4 4 9' '-4 2 0' '9 9 20' '-9 -9 30' '3 0 1 2' \
+    '3 1 3 2' '3 4 0 2' '3 0 2 5' '3 0 6 1' >fan.off
+run contours fan.off --levels 5; refused 3 'triangle 3: two others share its edge 0, from vertex 2'
+run contours fan.off --levels 25; exits 0
+prints 'line,elevation,closed,x,y
+0,25,0,-6.833333333333334,-7.5
+0,25,0,-7.5,-7.5'
+sed 's/^9 9 20$/9 nan 20/' fan.off >nan.off
+run contours nan.off --levels 25; refused 3 'vertex 5'
+sed 's/^3 0 2 5$/3 0 2 2/' fan.off >twice.off
+run contours twice.off --levels 25; refused 3 'twice'
+
 # What is refused.
 run contours gap.off; refused 2 'which levels\?'
 run contours gap.off --interval 1 --levels 2; refused 2 'not both'

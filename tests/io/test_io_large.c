@@ -214,10 +214,117 @@ static void test_coordinate_systems(void **state)
     }
 }
 
+/* A buffer that grows. */
+typedef struct growing {
+    char *bytes;
+    size_t size, room;
+} growing;
+
+static void grow(growing *g, uint64_t bits, int size, bool big)
+{
+    if (g->size + 8 > g->room) {
+        g->room = 2 * g->room + 4096;
+        g->bytes = realloc(g->bytes, g->room);
+        assert_non_null(g->bytes);
+    }
+    for (int i = 0; i < size; i++)
+        g->bytes[g->size++] = (char)(bits >> 8 * (big ? size - 1 - i : i));
+}
+
+static uint64_t bits_of_double(double value)
+{
+    uint64_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    return bits;
+}
+
+/* PLY with numbers of several types, in which every `part`-th square is a quadrilateral and the
+ * others are two triangles: those are read in runs. */
+static growing make_ply(const large_mesh *m, uint32_t part, bool big)
+{
+    char header[500];
+    growing g = {0};
+    uint32_t faces = 2 * SQUARES - (SQUARES + part - 1) / part;
+    int length =
+        snprintf(header, sizeof header,
+                 "ply\nformat binary_%s_endian 1.0\nelement vertex %d\nproperty short s\n"
+                 "property double x\nproperty double y\nproperty uint64 u\nproperty char c\n"
+                 "element other 3\nproperty int i\nelement face %u\n"
+                 "property list uchar %s vertex_indices\nend_header\n",
+                 big ? "big" : "little", POINTS, faces, big ? "int" : "uint");
+    for (int i = 0; i < length; i++) grow(&g, (uint8_t)header[i], 1, big);
+    for (uint32_t v = 0; v < POINTS; v++) {
+        grow(&g, (uint16_t)(v % 7 - 3), 2, big);
+        for (int k = 0; k < 2; k++) grow(&g, bits_of_double(m->points[3 * v + (size_t)k]), 8, big);
+        grow(&g, (uint64_t)v << 20, 8, big);
+        grow(&g, (uint8_t)(v % 100 - 50), 1, big);
+    }
+    for (int i = 0; i < 3; i++) grow(&g, 7, 4, big);
+    for (uint32_t i = 0; i < SQUARES; i++) {
+        const uint32_t a = i / (SIDE - 1) * SIDE + i % (SIDE - 1),
+                       corner[] = {a, a + 1, a + SIDE + 1, a + SIDE, a, a + SIDE + 1, a + SIDE};
+        const bool whole = i % part == 0;
+        grow(&g, whole ? 4 : 3, 1, big);
+        for (int k = 0; k < (whole ? 4 : 3); k++) grow(&g, corner[k], 4, big);
+        if (!whole) grow(&g, 3, 1, big);
+        for (int k = 4; !whole && k < 7; k++) grow(&g, corner[k], 4, big);
+    }
+    return g;
+}
+
+static void expect_ply(const large_mesh *m, uint32_t part, const mw_mesh_file *file)
+{
+    assert_int_equal(file->point_count, POINTS);
+    assert_int_equal(file->triangle_count, 2 * SQUARES);
+    assert_int_equal(file->field_count, 3);
+    for (uint32_t v = 0; v < POINTS; v++) {
+        const double is[] = {file->points[3 * v], file->points[3 * v + 1], file->fields[0][v],
+                             file->fields[1][v], file->fields[2][v]},
+                     was[] = {m->points[3 * v], m->points[3 * v + 1], (double)(v % 7) - 3,
+                              v * 0x1p20, (double)(v % 100) - 50};
+        assert_memory_equal(is, was, sizeof is);
+    }
+    for (uint32_t i = 0, face = 0; i < SQUARES; i++) {
+        const uint32_t a = i / (SIDE - 1) * SIDE + i % (SIDE - 1), *v = file->triangles + 6 * i;
+        const uint32_t two[] = {a, a + 1, a + SIDE + 1, a, a + SIDE + 1, a + SIDE};
+        if (i % part) assert_memory_equal(v, two, sizeof two);
+        assert_int_equal(file->faces[2 * i], face);
+        if (i % part) face++;
+        assert_int_equal(file->faces[2 * i + 1], face++);
+    }
+}
+
+static void test_ply_in_either_order(void **state)
+{
+    (void)state;
+    large_mesh *m = make_large_mesh(environment_print_seed("test_ply_in_either_order", 78), 0);
+    for (int i = 0; i < 4; i++) {
+        const uint32_t part = i < 2 ? 3 : 7001;
+        growing g = make_ply(m, part, i % 2);
+        mw_mesh_file file = mesh_file_read_bytes("a.ply", (bytes){g.bytes, g.size});
+        mw_error error;
+        expect_ply(m, part, &file);
+        mw_mesh_file_release(&file);
+        /* A vertex that is not there, in the middle of a run; and an end there. */
+        const size_t at = g.size - 13 * 500 + 1;
+        memset(g.bytes + at, 0x7f, 16);
+        files_write("a.ply", (bytes){g.bytes, g.size});
+        assert_int_equal(mw_read_mesh("a.ply", NULL, &file, &error), MW_ERROR_INPUT);
+        files_expect_error(&error, MW_ERROR_INPUT, -1, "does not exist");
+        files_write("a.ply", (bytes){g.bytes, at - 20});
+        assert_int_equal(mw_read_mesh("a.ply", NULL, &file, &error), MW_ERROR_INPUT);
+        files_expect_error(&error, MW_ERROR_INPUT, -1, "the data end early");
+        free(g.bytes);
+        files_clear();
+    }
+    free(m);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_every_format),
+        cmocka_unit_test(test_ply_in_either_order),
         cmocka_unit_test(test_coordinate_systems),
     };
     return cmocka_run_group_tests(tests, files_enter, files_leave);

@@ -51,9 +51,28 @@ static mw_status job_transpose(const mw_mesh *mesh, const mw_location *at, mw_op
     return status;
 }
 
+static mw_status job_surface(const mw_mesh *mesh, const mw_location *at, mw_operator **out,
+                             mw_error *error)
+{
+    static const double points[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+    static const uint32_t corners[3] = {0, 1, 2};
+    const mw_arrays view = {
+        .points = points, .point_count = 3, .triangles = corners, .triangle_count = 1};
+    const mw_touch touch = {.weight = {1, 0, 0}};
+    const mw_hits hits = mw_hits_of_touches(&touch, 1);
+    mw_surface *surface;
+    (void)mesh;
+    (void)at;
+    *out = NULL;
+    mw_status status = mw_surface_create(&view, NULL, &surface, error);
+    if (!status) status = mw_operator_create_on_surface(surface, &hits, NULL, out, error);
+    mw_surface_destroy(surface);
+    return status;
+}
+
 static void test_every_allocation(void **state)
 {
-    static operator_job *const jobs[] = {job_locations, job_entries, job_transpose};
+    static operator_job *const jobs[] = {job_locations, job_entries, job_transpose, job_surface};
     uint64_t random = 7;
     arrays a = arrays_grid(60, 0.3, &random);
     mw_mesh *mesh = arrays_mesh(&a, (mw_mesh_options){0});

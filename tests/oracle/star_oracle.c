@@ -1,7 +1,10 @@
 /* star_oracle.c - brute force over all facets in exact rationals. */
 #include "oracle/star_oracle.h"
 
+#include <float.h>
 #include <gmp.h>
+#include <math.h>
+#include <string.h>
 
 typedef struct star_oracle {
     mpq_t v[4][3], area[3], volume, s, t;
@@ -91,4 +94,51 @@ mw_location star_oracle_locate(const double *points, const uint32_t *triangles, 
             location.triangle = t;
     star_oracle_each(&o, star_oracle_clear_one);
     return location;
+}
+
+/* --- where a ray meets a facet --- */
+
+static int star_oracle_is_odd(double r)
+{
+    uint64_t bits;
+    memcpy(&bits, &r, sizeof bits);
+    return (int)(bits & 1);
+}
+
+/* Is r as near to x as its neighbour on one side, and nearer where r is odd? Uses s and t. */
+static int star_oracle_is_nearer(star_oracle *o, const mpq_t x, double r, double neighbour)
+{
+    if (fabs(neighbour) > DBL_MAX) return 1;
+    mpq_set_d(o->s, r);
+    mpq_set_d(o->t, neighbour);
+    mpq_add(o->s, o->s, o->t);
+    mpq_div_2exp(o->s, o->s, 1);
+    const int side = mpq_cmp(x, o->s);
+    return side == 0 ? !star_oracle_is_odd(r) : neighbour > r ? side < 0 : side > 0;
+}
+
+/* v[0] to v[2]: the corners relative to c, v[3]: q relative to c. The meeting point is c + f v[3],
+ * where f = det(v0, v1, v2) / (the sum of det(v_i, v_j, v3)). */
+int star_oracle_is_meeting(const double *points, const uint32_t *t, const double c[3],
+                           const double q[3], const double meeting[3])
+{
+    star_oracle o;
+    mw_location location;
+    int right = 1;
+    star_oracle_each(&o, star_oracle_init_one);
+    right = star_oracle_meets(&o, points, t, c, q, &location);
+    if (right) { /* `volume` has the sum, the determinants have one sign */
+        star_oracle_det(&o, o.area[0], 0, 1, 2);
+        mpq_div(o.area[0], o.area[0], o.volume);
+    }
+    for (int k = 0; k < 3 && right; k++) {
+        mpq_mul(o.area[1], o.area[0], o.v[3][k]);
+        mpq_set_d(o.area[2], c[k]);
+        mpq_add(o.area[1], o.area[1], o.area[2]);
+        right = isfinite(meeting[k]) &&
+                star_oracle_is_nearer(&o, o.area[1], meeting[k], nextafter(meeting[k], INFINITY)) &&
+                star_oracle_is_nearer(&o, o.area[1], meeting[k], nextafter(meeting[k], -INFINITY));
+    }
+    star_oracle_each(&o, star_oracle_clear_one);
+    return right;
 }

@@ -8,6 +8,7 @@
 #include <meshwalk/segment.h>
 #include <meshwalk/volume.h>
 #include <meshwalk/remap.h>
+#include <meshwalk/remesh.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -507,6 +508,22 @@ static mw_status run_transpose(const call_inputs *in, const call_setting *how, u
     return operator_made(status, turned, sum);
 }
 
+/* Nearest points of the ball, found beforehand, as places. */
+static mw_status run_operator_surface(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                                      mw_error *error)
+{
+    const uint32_t n = in->ball.triangles;
+    mw_nearest_surface_point *at = malloc(n * sizeof *at + 1);
+    mw_operator *weights;
+    for (uint32_t i = 0; i < n; i++)
+        at[i] = (mw_nearest_surface_point){.triangle = i * 7919u % n, .weight = {0.5, 0.25, 0.25}};
+    const mw_hits hits = mw_hits_of_nearest(at, n);
+    mw_operator_options options = {.threads = how->threads, .progress = how->progress};
+    mw_status status = mw_operator_create_on_surface(in->surface, &hits, &options, &weights, error);
+    free(at);
+    return operator_made(status, weights, sum);
+}
+
 static mw_status run_operator_entries(const call_inputs *in, const call_setting *how, uint64_t *sum,
                                       mw_error *error)
 {
@@ -727,6 +744,59 @@ static mw_status run_star_batch(const call_inputs *in, const call_setting *how, 
     return status;
 }
 
+static mw_status run_star_project(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                                  mw_error *error)
+{
+    const size_t n = 3 * (size_t)in->ball.points;
+    double *meeting = malloc(n * sizeof *meeting);
+    mw_star_query_options options = {.threads = how->threads, .progress = how->progress};
+    mw_status status = mw_star_project_batch(in->star, in->ball.point, in->ball.points, 3, &options,
+                                             meeting, NULL, error);
+    for (size_t i = 0; i < n && !status; i++) sum_add_number(sum, meeting[i]);
+    free(meeting);
+    return status;
+}
+
+/* An icosphere of level 6. */
+static mw_status run_remesh(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                            mw_error *error)
+{
+    enum { LEVEL = 6, VERTICES = 10 * 4096 + 2, TRIANGLES = 20 * 4096 };
+    double *points = malloc(3 * VERTICES * sizeof *points);
+    uint32_t *triangles = malloc(3 * TRIANGLES * sizeof *triangles);
+    mw_remesh_options options = {.threads = how->threads, .progress = how->progress};
+    mw_status status = mw_star_remesh(in->star, LEVEL, &options, points, triangles, NULL, error);
+    for (size_t i = 0; i < 3 * VERTICES && !status; i++) sum_add_number(sum, points[i]);
+    free(points);
+    free(triangles);
+    return status;
+}
+
+static mw_status run_icosphere(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                               mw_error *error)
+{
+    enum { LEVEL = 6, VERTICES = 10 * 4096 + 2, TRIANGLES = 20 * 4096 };
+    double *points = malloc(3 * VERTICES * sizeof *points);
+    uint32_t *triangles = malloc(3 * TRIANGLES * sizeof *triangles);
+    mw_remesh_options options = {.threads = how->threads, .progress = how->progress};
+    (void)in;
+    mw_status status = mw_icosphere_create(LEVEL, &options, points, triangles, error);
+    for (size_t i = 0; i < 3 * TRIANGLES && !status; i++) sum_add(sum, triangles[i]);
+    free(points);
+    free(triangles);
+    return status;
+}
+
+static mw_status run_deviation(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                               mw_error *error)
+{
+    mw_deviation d;
+    mw_remesh_options options = {.threads = how->threads, .progress = how->progress};
+    mw_status status = mw_surface_deviation(in->surface, in->prober, &options, &d, error);
+    if (!status) sum_add_number(sum, d.at_most);
+    return status;
+}
+
 static mw_status run_prober(const call_inputs *in, const call_setting *how, uint64_t *sum,
                             mw_error *error)
 {
@@ -894,6 +964,7 @@ const long_call long_calls[] = {
     {"mw_volume_between", run_volume_between},
     {"mw_interpolate_table", run_table},
     {"mw_operator_create", run_operator},
+    {"mw_operator_create_on_surface", run_operator_surface},
     {"mw_operator_create_from_entries", run_operator_entries},
     {"mw_operator_transpose", run_transpose},
     {"mw_operator_apply", run_operator_apply},
@@ -908,6 +979,10 @@ const long_call long_calls[] = {
     {"mw_star_index_create, grid", run_star_grid},
     {"mw_star_index_create, octahedron", run_star_octahedron},
     {"mw_star_locate_batch", run_star_batch},
+    {"mw_star_project_batch", run_star_project},
+    {"mw_star_remesh", run_remesh},
+    {"mw_icosphere_create", run_icosphere},
+    {"mw_surface_deviation", run_deviation},
     {"mw_prober_create", run_prober},
     {"mw_probe_batch", run_probe_batch},
     {"mw_probe_any_batch", run_probe_any},

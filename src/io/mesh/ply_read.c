@@ -38,6 +38,25 @@ static int64_t sign_extend(uint64_t bits, size_t size)
     return (int64_t)(bits << shift) >> shift;
 }
 
+/* mw__get_bytes with a size that the compiler knows. */
+static MW_INLINE uint64_t ply_bits_at(const unsigned char *bytes, size_t size, bool big)
+{
+    switch (size) {
+    case 8: return mw__get_bytes(bytes, 8, big);
+    case 4: return mw__get_bytes(bytes, 4, big);
+    case 2: return mw__get_bytes(bytes, 2, big);
+    default: return bytes[0];
+    }
+}
+
+static MW_INLINE double ply_number_at(const unsigned char *bytes, mw_ply_number number, bool big)
+{
+    uint64_t bits = ply_bits_at(bytes, number.size, big);
+    if (number.type == MW_PLY_SIGNED) return (double)sign_extend(bits, number.size);
+    if (number.type == MW_PLY_UNSIGNED) return (double)bits;
+    return number.size == 4 ? (double)mw__float_of_bits((uint32_t)bits) : mw__double_of_bits(bits);
+}
+
 /* An integer; a number of the type float is none. */
 static mw_status ply_read_integer(ply_reader *r, mw_ply_number number, int64_t *value,
                                   mw_error *error)
@@ -79,16 +98,8 @@ static mw_status ply_read_number(ply_reader *r, mw_ply_number number, double *va
     }
     const unsigned char *bytes;
     mw_status status = mw__source_bytes(r->source, number.size, &bytes, error);
-    if (status) return status;
-    uint64_t bits = mw__get_bytes(bytes, number.size, r->kind == MW_PLY_BIG);
-    if (number.type == MW_PLY_SIGNED)
-        *value = (double)sign_extend(bits, number.size);
-    else if (number.type == MW_PLY_UNSIGNED)
-        *value = (double)bits;
-    else
-        *value =
-            number.size == 4 ? (double)mw__float_of_bits((uint32_t)bits) : mw__double_of_bits(bits);
-    return MW_OK;
+    if (!status) *value = ply_number_at(bytes, number, r->kind == MW_PLY_BIG);
+    return status;
 }
 
 static mw_status ply_read_strip_item(ply_reader *r, ply_strip *s, int64_t number, mw_error *error)
@@ -134,22 +145,26 @@ static mw_status ply_read_list(ply_reader *r, const mw_ply_property *property, p
     return !status && what == CORNERS ? mw__build_face_end(r->builder, error) : status;
 }
 
+static void ply_take_number(ply_reader *r, ply_plan plan, double value)
+{
+    mw_mesh_file *file = r->builder->file;
+    if (plan.use == COORDINATE) file->points[3 * (file->point_count - 1) + plan.index] = value;
+    if (plan.use == FIELD) mw__build_value(r->builder, plan.index, value);
+}
+
 static mw_status ply_read_instance(ply_reader *r, const mw_ply_element *element,
                                    const ply_plan *plans, mw_error *error)
 {
-    mw_mesh_file *file = r->builder->file;
     for (size_t i = 0; i < element->property_count; i++) {
         const mw_ply_property *property = &element->properties[i];
         mw_status status;
-        double value;
+        double value = 0;
         if (property->list)
             status = ply_read_list(r, property, plans[i].use, error);
         else
             status = ply_read_number(r, property->number, &value, error);
         if (status) return status;
-        if (plans[i].use == COORDINATE)
-            file->points[3 * (file->point_count - 1) + plans[i].index] = value;
-        if (plans[i].use == FIELD) mw__build_value(r->builder, plans[i].index, value);
+        if (!property->list) ply_take_number(r, plans[i], value);
     }
     return MW_OK;
 }
@@ -171,13 +186,99 @@ static mw_status ply_next_line(ply_reader *r, const mw_ply_element *element, uin
     return MW_OK;
 }
 
+/* --- many at a time: binary numbers ----------------------------------------------------------- */
+
+/* The bytes of each instance of an element without lists, else 0. */
+static size_t ply_instance_bytes(const mw_ply_element *element)
+{
+    size_t bytes = 0;
+    for (size_t i = 0; i < element->property_count; i++) {
+        if (element->properties[i].list) return 0;
+        bytes += element->properties[i].number.size;
+    }
+    return bytes;
+}
+
+static mw_status ply_take_instance(ply_reader *r, const mw_ply_element *element,
+                                   const ply_plan *plans, bool vertices, const unsigned char *bytes,
+                                   mw_error *error)
+{
+    mw_status status = vertices ? mw__build_point(r->builder, 0, 0, 0, error) : MW_OK;
+    for (size_t i = 0; i < element->property_count && !status; i++) {
+        const mw_ply_number number = element->properties[i].number;
+        ply_take_number(r, plans[i], ply_number_at(bytes, number, r->kind == MW_PLY_BIG));
+        bytes += number.size;
+    }
+    return status;
+}
+
+/* All instances of an element without lists, `size` bytes each. */
+static mw_status ply_read_blocks(ply_reader *r, const mw_ply_element *element,
+                                 const ply_plan *plans, bool vertices, size_t size, mw_error *error)
+{
+    const uint64_t most = MW_BYTES_LIMIT / size;
+    for (uint64_t i = 0; i < element->count;) {
+        const uint64_t left = element->count - i, n = left < most ? left : most;
+        const unsigned char *bytes;
+        mw_status status = mw__source_bytes(r->source, n * size, &bytes, error);
+        for (uint64_t k = 0; k < n && !status; k++)
+            status = ply_take_instance(r, element, plans, vertices, bytes + k * size, error);
+        if (status) return status;
+        i += n;
+    }
+    return MW_OK;
+}
+
+/* Is an instance a list of vertices as most files have it, a byte that counts and numbers of four
+ * bytes, and are the vertices known? */
+static bool ply_has_plain_faces(const ply_reader *r, const mw_ply_element *element,
+                                const ply_plan *plans)
+{
+    const mw_ply_property *property = element->properties;
+    return element->property_count == 1 && plans[0].use == CORNERS && property->count.size == 1 &&
+           property->number.size == 4 && r->builder->points_complete;
+}
+
+/* Up to `most` triangles that follow each other, whose vertices exist and differ. *count: how many;
+ * what follows them is left to ply_read_instance. */
+static mw_status ply_read_triangles(ply_reader *r, uint64_t most, uint64_t *count, mw_error *error)
+{
+    enum { SIZE = 13 };
+    const size_t points = r->builder->file->point_count,
+                 limit = points < INT32_MAX ? points : INT32_MAX;
+    const bool big = r->kind == MW_PLY_BIG;
+    const char *peeked;
+    const unsigned char *bytes;
+    size_t have;
+    mw_status status = mw__source_peek(r->source, MW_BYTES_LIMIT, &peeked, &have, error);
+    *count = 0;
+    if (status) return status;
+    for (bytes = (const unsigned char *)peeked; *count < most && have >= SIZE && bytes[0] == 3;
+         bytes += SIZE, have -= SIZE, ++*count) {
+        uint32_t v[3];
+        for (int k = 0; k < 3; k++) v[k] = (uint32_t)mw__get_bytes(bytes + 1 + 4 * k, 4, big);
+        if (v[0] >= limit || v[1] >= limit || v[2] >= limit) break;
+        if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) break;
+        status = mw__build_triangle(r->builder, v[0], v[1], v[2], error);
+        if (status) return status;
+    }
+    return mw__source_bytes(r->source, *count * SIZE, &bytes, error);
+}
+
 /* All instances of one element. One without properties has no data, whatever its count. */
 static mw_status ply_read_element(ply_reader *r, const mw_ply_element *element,
                                   const ply_plan *plans, bool vertices, mw_error *error)
 {
     if (element->property_count == 0) return MW_OK;
+    const size_t size = r->kind == MW_PLY_ASCII ? 0 : ply_instance_bytes(element);
+    if (size > 0) return ply_read_blocks(r, element, plans, vertices, size, error);
+    const bool plain = r->kind != MW_PLY_ASCII && ply_has_plain_faces(r, element, plans);
     for (uint64_t i = 0; i < element->count; i++) {
+        uint64_t count = 0;
         mw_status status = r->kind == MW_PLY_ASCII ? ply_next_line(r, element, i, error) : MW_OK;
+        if (plain) status = ply_read_triangles(r, element->count - i, &count, error);
+        i += count;
+        if (!status && i == element->count) return MW_OK;
         if (!status && vertices) status = mw__build_point(r->builder, 0, 0, 0, error);
         if (!status) status = ply_read_instance(r, element, plans, error);
         if (!status && r->kind == MW_PLY_ASCII && *mw__skip_blanks(r->p))

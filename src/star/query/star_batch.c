@@ -4,13 +4,26 @@
 #include "star/query/star_locate.h"
 #include "star/star_location.h"
 
+#include <stdlib.h>
+
 typedef struct star_batch {
     mw_batch queries;
     const mw_star *star;
     mw_star_cursor cursor; /* resolved options */
     bool chained;          /* each query starts where the previous one of its part ended */
     bool guided;           /* or where its key on the curve leads, as that is nearer */
+    double *meetings;      /* NULL, or of all queries of the call, as the first locations are */
+    const mw_location *first_location;
 } star_batch;
+
+/* The query at `point` of the present block has its location: find where its ray ends. */
+static void star_batch_meet(const star_batch *b, uint32_t item, const double *point)
+{
+    const mw_location *location = &b->queries.locations[item];
+    if (b->meetings)
+        mw__star_meeting(b->star, location, point,
+                         b->meetings + 3 * (size_t)(location - b->first_location));
+}
 
 /* --- one after the other --- */
 
@@ -39,8 +52,10 @@ static void star_batch_in_turn(const star_batch *b, uint32_t first, uint32_t end
         uint64_t random = mw__random_seed(b->queries.seed, item);
         mw__surface_read_lock(b->star->surface);
         uint32_t begin = star_batch_first_facet(b, i, last);
-        b->queries.locations[item] = mw__star_query_answer(
-            b->star, &b->cursor, batch_point(&b->queries, item), &begin, &random, counters, NULL);
+        const double *point = batch_point(&b->queries, item);
+        b->queries.locations[item] =
+            mw__star_query_answer(b->star, &b->cursor, point, &begin, &random, counters, NULL);
+        star_batch_meet(b, item, point);
         mw__surface_read_unlock(b->star->surface);
         if (b->chained) last = begin;
     }
@@ -72,6 +87,7 @@ static bool star_batch_deliver(mw_star_feed *base, uint32_t lane, mw_star_walk *
     const star_batch *b = f->b;
     if (verdict != MW_STAR_GO) {
         mw__star_query_end(&b->cursor, walk, verdict, &b->queries.locations[f->item[lane]]);
+        star_batch_meet(b, f->item[lane], walk->q);
         if (b->chained) f->last[lane] = walk->t;
     }
     while (f->next[lane] < f->end[lane]) {
@@ -86,6 +102,7 @@ static bool star_batch_deliver(mw_star_feed *base, uint32_t lane, mw_star_walk *
             return true;
         }
         b->queries.locations[item] = mw__star_location_none();
+        star_batch_meet(b, item, point);
     }
     return false;
 }
@@ -140,25 +157,25 @@ static void star_batch_sort(const mw_batch *queries, size_t n, mw_key *keys, mw_
     mw__sort_keys(keys, scratch, n);
 }
 
-mw_status mw_star_locate_batch(const mw_star *star, const double *points, size_t n, size_t stride,
-                               const mw_star_query_options *options, mw_location *locations,
-                               mw_counters *counters, mw_error *error)
+mw_status mw__star_answer_rays(const mw_star *star, const mw_star_rays *rays, mw_job *job,
+                               mw_counters *sum, mw_error *error)
 {
-    static const mw_star_query_options defaults;
-    if (!options) options = &defaults;
-    star_batch b = {.queries = {.points = points,
-                                .locations = locations,
-                                .stride = stride ? stride : 3,
-                                .seed = options->seed,
+    const size_t n = rays->n, stride = rays->stride ? rays->stride : 3;
+    star_batch b = {.queries = {.points = rays->points,
+                                .locations = rays->locations,
+                                .stride = stride,
+                                .seed = rays->options->seed,
                                 .answer = star_batch_answer},
-                    .star = star};
-    mw_status status = mw_star_cursor_init(star, options, &b.cursor, error);
+                    .star = star,
+                    .meetings = rays->meetings,
+                    .first_location = rays->locations};
+    mw_status status = mw_star_cursor_init(star, rays->options, &b.cursor, error);
     if (status) return status;
-    if (n && (!points || !locations))
+    if (n && (!rays->points || !rays->locations))
         return mw__fail(error, MW_ERROR_ARGUMENT, "points or results are NULL");
-    if (b.queries.stride < 3)
+    if (stride < 3)
         return mw__fail(error, MW_ERROR_ARGUMENT,
-                        "the stride must be at least 3 (x, y, z), not %zu", stride);
+                        "the stride must be at least 3 (x, y, z), not %zu", rays->stride);
     if (b.cursor.start == MW_STAR_START_AUTO && n >= MW_SORT_WORTHWHILE)
         b.cursor.start = MW_STAR_START_SORTED;
     bool sorted = b.cursor.start == MW_STAR_START_SORTED;
@@ -166,5 +183,40 @@ mw_status mw_star_locate_batch(const mw_star *star, const double *points, size_t
         sorted || b.cursor.start == MW_STAR_START_LAST || b.cursor.start == MW_STAR_START_AUTO;
     b.guided = sorted && n < star->tri_count;
     b.queries.sort = sorted ? star_batch_sort : NULL;
-    return mw__batch_run(&b.queries, n, options->threads, options->progress, counters, error);
+    return mw__batch_run_part(&b.queries, n, job, sum, error);
+}
+
+static mw_status star_batch_run(const mw_star *star, const mw_star_rays *rays,
+                                mw_counters *counters, mw_error *error)
+{
+    mw_counters sum = {0};
+    mw_job job = mw__job(rays->options->threads, rays->options->progress);
+    mw_status status =
+        mw__job_end(&job, mw__star_answer_rays(star, rays, &job, &sum, error), error);
+    if (counters) *counters = sum;
+    return status;
+}
+
+static const mw_star_query_options defaults;
+
+mw_status mw_star_locate_batch(const mw_star *star, const double *points, size_t n, size_t stride,
+                               const mw_star_query_options *options, mw_location *locations,
+                               mw_counters *counters, mw_error *error)
+{
+    const mw_star_rays rays = {points, n, stride, options ? options : &defaults, locations, NULL};
+    return star_batch_run(star, &rays, counters, error);
+}
+
+mw_status mw_star_project_batch(const mw_star *star, const double *points, size_t n, size_t stride,
+                                const mw_star_query_options *options, double *meetings,
+                                mw_location *locations, mw_error *error)
+{
+    if (n && !meetings) return mw__fail(error, MW_ERROR_ARGUMENT, "the results are NULL");
+    mw_location *own = locations ? NULL : mw__alloc(n, sizeof *own);
+    if (!locations && !own) return mw__fail_memory(error);
+    const mw_star_rays rays = {
+        points, n, stride, options ? options : &defaults, own ? own : locations, meetings};
+    mw_status status = star_batch_run(star, &rays, NULL, error);
+    free(own);
+    return status;
 }

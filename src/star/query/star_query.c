@@ -42,26 +42,34 @@ mw_status mw_star_cursor_init(const mw_star *star, const mw_star_query_options *
     return MW_OK;
 }
 
+/* `trace` and `meeting` may be NULL. */
 static mw_location star_query(const mw_star *star, mw_star_cursor *cursor, const double point[3],
-                              mw_star_trace *trace)
+                              mw_star_trace *trace, double meeting[3])
 {
     mw__surface_read_lock(star->surface);
     mw_location location = mw__star_query_answer(star, cursor, point, &cursor->last,
                                                  &cursor->random, &cursor->counters, trace);
+    if (meeting) mw__star_meeting(star, &location, point, meeting);
     mw__surface_read_unlock(star->surface);
     return location;
 }
 
 mw_location mw_star_locate(const mw_star *star, mw_star_cursor *cursor, const double point[3])
 {
-    return star_query(star, cursor, point, NULL);
+    return star_query(star, cursor, point, NULL, NULL);
+}
+
+mw_location mw_star_project(const mw_star *star, mw_star_cursor *cursor, const double point[3],
+                            double meeting[3])
+{
+    return star_query(star, cursor, point, NULL, meeting);
 }
 
 size_t mw_star_path(const mw_star *star, mw_star_cursor *cursor, const double point[3],
                     uint32_t *facets, size_t capacity, mw_location *location)
 {
     mw_star_trace trace = {.facet = facets, .capacity = facets ? capacity : 0};
-    mw_location found = star_query(star, cursor, point, &trace);
+    mw_location found = star_query(star, cursor, point, &trace, NULL);
     if (location) *location = found;
     return trace.count;
 }
