@@ -3,9 +3,10 @@
 Points and queries are random in the unit square. The task ``locate`` finds the triangles of
 queries: all peers search the same triangles. ``interpolate`` takes values of many fields to the
 queries, beside ``scipy.sparse``. ``particles`` carries them round the middle of the square by steps
-of second order, which locate each of them twice, with a `Cursor` and without. Rounds are
-interleaved, so a machine that is busy for a while slows all; the best round counts. A peer that is
-not installed is left out.
+of second order, which locate each of them twice, with a `Cursor` and without. ``rays``, ``joins``
+and ``cells`` are the drop-ins for trimesh, for GeoPandas and shapely, and for pyvista beside these.
+Rounds are interleaved, so a machine that is busy for a while slows all; the best round counts. A
+peer that is not installed is left out.
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 import meshwalk
+from meshwalk import _bench_dropins
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -256,10 +258,21 @@ def _print_times(times: Sequence[Time], values: int, what: str) -> None:
         print(f"{time_.name:22}{time_.seconds:10.3f}{each:14.1f}{ratio:8.2f}")
 
 
+def _measure_dropin(task: str, vertices: int, queries: int, rounds: int, seed: int) -> None:
+    for title, contestants in _bench_dropins.TASKS[task](vertices, queries, seed).items():
+        rows = _bench_dropins.measure(contestants, queries, rounds)
+        print(f"{title}, {queries} queries")
+        print(f"{'':22}{'build, s':>10}{'ns a query':>12}{'ratio':>8}{'MB':>8}{'same answers':>14}")
+        for row in rows:
+            ratio = row.query / rows[0].query
+            columns = f"{row.build:10.3f}{1e9 * row.query:12.1f}{ratio:8.1f}"
+            print(f"{row.name:22}{columns}{row.memory / 1e6:8.0f}{row.same:14.6f}")
+
+
 def main(arguments: Sequence[str] | None = None) -> int:
     """Print a table; `arguments` are those of the command line."""
     parser = argparse.ArgumentParser("python -m meshwalk.bench", description=__doc__)
-    tasks = ("locate", "interpolate", "particles")
+    tasks = ("locate", "interpolate", "particles", *_bench_dropins.TASKS)
     parser.add_argument("--task", choices=tasks, default="locate")
     parser.add_argument("--vertices", type=float, default=1e5)
     parser.add_argument("--queries", type=float, default=1e5)
@@ -285,6 +298,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print(f"{sizes[1]} particles among {sizes[0]} random vertices, {given.steps} steps")
         times = measure_particles(*sizes, given.steps, given.seed)
         _print_times(times, sizes[1] * given.steps * 2, "ns a location")
+        return 0
+    if given.task in _bench_dropins.TASKS:
+        _measure_dropin(given.task, *sizes, given.seed)
         return 0
     figures = measure(*sizes, names, given.seed)
     print(f"{sizes[1]} random queries in {sizes[0]} random vertices")
