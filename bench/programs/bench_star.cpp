@@ -31,6 +31,7 @@ struct Polyhedron {
         mw_arrays arrays = model.arrays();
         mw_star_options options = {};
         options.angles = angles;
+        options.threads = 1;
         return mw_surface_create(&arrays, nullptr, &surface, error) == MW_OK &&
                mw_star_create(surface, &options, &star, error) == MW_OK;
     }

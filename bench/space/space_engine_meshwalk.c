@@ -18,6 +18,7 @@ typedef struct our_scene {
     mw_prober *prober[2]; /* by the way to follow */
     unsigned current;     /* of these */
     mw_star *star;
+    uint32_t *vertices; /* 0, 1, 2 ...: the star is told which of them moved */
 } our_scene;
 
 static void our_destroy(void *self)
@@ -27,6 +28,7 @@ static void our_destroy(void *self)
     for (int i = 0; i < 2; i++) mw_prober_destroy(o->prober[i]);
     mw_star_destroy(o->star);
     mw_surface_destroy(o->surface);
+    free(o->vertices);
     free(o);
 }
 
@@ -203,11 +205,18 @@ static void *star_build(const space_model *m, uint32_t threads, double *seconds,
 {
     mw_error error;
     mw_star_info info;
+    mw_star_options options = {.threads = threads};
     our_scene *o = our_begin(m);
-    (void)threads;
     if (!o) return NULL;
+    o->vertices = malloc((m->point_count + 1) * sizeof *o->vertices);
+    if (!o->vertices) {
+        fail_memory();
+        our_destroy(o);
+        return NULL;
+    }
+    for (uint32_t i = 0; i < m->point_count; i++) o->vertices[i] = i;
     double begin = monotonic_seconds();
-    mw_status status = mw_star_create(o->surface, NULL, &o->star, &error);
+    mw_status status = mw_star_create(o->surface, &options, &o->star, &error);
     *seconds = monotonic_seconds() - begin;
     if (status != MW_OK) {
         fail_query(&error);
@@ -265,12 +274,15 @@ static double star_follow(void *scene, unsigned way, const space_model *m, size_
     our_scene *o = scene;
     mw_error error;
     (void)way;
-    (void)moved;
     (void)farthest;
-    (void)threads;
+    mw_star_update_options options = {.threads = threads};
+    if (moved < m->point_count) {
+        options.moved = o->vertices;
+        options.moved_count = moved;
+    }
     our_show(o, m);
     double begin = monotonic_seconds();
-    mw_status status = mw_star_update(o->star, &error);
+    mw_status status = mw_star_update(o->star, &options, &error);
     mw_surface_end_update(o->surface);
     double seconds = monotonic_seconds() - begin;
     if (status == MW_OK) return seconds;

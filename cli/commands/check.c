@@ -157,6 +157,7 @@ static mw_status check_arrays(const mesh_space_settings *s, const mw_arrays *arr
                               mw_check *check, mw_error *error)
 {
     mw_star_options star = {.centre = {s->centre.at[0], s->centre.at[1], s->centre.at[2]},
+                            .threads = s->common.threads,
                             .progress = progress_of_call()};
     mw_check_options options = {.threads = s->common.threads, .progress = progress_of_call()};
     int weld = mesh_space_is_welded(s);

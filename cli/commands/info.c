@@ -116,6 +116,7 @@ static int info_report_star(report *r, const mesh_space_settings *s, const char 
     mw_error error;
     mw_star *star;
     mw_star_options options = {.centre = {s->centre.at[0], s->centre.at[1], s->centre.at[2]},
+                               .threads = s->common.threads,
                                .progress = progress_of_call()};
     mw_status status = mw_star_create(surface, &options, &star, &error);
     if (status != MW_OK && status != MW_ERROR_INPUT) return fail_mesh(path, &error);

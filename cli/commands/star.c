@@ -139,6 +139,7 @@ static int ray_queries_make_star(ray_queries *r, const char *path, const mw_mesh
     mw_surface_options surface = {.weld = 1, .progress = progress_of_call()};
     mw_star_options star = {.centre = {s->centre.at[0], s->centre.at[1], s->centre.at[2]},
                             .angles = s->walk == MW_STAR_WALK_ORTHOGONAL,
+                            .threads = s->stream.common.threads,
                             .progress = progress_of_call()};
     progress_phase("preparing", path);
     if (mw_surface_create(&arrays, &surface, &r->surface, &error) != MW_OK ||

@@ -411,6 +411,7 @@ static int walk_star(walk_record *w)
     mw_star_options options = {
         .centre = {s->mesh.centre.at[0], s->mesh.centre.at[1], s->mesh.centre.at[2]},
         .angles = strcmp(walk_choice_name(s->walk), "orthogonal") == 0,
+        .threads = s->mesh.common.threads,
         .progress = progress_of_call()};
     bool made = mw_surface_create(&arrays, &welded, &surface, &error) == MW_OK &&
                 mw_star_create(surface, &options, &star, &error) == MW_OK;

@@ -11,8 +11,8 @@
  * Two modes exist.
  * - *As published*: walks over the surface along planes through the line, from a few first
  *   triangles. Fast, and needs nothing but the surface. A reported touch is a touch, the first
- *   that was found. Without one the state is MW_TOUCH_LIMIT, which does not mean that there is
- * none. - *Certain*: complete. Of several touches the answer is the one with the smallest absolute
+ *   that was found. Without one the state is MW_TOUCH_LIMIT: there may still be one.
+ * - *Certain*: complete. Of several touches the answer is the one with the smallest absolute
  *   distance, then with the lowest triangle. MW_TOUCH_NONE means that there is none. Needs boxes
  *   over the triangles (mw_prober_options.boxes).
  */

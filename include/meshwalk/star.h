@@ -62,8 +62,9 @@ typedef struct mw_star_options {
     /** 1: store longitude and polar angle of each vertex, 16 bytes per vertex; the walk
      * MW_STAR_WALK_ORTHOGONAL needs them. */
     int angles;
+    uint32_t threads;            /**< threads that prepare the star; 0: one per processor */
     const mw_progress *progress; /**< progress and cancelling, see base.h; NULL: none */
-    uint32_t reserved[5];        /**< must be zero */
+    uint32_t reserved[4];        /**< must be zero */
 } mw_star_options;
 
 /**
@@ -89,20 +90,37 @@ MW_API mw_status mw_star_create(const mw_surface *surface, const mw_star_options
 /** Destroy a star. NULL is allowed. */
 MW_API void mw_star_destroy(mw_star *star);
 
+/** Options of mw_star_update(). Zero-initialised options select the defaults. */
+typedef struct mw_star_update_options {
+    /** The vertices that moved since the last update, in any order; no other vertex may have moved.
+     * NULL: any vertex may have moved. Read during the call only. */
+    const uint32_t *moved;
+    size_t moved_count;          /**< how many vertices `moved` lists */
+    uint32_t threads;            /**< threads; 0: one per processor */
+    const mw_progress *progress; /**< progress and cancelling, see base.h; NULL: none */
+    uint32_t reserved[4];        /**< must be zero */
+} mw_star_update_options;
+
 /**
  * Bring a star up to date with its changed surface, during the surface's update
  * (mw_surface_begin_update()).
  *
  * Decides again whether the surface is star-shaped about the centre. Until this succeeds, all
- * queries return MW_BAD.
+ * queries return MW_BAD. Where mw_star_update_options.moved lists few vertices, only the facets
+ * round these are decided again. All facets are decided if edges were flipped, if the last update
+ * failed or one was left out, and where facets have no area.
  *
- * @param star   the star
- * @param error  NULL, or receives the message of a failure
- * @return as mw_star_create().
+ * @param star     the star
+ * @param options  NULL selects the defaults
+ * @param error    NULL, or receives the message of a failure
+ * @return as mw_star_create(); also MW_ERROR_ARGUMENT if `moved` has a number that is no vertex.
+ *         After a failure the star answers MW_BAD until an update succeeds.
  *
- * O(n). Not thread-safe.
+ * O(n), or O(k log k) for the k facets round the moved vertices; the first such update takes O(n)
+ * and 4 bytes a facet. Not thread-safe.
  */
-MW_API mw_status mw_star_update(mw_star *star, mw_error *error);
+MW_API mw_status mw_star_update(mw_star *star, const mw_star_update_options *options,
+                                mw_error *error);
 
 /** Sizes of a star. */
 typedef struct mw_star_info {

@@ -105,20 +105,31 @@ static void surface_release_kept(surface_kept *kept)
     PyMem_Free(kept->probers);
 }
 
+/* How far vertices moved, or -1; and which, or NULL. */
+typedef struct surface_motion {
+    double farthest;
+    const uint32_t *vertices;
+    size_t count;
+    uint32_t threads;
+} surface_motion;
+
 /* The first error of a star is told; all are brought up to date that can be. */
-static mw_status surface_update_kept(const surface_kept *kept, double moved, uint32_t threads,
+static mw_status surface_update_kept(const surface_kept *kept, const surface_motion *motion,
                                      mw_error *error)
 {
+    mw_star_update_options options = {.moved = motion->vertices,
+                                      .moved_count = motion->vertices ? motion->count : 0,
+                                      .threads = motion->threads};
     mw_status status = MW_OK;
     for (size_t i = 0; i < kept->star_count; i++) {
         mw_error more;
-        mw_status one = mw_star_update(kept->stars[i], &more);
+        mw_status one = mw_star_update(kept->stars[i], &options, &more);
         if (!one || status) continue;
         status = one;
         *error = more;
     }
     for (size_t i = 0; i < kept->prober_count; i++)
-        mw_prober_update(kept->probers[i], moved, threads);
+        mw_prober_update(kept->probers[i], motion->farthest, motion->threads);
     return status;
 }
 
@@ -138,16 +149,15 @@ static PyObject *surface_move(PyObject *self, PyObject *args)
 {
     surface_object *object = (surface_object *)self;
     PyObject *points, *numbers, *list;
-    double moved;
-    uint32_t threads;
+    surface_motion motion = {0};
     size_t count = mw_surface_vertex_count(object->surface);
     Py_buffer point_view, number_view = {0};
     surface_kept kept = {0};
     mw_error error;
     mw_status status = MW_OK;
     int failed;
-    if (!PyArg_ParseTuple(args, "OOO!dO&", &points, &numbers, &PyList_Type, &list, &moved,
-                          option_uint32, &threads))
+    if (!PyArg_ParseTuple(args, "OOO!dO&", &points, &numbers, &PyList_Type, &list, &motion.farthest,
+                          option_uint32, &motion.threads))
         return NULL;
     if (numbers != Py_None && buffer_get_all(numbers, sizeof(uint32_t), &number_view, &count))
         return NULL;
@@ -158,7 +168,9 @@ static PyObject *surface_move(PyObject *self, PyObject *args)
             Py_BEGIN_ALLOW_THREADS
             mw_surface_begin_update(object->surface);
             surface_overwrite(object->surface, point_view.buf, number_view.buf, count);
-            status = surface_update_kept(&kept, moved, threads, &error);
+            motion.vertices = number_view.buf;
+            motion.count = count;
+            status = surface_update_kept(&kept, &motion, &error);
             mw_surface_end_update(object->surface);
             Py_END_ALLOW_THREADS
         }
@@ -192,7 +204,8 @@ static PyObject *surface_flip(PyObject *self, PyObject *args)
     status = mw_surface_flip(object->surface, triangle, edge, &error);
     {
         mw_error later;
-        mw_status update = surface_update_kept(&kept, -1, threads, &later);
+        mw_status update = surface_update_kept(
+            &kept, &(surface_motion){.farthest = -1, .threads = threads}, &later);
         if (!status && update) {
             status = update;
             error = later;

@@ -76,6 +76,8 @@ if TYPE_CHECKING:
     from meshwalk._sight import Sights, SightState, visible
     from meshwalk._star import Star, StarInfo, direction_to_lonlat, lonlat_to_direction
     from meshwalk._surface import Surface, SurfaceInfo
+    from meshwalk._tiles import TileLocations, Tiles
+    from meshwalk._tiling import prepare_tiles
     from meshwalk._triangulate import (
         DuplicateWarning,
         OptimumWarning,
@@ -136,6 +138,8 @@ _MODULES = {
     "_sight": ("SightState", "Sights", "visible"),
     "_star": ("Star", "StarInfo", "direction_to_lonlat", "lonlat_to_direction"),
     "_surface": ("Surface", "SurfaceInfo"),
+    "_tiles": ("TileLocations", "Tiles"),
+    "_tiling": ("prepare_tiles",),
     "_triangulate": (
         "DuplicateWarning",
         "OptimumWarning",
@@ -191,6 +195,8 @@ __all__ = [
     "SurfaceAreaInfo",
     "SurfaceInfo",
     "SurfaceSide",
+    "TileLocations",
+    "Tiles",
     "TouchLists",
     "TouchState",
     "Touches",
@@ -209,6 +215,7 @@ __all__ = [
     "mend",
     "mesh_formats",
     "plot",
+    "prepare_tiles",
     "read",
     "read_constraints",
     "read_points",

@@ -233,7 +233,7 @@ def cells(vertices: int, queries: int, seed: int) -> dict[str, list[Contestant]]
     random = np.random.default_rng(seed)
     dataset = polydata(meshwalk.delaunay(random.uniform(size=(vertices, 2))))
     flat = np.column_stack([random.uniform(size=(queries, 2)), np.zeros(queries)])
-    above = flat + [0, 0, 0.01]
+    above = flat + np.array([0, 0, 0.01])
 
     def begin(make: Callable[[], Any], method: str, points: NDArray[Any]) -> Callable[[], Ask]:
         def made() -> Ask:

@@ -91,7 +91,7 @@ def fields(given: Mapping[str, Any], rows: int, place: str) -> dict[str, NDArray
 def _doubles_hold(values: NDArray[Any]) -> bool:
     if values.dtype.kind == "f" and values.dtype.itemsize > 8:
         return False
-    return values.dtype.kind != "i" and values.dtype.kind != "u" or bool(
+    return (values.dtype.kind != "i" and values.dtype.kind != "u") or bool(
         (np.abs(values.astype(np.float64)) <= 2.0**53).all()
     )
 

@@ -346,6 +346,7 @@ def star_from_surface(
     x: float,
     y: float,
     z: float,
+    threads: int,
     progress: Progress | None,
     /,
 ) -> _Star: ...

@@ -294,6 +294,16 @@ class Locations:
 
         return _arrays.interpolated(values, self.shape, interpolate)
 
+    def _core_operator(self, threads: int, progress: Progress | None) -> _core.Operator:
+        """The weights, for an `Operator`."""
+        from meshwalk._mesh import Mesh
+
+        if not isinstance(self.mesh, Mesh):
+            kind = type(self.mesh).__name__
+            raise TypeError(f"points must be located in a Mesh, not in a {kind}")
+        records = np.ascontiguousarray(self.records).reshape(-1)
+        return _core.operator_from_locations(self.mesh, records, threads, progress)
+
     def __getitem__(self, index: Any) -> Locations:
         chosen = self.records[index]
         return Locations(self.mesh, np.asarray(chosen))
@@ -311,7 +321,7 @@ class Locations:
         kinds = ", ".join(f"{counts[w]} {w.name.lower()}" for w in Where if counts[w])
         size = " x ".join(str(n) for n in self.shape) if self.shape else "1"
         noun = "point" if size == "1" else "points"
-        return f"<Locations: {size} {noun}{'; ' if kinds else ''}{kinds}>"
+        return f"<{type(self).__name__}: {size} {noun}{'; ' if kinds else ''}{kinds}>"
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Locations, (self.mesh, self.records)

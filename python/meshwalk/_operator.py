@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from meshwalk import _arrays, _core
-from meshwalk._mesh import Mesh
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -27,7 +26,7 @@ class Operator:
     Parameters
     ----------
     hit : Locations
-        Points that were located in a `Mesh`, which the operator does not keep.
+        Points that were located in a `Mesh` or in `Tiles`, which the operator does not keep.
     threads : int, optional
         How many threads work on it; 0 lets the library choose.
     progress : callable, optional
@@ -55,10 +54,7 @@ class Operator:
     def __init__(
         self, hit: Locations, threads: int = 0, *, progress: Progress | None = None
     ) -> None:
-        if not isinstance(hit.mesh, Mesh):
-            raise TypeError(f"points must be located in a Mesh, not in a {type(hit.mesh).__name__}")
-        records = np.ascontiguousarray(hit.records).reshape(-1)
-        self._weights = _core.operator_from_locations(hit.mesh, records, threads, progress)
+        self._weights = hit._core_operator(threads, progress)
         self._points: tuple[int, ...] = hit.shape
         self._values: tuple[int, ...] = (hit.mesh.vertex_count,)
         self._transposed = False

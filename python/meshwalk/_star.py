@@ -43,6 +43,8 @@ class Star(_core.Star):
         A closed polyhedron, star-shaped about the centre: each ray meets it once.
     centre : array_like, shape (3,), optional
         Where the rays begin; the origin by default.
+    threads : int, optional
+        How many threads prepare the star; 0 lets the library choose. The star is the same.
     progress : callable, optional
         As of `Locator`.
 
@@ -80,6 +82,7 @@ class Star(_core.Star):
         surface: Surface,
         centre: ArrayLike = (0, 0, 0),
         *,
+        threads: int = 0,
         progress: Progress | None = None,
     ) -> Self:
         if not isinstance(surface, Surface):
@@ -90,7 +93,7 @@ class Star(_core.Star):
         x, y, z = (float(value) for value in place[0])
         with surface._lock:
             try:
-                star = _core.star_from_surface(cls, surface, x, y, z, progress)
+                star = _core.star_from_surface(cls, surface, x, y, z, threads, progress)
             except InputError as error:
                 weld = surface._options[0]
                 found = check_star(surface.points, surface.triangles, (x, y, z), weld=weld)

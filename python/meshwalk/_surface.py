@@ -240,7 +240,7 @@ class Surface(_core.Surface):
             larger, which is quick, and fitted anew only now and then. By default they are fitted
             anew.
         threads : int, optional
-            How many threads fit boxes; 0 lets the library choose.
+            How many threads fit boxes and check stars; 0 lets the library choose.
 
         Raises
         ------

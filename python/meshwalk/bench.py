@@ -3,10 +3,7 @@
 Points and queries are random in the unit square. The task ``locate`` finds the triangles of
 queries: all peers search the same triangles. ``interpolate`` takes values of many fields to the
 queries, beside ``scipy.sparse``. ``particles`` carries them round the middle of the square by steps
-of second order, which locate each of them twice, with a `Cursor` and without. ``rays``, ``joins``
-and ``cells`` are the drop-ins for trimesh, for GeoPandas and shapely, and for pyvista beside these.
-Rounds are interleaved, so a machine that is busy for a while slows all; the best round counts. A
-peer that is not installed is left out.
+    tasks = ("locate", "interpolate", "particles", "dask", *_bench_dropins.TASKS)
 """
 
 from __future__ import annotations
@@ -117,13 +114,13 @@ def _seconds(work: Callable[[], Any]) -> tuple[float, Any]:
     return time.perf_counter() - begin, result
 
 
-def _best(works: Sequence[Callable[[], Any]], rounds: int) -> list[float]:
+def best(works: Sequence[Callable[[], Any]], rounds: int) -> list[float]:
     """Seconds of each in its best round."""
-    best = [np.inf] * len(works)
+    least = [np.inf] * len(works)
     for k in range(rounds * len(works)):
         turn = (k + k // len(works)) % len(works)  # each round begins with another one
-        best[turn] = min(best[turn], _seconds(works[turn])[0])
-    return best
+        least[turn] = min(least[turn], _seconds(works[turn])[0])
+    return least
 
 
 def measure(
@@ -156,10 +153,10 @@ def measure(
         except ImportError:
             continue
         made.append((peer, seconds, ask, ask(xy)))  # the first answers warm up
-    best = _best([lambda ask=ask: ask(xy) for _, _, ask, _ in made], rounds)  # type: ignore[misc]
+    least = best([lambda ask=ask: ask(xy) for _, _, ask, _ in made], rounds)  # type: ignore[misc]
     return [
         Figure(peer.name, seconds, quickest / queries, float(np.mean(answers == made[0][3])))
-        for (peer, seconds, _, answers), quickest in zip(made, best, strict=True)
+        for (peer, seconds, _, answers), quickest in zip(made, least, strict=True)
     ]
 
 
@@ -209,7 +206,7 @@ def measure_interpolation(
     else:
         ways["scipy.sparse"] = lambda: operator @ rows
         ways["scipy.sparse, in time"] = lambda: operator @ fields.T
-    return [Time(*pair) for pair in zip(ways, _best(list(ways.values()), rounds), strict=True)]
+    return [Time(*pair) for pair in zip(ways, best(list(ways.values()), rounds), strict=True)]
 
 
 def _drift(ask: Callable[[Points], meshwalk.Locations], place: Points, steps: int) -> Points:
@@ -247,7 +244,7 @@ def measure_particles(
         "meshwalk, Cursor": lambda: _drift(meshwalk.Cursor(locator).locate, place, steps),
         "meshwalk, Locator": lambda: _drift(locator.locate, place, steps),
     }
-    return [Time(*pair) for pair in zip(ways, _best(list(ways.values()), rounds), strict=True)]
+    return [Time(*pair) for pair in zip(ways, best(list(ways.values()), rounds), strict=True)]
 
 
 def _print_times(times: Sequence[Time], values: int, what: str) -> None:
@@ -272,13 +269,15 @@ def _measure_dropin(task: str, vertices: int, queries: int, rounds: int, seed: i
 def main(arguments: Sequence[str] | None = None) -> int:
     """Print a table; `arguments` are those of the command line."""
     parser = argparse.ArgumentParser("python -m meshwalk.bench", description=__doc__)
-    tasks = ("locate", "interpolate", "particles", *_bench_dropins.TASKS)
+    tasks = ("locate", "interpolate", "particles", "dask", *_bench_dropins.TASKS)
     parser.add_argument("--task", choices=tasks, default="locate")
     parser.add_argument("--vertices", type=float, default=1e5)
     parser.add_argument("--queries", type=float, default=1e5)
     parser.add_argument("--rounds", type=int, default=3)
     parser.add_argument("--columns", type=int, default=24, help="fields to interpolate")
     parser.add_argument("--steps", type=int, default=288, help="of particles")
+    parser.add_argument("--workers", type=int, default=2, help="processes of the task dask")
+    parser.add_argument("--chunk", type=float, default=1e6, help="points of a chunk of it")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--peers", default="", help="names, separated by commas")
     given = parser.parse_args(arguments)
@@ -286,13 +285,23 @@ def main(arguments: Sequence[str] | None = None) -> int:
     unknown = set(names) - {peer.name for peer in PEERS}
     if unknown:
         parser.error(f"no such peer: {', '.join(sorted(unknown))}")
-    if min(given.queries, given.rounds, given.columns, given.steps) < 1 or given.vertices < 3:
+    counts = (given.queries, given.rounds, given.columns, given.steps, given.workers, given.chunk)
+    if min(counts) < 1 or given.vertices < 3:
         parser.error("three vertices, and one of everything else, are the least")
     sizes = int(given.vertices), int(given.queries), given.rounds
     if given.task == "interpolate":
         print(f"{given.columns} fields of {sizes[0]} vertices at {sizes[1]} random queries")
         times = measure_interpolation(*sizes, given.columns, given.seed)
         _print_times(times, sizes[1] * given.columns, "ns a value")
+        return 0
+    if given.task == "dask":
+        from meshwalk.dask.bench import measure_streams
+
+        streams = measure_streams(*sizes, given.workers, int(given.chunk), given.seed)
+        print(f"{sizes[1]} random queries in {sizes[0]} random vertices, {given.workers} processes")
+        _print_times(streams.times, sizes[1], "ns a query")
+        print("the same sums" if len(set(streams.sums)) == 1 else f"other sums: {streams.sums}")
+        print("memory of a process at most, MB:", *(size >> 20 for size in streams.bytes))
         return 0
     if given.task == "particles":
         print(f"{sizes[1]} particles among {sizes[0]} random vertices, {given.steps} steps")

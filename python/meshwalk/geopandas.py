@@ -340,7 +340,8 @@ def mesh(frame: Any) -> Mesh:
     <Mesh: 4 vertices, 2 triangles>
     """
     geometry = np.asarray(frame.geometry.array)
-    good = (shapely.get_type_id(geometry) == _POLYGON) & (shapely.get_num_coordinates(geometry) == 4)
+    good = shapely.get_type_id(geometry) == _POLYGON
+    good &= shapely.get_num_coordinates(geometry) == 4
     if not good.all():
         row = int(np.argmin(good))
         raise ValueError(f"the geometry at {frame.index[row]!r} is no triangle")

@@ -48,7 +48,7 @@ _POLYGON_TO_POINT = {
 
 
 def _are(geometries: NDArray[Any], *types: int) -> bool:
-    """Are all geometries of these types, or missing, and one at least not missing?"""
+    """Tell whether all geometries are of these types or missing, and not all are missing."""
     kinds = shapely.get_type_id(geometries)
     return bool(np.isin(kinds, (*types, -1)).all() and (kinds >= 0).any())
 

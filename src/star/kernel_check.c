@@ -8,6 +8,9 @@
 
 /* The kinds of facets. */
 enum { VOID = 0, BACK = 1, LEVEL = 2, FRONT = 3 };
+/* Marks beside the kind, until they have been looked at: a facet that has a defect by itself; one
+ * that the ray meets. */
+enum { SUSPECT = 4, MET = 8 };
 
 typedef struct kernel_check {
     mw_star *star;
@@ -54,25 +57,58 @@ static uint8_t facet_facing(const mw_star *star, const mw_triangle *t)
                       : LEVEL;
 }
 
-/* Also for a welded surface: vertices that were made one, but have been moved apart since, leave a
- * gap. */
+/* Is a vertex of a welded surface where those are with which it is one? Else they leave a gap. */
+static bool vertex_is_together(const mw_star *star, uint32_t v)
+{
+    const double *p = mw__surface_point(star->surface, v),
+                 *at = mw__surface_point(star->surface,
+                                         mw__representative(star->surface->coincident, v));
+    return p[0] == at[0] && p[1] == at[1] && p[2] == at[2];
+}
+
+bool mw__star_corners_hold(const mw_star *star, const uint32_t v[3])
+{
+    for (uint32_t k = 0; k < 3; k++)
+        if (!mw__is_finite3(mw__star_corner_point(star, v, k)) || !vertex_is_together(star, v[k]))
+            return false;
+    return true;
+}
+
+/* Add the first corner that is not finite, or not together. */
 static bool kernel_look_at_corners(kernel_check *s, uint32_t i)
 {
-    const mw_star *star = s->star;
+    const uint32_t *v = s->star->tri[i].v;
     for (uint32_t k = 0; k < 3; k++) {
-        const double *p = mw__star_corner_point(star, star->tri[i].v, k),
-                     *at = mw__surface_point(
-                         star->surface,
-                         mw__representative(star->surface->coincident, star->tri[i].v[k]));
-        if (!mw__is_finite3(p)) {
+        if (!mw__is_finite3(mw__star_corner_point(s->star, v, k))) {
             if (!kernel_defect_add(s, MW_DEFECT_NOT_FINITE, i, MW_NONE, 3)) return false;
-            s->defects->list[s->defects->count - 1].vertex = star->tri[i].v[k];
+            s->defects->list[s->defects->count - 1].vertex = v[k];
             return true;
         }
-        if (p[0] != at[0] || p[1] != at[1] || p[2] != at[2])
+        if (!vertex_is_together(s->star, v[k]))
             return kernel_defect_add(s, MW_DEFECT_OPEN_EDGE, i, MW_NONE, k);
     }
     return true;
+}
+
+/* Does a facet in a plane with the centre have an area? */
+static bool facet_is_through_centre(const kernel_check *s, uint32_t i)
+{
+    const mw_star *star = s->star;
+    const uint32_t *v = star->tri[i].v;
+    return s->faces[i] == LEVEL &&
+           !mw__collinear3(mw__star_corner_point(star, v, 0), mw__star_corner_point(star, v, 1),
+                           mw__star_corner_point(star, v, 2));
+}
+
+/* By any thread. */
+static void kernel_face(void *work, uint64_t from, uint64_t to)
+{
+    kernel_check *s = work;
+    for (uint32_t i = (uint32_t)from; i < to; i++) {
+        s->faces[i] = facet_facing(s->star, &s->star->tri[i]);
+        if (!mw__star_corners_hold(s->star, s->star->tri[i].v) || facet_is_through_centre(s, i))
+            s->faces[i] |= SUSPECT;
+    }
 }
 
 static bool kernel_look_at_facets(kernel_check *s)
@@ -80,16 +116,14 @@ static bool kernel_look_at_facets(kernel_check *s)
     mw_star *star = s->star;
     star->area_count = 0;
     mw__job_stage(s->job, "looking at facets", 0.5);
+    if (!mw__job_ranges(s->job, star->tri_count, kernel_face, s)) return false;
     for (uint32_t i = 0; i < star->tri_count; i++) {
-        if (!mw__job_step(s->job, i, star->tri_count)) return false;
-        const mw_triangle *t = &star->tri[i];
-        if (!kernel_look_at_corners(s, i)) return false;
-        s->faces[i] = facet_facing(star, t);
+        bool suspect = (s->faces[i] & SUSPECT) != 0;
+        s->faces[i] &= (uint8_t)~SUSPECT;
         star->area_count += s->faces[i] == FRONT || s->faces[i] == BACK;
-        if (s->faces[i] == LEVEL &&
-            !mw__collinear3(mw__star_corner_point(star, t->v, 0),
-                            mw__star_corner_point(star, t->v, 1),
-                            mw__star_corner_point(star, t->v, 2)) &&
+        if (!suspect) continue;
+        if (!kernel_look_at_corners(s, i)) return false;
+        if (facet_is_through_centre(s, i) &&
             !kernel_defect_add(s, MW_DEFECT_THROUGH_CENTRE, i, MW_NONE, 3))
             return false;
     }
@@ -239,23 +273,30 @@ static bool ray_is_left(const mw_star *star, const double a[3], const double b[3
     return false;
 }
 
+/* Mark the facets that the ray meets. By any thread. */
+static void kernel_meet(void *work, uint64_t from, uint64_t to)
+{
+    kernel_check *s = work;
+    for (uint64_t i = from; i < to; i++) {
+        const uint32_t *v = s->star->tri[i].v;
+        bool meets = s->faces[i] != VOID && s->faces[i] != LEVEL;
+        for (uint32_t k = 0; k < 3 && meets; k++)
+            meets = ray_is_left(s->star, mw__star_corner_point(s->star, v, k),
+                                mw__star_corner_point(s->star, v, k + 1));
+        if (meets) s->faces[i] |= MET;
+    }
+}
+
 /* Count the facets that the ray meets: at least one, if there are facets. Facets are oriented. */
 static bool kernel_look_along_ray(kernel_check *s)
 {
-    const mw_star *star = s->star;
     uint32_t first = MW_NONE;
     mw__job_stage(s->job, "looking along a ray", 0.2);
-    for (uint32_t i = 0; i < star->tri_count; i++) {
-        if (!mw__job_step(s->job, i, star->tri_count)) return false;
-        const mw_triangle *t = &star->tri[i];
-        if (s->faces[i] == VOID || s->faces[i] == LEVEL) continue;
-        bool meets = true;
-        for (uint32_t k = 0; k < 3 && meets; k++)
-            meets = ray_is_left(star, mw__star_corner_point(star, t->v, k),
-                                mw__star_corner_point(star, t->v, k + 1));
-        if (meets && first != MW_NONE && !kernel_defect_add(s, MW_DEFECT_COVERED, first, i, 3))
-            return false;
-        if (meets && first == MW_NONE) first = i;
+    if (!mw__job_ranges(s->job, s->star->tri_count, kernel_meet, s)) return false;
+    for (uint32_t i = 0; i < s->star->tri_count; i++) {
+        if (!(s->faces[i] & MET)) continue;
+        if (first != MW_NONE && !kernel_defect_add(s, MW_DEFECT_COVERED, first, i, 3)) return false;
+        if (first == MW_NONE) first = i;
     }
     return true;
 }

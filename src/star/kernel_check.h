@@ -15,6 +15,10 @@
 #include "mesh/defect.h"
 #include "star/star.h"
 
+/* Are the corners of a facet finite, and, in a welded surface, still where those are with which
+ * they are one? */
+bool mw__star_corners_hold(const mw_star *star, const uint32_t v[3]);
+
 /* Decide whether the surface is star-shaped, and orient star->tri, which holds its triangles, as
  * star.h says. Sets star->area_count. Adds all defects to *defects; that of the ray
  * (MW_DEFECT_COVERED) only if there is no other. Without any, the surface is star-shaped. Stages of

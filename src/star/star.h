@@ -42,6 +42,7 @@ typedef struct mw_star_hub {
     uint32_t vertex;       /* its representative */
     uint32_t first, count; /* its part of the ring */
     uint32_t half;         /* the first of its half-edges to the right of its first one */
+    bool stale;            /* facets have moved, and `half` is to be found anew */
 } mw_star_hub;
 
 typedef struct mw_star_hubs {
@@ -65,6 +66,8 @@ struct mw_star {
     const uint32_t *coincident;
     uint32_t *own_coincident;
     uint32_t *owner; /* per vertex: the lowest facet that the ray through it meets, or MW_NONE */
+    /* NULL, or the place in `facet` of each of the user's facets: for updates of few vertices. */
+    uint32_t *place;
     /* NULL, or longitude phi (-pi to pi) and polar angle theta (0 to pi) of each vertex. */
     double *angle;
     double centre[3];
@@ -74,6 +77,7 @@ struct mw_star {
     uint32_t front;      /* the facet at phi = 0, theta = pi/2 */
     uint32_t fuel;       /* step limit of walks that may not end */
     uint64_t version;    /* version of the surface that all this is valid for */
+    uint64_t shape;      /* and its shape */
     bool ready;          /* the last check found it star-shaped */
 };
 
@@ -82,6 +86,13 @@ static MW_INLINE const double *mw__star_corner_point(const mw_star *star, const 
                                                      uint32_t k)
 {
     return mw__surface_point(star->surface, v[k]);
+}
+
+/* The half-edge that starts at the same vertex in the next facet, counter-clockwise. */
+static MW_INLINE uint32_t mw__star_turn(const mw_star *star, uint32_t half)
+{
+    uint32_t before = mw__half_prev(half);
+    return star->facet[mw__link_triangle(before)].link[mw__link_edge(before)];
 }
 
 /* A void facet has no links, as two of its corners coincide. It does not count. */
@@ -160,9 +171,12 @@ static MW_INLINE void mw__star_unfold(const double d[3], double *x, double *y)
     *y = below ? copysign(1 - fabs(u), v) : v;
 }
 
-/* Fill in star->facet and star->guide from star->tri. Steps of the present stage. Returns false
- * when out of memory, or cancelled. */
+/* Fill in star->facet and star->guide from star->tri. Stages of the present part of the job.
+ * Returns false when out of memory, or cancelled. */
 bool mw__star_lay_out(mw_star *star, mw_job *job);
+
+/* Set the planes of a facet by its corners. */
+void mw__star_set_planes(const mw_star *star, mw_star_facet *facet);
 
 /* The number of bits of the guide: an entry for 2 to 4 facets. */
 static MW_INLINE uint32_t mw__star_guide_bits(uint32_t facets)
@@ -200,6 +214,18 @@ void mw__star_angles(const double d[3], double *phi, double *theta);
 
 /* Fill in star->angle and mark the facets of the seam. */
 void mw__star_fill_angles(mw_star *star);
+
+/* The same for one facet, whose corners may have moved. */
+void mw__star_renew_angles(mw_star *star, mw_star_facet *facet);
+
+/* --- star_follow.c --- */
+
+/* Bring a star up to date in which nothing has changed since but the places of `count` vertices;
+ * all its facets have an area. Returns false, with nothing changed but star->place, where all
+ * facets must be decided: because there are many vertices, the surface is not star-shaped any more,
+ * a facet has lost its area, or memory is short. O(k log k) for the k facets round the vertices,
+ * and O(n) when star->place is made. */
+bool mw__star_follow(mw_star *star, const uint32_t *moved, size_t count);
 
 /* --- star_walk_run.c --- */
 

@@ -32,13 +32,23 @@ static bool facet_is_seam(const mw_star *star, const mw_star_facet *t)
     return !(mw__orient2d(a, b, c) < 0) || span > HALF_TURN;
 }
 
+static void vertex_set_angles(mw_star *star, uint32_t v)
+{
+    const double *p = mw__surface_point(star->surface, v);
+    double d[3] = {p[0] - star->centre[0], p[1] - star->centre[1], p[2] - star->centre[2]};
+    mw__star_angles(d, &star->angle[2 * (size_t)v], &star->angle[2 * (size_t)v + 1]);
+}
+
+void mw__star_renew_angles(mw_star *star, mw_star_facet *facet)
+{
+    for (uint32_t k = 0; k < 3; k++) vertex_set_angles(star, facet->v[k]);
+    facet->user &= ~MW_SEAM;
+    if (facet_is_seam(star, facet)) facet->user |= MW_SEAM;
+}
+
 void mw__star_fill_angles(mw_star *star)
 {
-    for (uint32_t v = 0; v < star->point_count; v++) {
-        const double *p = mw__surface_point(star->surface, v);
-        double d[3] = {p[0] - star->centre[0], p[1] - star->centre[1], p[2] - star->centre[2]};
-        mw__star_angles(d, &star->angle[2 * (size_t)v], &star->angle[2 * (size_t)v + 1]);
-    }
+    for (uint32_t v = 0; v < star->point_count; v++) vertex_set_angles(star, v);
     for (uint32_t t = 0; t < star->tri_count; t++)
         if (facet_is_seam(star, &star->facet[t])) star->facet[t].user |= MW_SEAM;
 }

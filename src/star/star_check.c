@@ -72,7 +72,7 @@ mw_status mw_star_check_arrays(const mw_arrays *arrays, int weld, const mw_star_
         return mw__fail(error, MW_ERROR_ARGUMENT, "the centre is not finite");
     mw_status status = MW_RESERVED_CHECK(mw_star_options, options, error);
     if (status) return status;
-    mw_job job = mw__job(1, options->progress);
+    mw_job job = mw__job(options->threads, options->progress);
     status = mw__job_end(&job, star_check_run(arrays, weld, options, &job, check, error), error);
     if (status) mw_check_release(check);
     return status;

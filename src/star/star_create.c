@@ -5,6 +5,7 @@
 #include "star/kernel_check.h"
 #include "star/star_hubs.h"
 
+#include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -91,27 +92,38 @@ static mw_status star_decide(mw_star *star, mw_job *job, mw_error *error)
     mw__job_stage(job, "finding the owners of vertices", 0.1);
     star_fill_owners(star);
     star_replace_voids(star, star_any_facet(star));
-    mw__job_stage(job, "laying out facets", 0.4);
-    if (!mw__star_lay_out(star, job)) return mw__fail_memory(error);
+    outer = mw__job_part(job, 0.4);
+    bool done = mw__star_lay_out(star, job);
+    mw__job_part_end(job, outer);
+    if (!done) return mw__fail_memory(error);
     mw__star_hubs_release(&star->hubs);
     return mw__star_hubs_create(&star->hubs, star) ? MW_OK : mw__fail_memory(error);
+}
+
+/* The facets are up to date. */
+static void star_finish(mw_star *star)
+{
+    static const double front[3] = {1, 0, 0};
+    star->front = mw__star_facet_along(star, front, star->front);
+    star->version = star->surface->version;
+    star->shape = star->surface->shape;
+    star->ready = true;
 }
 
 /* Fill in everything that depends on coordinates and links. */
 static mw_status star_prepare(mw_star *star, mw_job *job, mw_error *error)
 {
-    static const double front[3] = {1, 0, 0};
     star->ready = false;
+    free(star->place);
+    star->place = NULL;
     star->tri = mw__alloc(star->tri_count, sizeof *star->tri);
     mw_status status = star->tri ? star_decide(star, job, error) : mw__fail_memory(error);
     free(star->tri);
     star->tri = NULL;
     if (status) return status;
     star->reach = star_measure_reach(star);
-    star->front = mw__star_facet_along(star, front, 0);
     if (star->angle) mw__star_fill_angles(star);
-    star->version = star->surface->version;
-    star->ready = true;
+    star_finish(star);
     return MW_OK;
 }
 
@@ -162,7 +174,7 @@ mw_status mw_star_create(const mw_surface *surface, const mw_star_options *optio
     star->near = star_near(surface->tri_count);
     star->curve = mw__hilbert((const double[2]){-1, -1}, (const double[2]){1, 1});
     memcpy(star->centre, options->centre, sizeof star->centre);
-    mw_job job = mw__job(1, options->progress);
+    mw_job job = mw__job(options->threads, options->progress);
     status = star_allocate(star, options->angles) ? star_prepare(star, &job, error)
                                                   : mw__fail_memory(error);
     status = mw__job_end(&job, status, error);
@@ -173,10 +185,32 @@ mw_status mw_star_create(const mw_surface *surface, const mw_star_options *optio
     return status;
 }
 
-mw_status mw_star_update(mw_star *star, mw_error *error)
+/* Can the facets round the vertices that moved be decided alone? */
+static bool star_can_follow(const mw_star *star)
 {
+    return star->ready && star->surface->version - star->version <= 1 &&
+           star->surface->shape == star->shape && star->area_count == star->tri_count;
+}
+
+mw_status mw_star_update(mw_star *star, const mw_star_update_options *options, mw_error *error)
+{
+    static const mw_star_update_options defaults;
     if (!star) return mw__fail(error, MW_ERROR_ARGUMENT, "no star");
-    return star_prepare(star, MW_ALONE, error);
+    if (!options) options = &defaults;
+    mw_status status = MW_RESERVED_CHECK(mw_star_update_options, options, error);
+    if (status) return status;
+    for (size_t i = 0; options->moved && i < options->moved_count; i++)
+        if (options->moved[i] >= star->point_count)
+            return mw__fail(error, MW_ERROR_ARGUMENT,
+                            "moved vertex %" PRIu32 " is not a vertex; there are %" PRIu32,
+                            options->moved[i], star->point_count);
+    if (options->moved && star_can_follow(star) &&
+        mw__star_follow(star, options->moved, options->moved_count)) {
+        star_finish(star);
+        return MW_OK;
+    }
+    mw_job job = mw__job(options->threads, options->progress);
+    return mw__job_end(&job, star_prepare(star, &job, error), error);
 }
 
 void mw_star_destroy(mw_star *star)
@@ -187,6 +221,7 @@ void mw_star_destroy(mw_star *star)
     mw__star_hubs_release(&star->hubs);
     free(star->own_coincident);
     free(star->owner);
+    free(star->place);
     free(star->angle);
     free(star);
 }
@@ -197,9 +232,10 @@ void mw_star_describe(const mw_star *star, mw_star_info *info)
     size_t guide = ((size_t)1 << star->guide_bits) * sizeof *star->guide;
     size_t angles = star->angle ? star->point_count * 2 * sizeof *star->angle : 0;
     size_t facets = star->tri_count * sizeof *star->facet,
-           owners = star->point_count * sizeof *star->owner;
+           owners = star->point_count * sizeof *star->owner,
+           places = star->place ? star->tri_count * sizeof *star->place : 0;
     *info = (mw_star_info){
-        .bytes = sizeof *star + facets + owners + guide + angles + coincident +
+        .bytes = sizeof *star + facets + owners + places + guide + angles + coincident +
                  mw__star_hubs_bytes(&star->hubs),
         .angle_bytes = angles,
         .flat_facets = star->tri_count - star->area_count,

@@ -24,12 +24,6 @@ static uint32_t hub_vertex(const mw_star *star, uint32_t facet, uint32_t k)
     return mw__representative(star->coincident, star->facet[facet].v[k]);
 }
 
-/* The half-edge that starts at the same vertex in the next facet, counter-clockwise. */
-static uint32_t hub_turn(const mw_star *star, uint32_t half)
-{
-    return hub_link(star, mw__half_prev(half));
-}
-
 /* --- finding them --- */
 
 /* Count the facets of each vertex, and note a half-edge that starts there. Facets that stand for
@@ -74,6 +68,12 @@ static bool hub_is_past_half(const mw_star *star, const uint32_t *ring, uint32_t
                            mw__star_corner_point(star, star->facet[t].v, k));
 }
 
+static void hub_find_half(const mw_star *star, const uint32_t *ring, mw_star_hub *hub)
+{
+    hub->half = 1;
+    while (hub->half < hub->count && !hub_is_past_half(star, ring, hub->half)) hub->half++;
+}
+
 static void hub_collect_ring(mw_star_hubs *hubs, const mw_star *star, mw_star_hub *hub,
                              uint32_t first)
 {
@@ -81,10 +81,9 @@ static void hub_collect_ring(mw_star_hubs *hubs, const mw_star *star, mw_star_hu
     hub->count = 0;
     do {
         ring[hub->count++] = half;
-        half = hub_turn(star, half);
+        half = mw__star_turn(star, half);
     } while (half != first);
-    hub->half = 1;
-    while (hub->half < hub->count && !hub_is_past_half(star, ring, hub->half)) hub->half++;
+    hub_find_half(star, ring, hub);
 }
 
 bool mw__star_hubs_create(mw_star_hubs *hubs, const mw_star *star)
@@ -120,7 +119,7 @@ size_t mw__star_hubs_bytes(const mw_star_hubs *hubs)
 
 /* --- using them --- */
 
-const mw_star_hub *mw__star_hub_at(const mw_star *star, uint32_t facet, uint32_t k)
+static mw_star_hub *hub_find(const mw_star *star, uint32_t facet, uint32_t k)
 {
     uint32_t v = hub_vertex(star, facet, k), low = 0, high = star->hubs.count;
     while (low < high) {
@@ -131,6 +130,11 @@ const mw_star_hub *mw__star_hub_at(const mw_star *star, uint32_t facet, uint32_t
             high = middle;
     }
     return low < star->hubs.count && star->hubs.hub[low].vertex == v ? &star->hubs.hub[low] : NULL;
+}
+
+const mw_star_hub *mw__star_hub_at(const mw_star *star, uint32_t facet, uint32_t k)
+{
+    return hub_find(star, facet, k);
 }
 
 /* Does the ray lie strictly to the right of a half-edge that starts at the hub? */
@@ -152,4 +156,21 @@ uint32_t mw__star_hub_facet(const mw_star *star, const mw_star_hub *hub, const d
             low = middle;
     }
     return mw__link_triangle(ring[low]);
+}
+
+/* --- following moved facets --- */
+
+void mw__star_hubs_follow(mw_star *star, const uint32_t *facets, uint32_t count)
+{
+    if (star->hubs.count == 0) return;
+    for (uint32_t i = 0; i < count; i++)
+        for (uint32_t k = 0; k < 3; k++) {
+            mw_star_hub *hub = hub_find(star, facets[i], k);
+            if (hub) hub->stale = true;
+        }
+    for (uint32_t i = 0; i < star->hubs.count; i++) {
+        mw_star_hub *hub = &star->hubs.hub[i];
+        if (hub->stale) hub_find_half(star, star->hubs.ring + hub->first, hub);
+        hub->stale = false;
+    }
 }

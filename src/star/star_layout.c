@@ -12,6 +12,12 @@
 
 /* --- order --- */
 
+typedef struct star_layout {
+    mw_star *star;
+    mw_key *keys;         /* by their place */
+    const uint32_t *slot; /* of facet i of the user's order */
+} star_layout;
+
 /* The key of the direction to the middle of a facet. The direction is rounded, and halved so that
  * it does not overflow. */
 static uint32_t facet_curve_key(const mw_star *star, const mw_triangle *t)
@@ -26,11 +32,12 @@ static uint32_t facet_curve_key(const mw_star *star, const mw_triangle *t)
     return mw__star_curve_key(star, d);
 }
 
-static void facets_sort(const mw_star *star, mw_key *keys, mw_key *scratch)
+static void facets_key(void *work, uint64_t from, uint64_t to)
 {
-    for (uint32_t t = 0; t < star->tri_count; t++)
-        keys[t] = (mw_key){facet_curve_key(star, &star->tri[t]), t};
-    mw__sort_keys(keys, scratch, star->tri_count);
+    const star_layout *layout = work;
+    for (uint64_t t = from; t < to; t++)
+        layout->keys[t] =
+            (mw_key){facet_curve_key(layout->star, &layout->star->tri[t]), (uint32_t)t};
 }
 
 /* --- form --- */
@@ -71,6 +78,13 @@ static bool facet_is_altered(const uint32_t v[3], const mw_triangle *given)
     return v[0] != given->v[0] || v[1] != given->v[1] || v[2] != given->v[2];
 }
 
+void mw__star_set_planes(const mw_star *star, mw_star_facet *facet)
+{
+    for (uint32_t k = 0; k < 3; k++)
+        facet_set_normal(star, mw__star_corner_point(star, facet->v, k),
+                         mw__star_corner_point(star, facet->v, mw__next(k)), facet->normal[k]);
+}
+
 /* Make facet t. slot[i] is the slot of facet i of the user's order. */
 static mw_star_facet facet_make(const mw_star *star, const mw_triangle *t, const uint32_t *slot)
 {
@@ -78,11 +92,18 @@ static mw_star_facet facet_make(const mw_star *star, const mw_triangle *t, const
     for (uint32_t k = 0; k < 3; k++) {
         facet.v[k] = t->v[k];
         facet.link[k] = mw__link(slot[mw__link_triangle(t->link[k])], mw__link_edge(t->link[k]));
-        facet_set_normal(star, mw__star_corner_point(star, t->v, k),
-                         mw__star_corner_point(star, t->v, k + 1), facet.normal[k]);
     }
+    mw__star_set_planes(star, &facet);
     if (facet_is_altered(facet.v, &star->surface->tri[facet.user])) facet.user |= MW_FACET_ALTERED;
     return facet;
+}
+
+static void facets_make(void *work, uint64_t from, uint64_t to)
+{
+    const star_layout *layout = work;
+    for (uint64_t i = from; i < to; i++)
+        layout->star->facet[i] =
+            facet_make(layout->star, &layout->star->tri[layout->keys[i].item], layout->slot);
 }
 
 /* --- guide --- */
@@ -104,13 +125,15 @@ bool mw__star_lay_out(mw_star *star, mw_job *job)
 {
     uint32_t n = star->tri_count, *slot = mw__alloc(n, sizeof *slot);
     mw_key *keys = mw__alloc(2 * (size_t)n, sizeof *keys);
+    star_layout layout = {star, keys, slot};
     bool done = slot && keys;
+    mw__job_stage(job, "sorting facets", 0.5);
+    done = done && mw__job_ranges(job, n, facets_key, &layout);
     if (done) {
-        facets_sort(star, keys, keys + n);
+        mw__sort_keys(keys, keys + n, n);
         for (uint32_t i = 0; i < n; i++) slot[keys[i].item] = i;
-        for (uint32_t i = 0; i < n && mw__job_step(job, i, n); i++)
-            star->facet[i] = facet_make(star, &star->tri[keys[i].item], slot);
-        done = !mw__job_stopped(job);
+        mw__job_stage(job, "laying out facets", 0.5);
+        done = mw__job_ranges(job, n, facets_make, &layout);
         star_fill_guide(star, keys);
     }
     free(slot);

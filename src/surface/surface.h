@@ -16,6 +16,7 @@ struct mw_surface {
     uint32_t *coincident;
     uint32_t point_count, tri_count;
     uint64_t version;  /* each update adds one */
+    uint64_t shape;    /* each change of its triangles adds one */
     mw_rwlock *rwlock; /* NULL: the caller must not run queries during updates */
     bool borrowed;     /* the points belong to the caller */
     bool tolerant;

@@ -58,5 +58,6 @@ mw_status mw_surface_flip(mw_surface *surface, uint32_t triangle, unsigned local
     half_edges_link(surface->tri, mw__link(triangle, ab), beyond_db);
     half_edges_link(surface->tri, mw__link(neighbour, ba), beyond_ca);
     half_edges_link(surface->tri, mw__link(triangle, ca), mw__link(neighbour, db));
+    surface->shape++;
     return MW_OK;
 }

@@ -214,4 +214,5 @@ run sample --points-crs EPSG:4326 absent.off absent.csv
 refused 3 "option '--points-crs': GDAL, which would transform the points"
 run sample -q --crs EPSG:2056 --points-crs epsg:2056 berne.off en.csv -o same.csv; exits 0
 absent same.prj
+unset LD_LIBRARY_PATH
 finish

@@ -114,6 +114,13 @@ TAKER(take_star, mw_star_options, {
     mw_star_destroy(out);
     return status;
 })
+TAKER(take_star_update, mw_star_update_options, {
+    mw_star *star;
+    mw_star_create(all->surface, NULL, &star, NULL);
+    mw_status status = mw_star_update(star, options, error);
+    mw_star_destroy(star);
+    return status;
+})
 TAKER(take_star_check, mw_star_options, {
     mw_check check;
     mw_arrays view = star_shape_arrays(&all->shape);
@@ -199,6 +206,7 @@ static const taker takers[] = {
     ROW(take_editor, mw_editor_options),
     ROW(take_surface, mw_surface_options),
     ROW(take_star, mw_star_options),
+    ROW(take_star_update, mw_star_update_options),
     ROW(take_star_check, mw_star_options),
     ROW(take_star_index, mw_star_index_options),
     ROW(take_star_query, mw_star_query_options),

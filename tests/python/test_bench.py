@@ -39,6 +39,14 @@ def test_other_tasks(task: str, first: str, capsys: pytest.CaptureFixture[str]) 
     assert lines[2].split()[-1] == "1.00"
 
 
+def test_streams_have_the_same_sums() -> None:
+    from meshwalk.dask.bench import measure_streams
+
+    streams = measure_streams(200, 1000, 1, workers=1, chunk=300)
+    assert streams.sums[0] == streams.sums[1] > 0
+    assert [time.name for time in streams.times] == ["plain processes", "Dask"]
+
+
 def test_particles_go_the_same_way() -> None:
     random = np.random.default_rng(4)
     locator = meshwalk.Locator(meshwalk.delaunay(random.uniform(size=(300, 2))))

@@ -643,7 +643,7 @@ static void test_update(void **state)
         draw(&p, (double[3]){0, 0, 0}, 1, &seed, q);
         assert_int_equal(mw_star_locate(w.star, &cursor, q).where,
                          MW_BAD); /* it has changed, and the star does not know */
-        assert_int_equal(mw_star_update(w.star, &error), broken ? MW_ERROR_INPUT : MW_OK);
+        assert_int_equal(mw_star_update(w.star, NULL, &error), broken ? MW_ERROR_INPUT : MW_OK);
         mw_surface_end_update(w.surface);
         for (int i = 0; i < 50; i++) {
             draw(&p, (double[3]){0, 0, 0}, 1, &seed, q);
@@ -674,7 +674,7 @@ static void test_welded_update(void **state)
     points[0] *= 1.5;
     points[1] *= 1.5;
     points[2] *= 1.5;
-    assert_int_equal(mw_star_update(w.star, &error), MW_ERROR_INPUT);
+    assert_int_equal(mw_star_update(w.star, NULL, &error), MW_ERROR_INPUT);
     mw_surface_end_update(w.surface);
     release_world(&w);
     star_shape_free(&p);
@@ -691,7 +691,7 @@ static void test_welded_update(void **state)
         points = mw_surface_points(w.surface);
         mw_surface_begin_update(w.surface);
         for (uint32_t k = 0; k < 3; k++) points[3 * v + k] = p.point[3 * a + k];
-        expect_ok(mw_star_update(w.star, &error), "update", &error);
+        expect_ok(mw_star_update(w.star, NULL, &error), "update", &error);
         mw_surface_end_update(w.surface);
         for (int i = 0; i < 200; i++) {
             double q[3], origin[3] = {0, 0, 0};
@@ -753,7 +753,7 @@ static void test_nothing(void **state)
     memset(&check, 0x5a, sizeof check);
     assert_int_equal(mw_star_check_arrays(&none, 0, &nowhere, &check, NULL), MW_ERROR_ARGUMENT);
     mw_check_release(&check);
-    assert_int_equal(mw_star_update(NULL, NULL), MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_star_update(NULL, NULL, NULL), MW_ERROR_ARGUMENT);
 }
 
 int main(void)

@@ -169,7 +169,7 @@ static void test_seam_again(void **state)
         point[3 * v + 1] = -x;
     }
     mw_error error;
-    expect_ok(mw_star_update(s.star, &error), "update", &error);
+    expect_ok(mw_star_update(s.star, NULL, &error), "update", &error);
     mw_surface_end_update(s.surface);
     expect_seam(s.star);
     release_sphere(&s);

@@ -238,7 +238,7 @@ static void test_updates(void **state)
               &error);
     for (size_t i = 0; i < 3 * RAYS; i++) assert_true(isnan(meeting[i]));
     mw_surface_begin_update(w.surface);
-    expect_ok(mw_star_update(w.star, &error), "update", &error);
+    expect_ok(mw_star_update(w.star, NULL, &error), "update", &error);
     mw_surface_end_update(w.surface);
     for (uint32_t i = 0; i < 3 * w.shape.points; i++) w.shape.point[i] *= 2;
     world_try(&w, 8, RAYS, &random);

@@ -686,7 +686,7 @@ static mw_status run_star_check(const call_inputs *in, const call_setting *how, 
 {
     mw_check check;
     mw_arrays view = star_shape_arrays(&in->ball);
-    mw_star_options options = {.progress = how->progress};
+    mw_star_options options = {.threads = how->threads, .progress = how->progress};
     return check_made(mw_star_check_arrays(&view, 0, &options, &check, error), &check, sum);
 }
 
@@ -695,7 +695,7 @@ static mw_status run_star(const call_inputs *in, const call_setting *how, uint64
 {
     mw_star *star;
     mw_star_info info;
-    mw_star_options options = {.angles = 1, .progress = how->progress};
+    mw_star_options options = {.angles = 1, .threads = how->threads, .progress = how->progress};
     mw_status status = mw_star_create(in->surface, &options, &star, error);
     expect(!status == (star != NULL), "there is a star");
     if (status) return status;

@@ -232,7 +232,7 @@ static void deform(race_world *w, mw_star *star, int frame)
         moved = fmax(moved, sqrt(square));
     }
     mw_prober_update(w->prober, frame % 10 ? moved * 1.0001 : -1, 1);
-    assert_int_equal(mw_star_update(star, NULL), MW_OK);
+    assert_int_equal(mw_star_update(star, NULL, NULL), MW_OK);
     mw_surface_end_update(w->surface);
 }
 

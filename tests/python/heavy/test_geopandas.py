@@ -53,9 +53,8 @@ def side_of_ring(ring: Any, point: Any) -> int:
 @pytest.fixture
 def areas() -> NDArray[Any]:
     """Areas with holes, in parts, that touch and overlap; one missing and one empty."""
-    ring = shapely.Polygon(
-        [(0, 0), (6, 0), (6, 6), (0, 6)], [[(1, 1), (3, 1), (3, 3), (1, 3)], [(3, 3), (5, 3), (4, 5)]]
-    )
+    holes = [[(1, 1), (3, 1), (3, 3), (1, 3)], [(3, 3), (5, 3), (4, 5)]]
+    ring = shapely.Polygon([(0, 0), (6, 0), (6, 6), (0, 6)], holes)
     parts = shapely.MultiPolygon([shapely.box(6, 0, 8, 2), shapely.box(8, 2, 10, 4)])
     star = shapely.Polygon([(2, -1), (4, 7), (-1, 2), (7, 2), (0, 7)]).buffer(0)
     return np.array(
@@ -164,9 +163,9 @@ def test_locate(mesh: meshwalk.Mesh) -> None:
     assert series.triangle.tolist() == [0, -1, 1, -1]
     with pytest.raises(ValueError, match="column 'kind' already"):
         meshwalk.geopandas.locate(points.assign(kind=1), mesh)
+    lines = points.copy()
+    lines.loc["row 1", "geometry"] = shapely.LineString([(0, 0), (1, 1)])
     with pytest.raises(ValueError, match="'row 1' is a LineString, not a Point"):
-        lines = points.copy()
-        lines.loc["row 1", "geometry"] = shapely.LineString([(0, 0), (1, 1)])
         meshwalk.geopandas.locate(lines, mesh)
     with pytest.raises(TypeError, match="not DataFrame"):
         meshwalk.geopandas.locate(points.drop(columns="geometry"), mesh)
