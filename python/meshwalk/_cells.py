@@ -25,7 +25,7 @@ class Cells(NamedTuple):
     """Shape (n, 3)."""
     blocks: Sequence[tuple[NDArray[np.int64], NDArray[Any]]]
     """The numbers of cells with equally many corners, and these corners, shape (m, k)."""
-    count: int
+    cell_count: int
     """Number of all cells, those without a face included."""
     point_data: Mapping[str, Any]
     cell_data: Mapping[str, Any]
@@ -106,17 +106,15 @@ def warn_left_out(what: str, names: Iterable[str]) -> None:
 def mesh_of(cells: Cells, crs: str | None = None) -> Mesh:
     """Make a mesh of the plane, with a field `cell` where triangles are not the cells."""
     triangles, cell = cells.cut()
-    data = fields(cells.cell_data, cells.count, "cells")
+    data = fields(cells.cell_data, cells.cell_count, "cells")
     of_triangles = {name: values[cell] for name, values in data.items()}
-    if len(cell) != cells.count or (cell != np.arange(cells.count)).any():
+    if len(cell) != cells.cell_count or (cell != np.arange(cells.cell_count)).any():
         if "cell" in of_triangles:
             raise ValueError("the cells have an array 'cell', where their numbers go: rename it")
         of_triangles["cell"] = cell.astype(np.float64)
     points = cells.points if (cells.points[:, 2] != 0).any() else cells.points[:, :2]
     at_points = fields(cells.point_data, len(points), "points")
-    return Mesh(
-        points, triangles, at_points, tolerant=True, triangle_fields=of_triangles, crs=crs
-    )
+    return Mesh(points, triangles, at_points, tolerant=True, triangle_fields=of_triangles, crs=crs)
 
 
 def surface_of(cells: Cells) -> tuple[Surface, NDArray[np.int64]]:

@@ -158,7 +158,7 @@ def _join_mesh(
         )
     if refused:
         raise TypeError(f"with a mesh sjoin() takes no {next(iter(refused))!r}")
-    triangle = _locate(points, mesh).triangle
+    triangle = _locate(points, Locator(mesh)).triangle
     right = f"index_{rsuffix}"
     values = {name: np.asarray(field) for name, field in mesh.triangle_fields.items()}
     both = [name for name in values if name in points.columns]
@@ -206,14 +206,15 @@ def locate(points: Any, mesh: Mesh | Locator) -> Any:
     UserWarning
         Either the points or the mesh have no coordinate system.
     """
-    hits = _locate(points, mesh)
+    locator = mesh if isinstance(mesh, Locator) else Locator(mesh)
+    hits = _locate(points, locator)
     columns: dict[str, Any] = {
         "triangle": np.array(hits.triangle),
         "where": np.array(hits.where),
     }
-    for name in hits.mesh.fields:
+    for name in locator.mesh.fields:
         _add(columns, name, hits.interpolate(name))
-    for name, values in _at(hits.mesh.triangle_fields, hits.triangle).items():
+    for name, values in _at(locator.mesh.triangle_fields, hits.triangle).items():
         _add(columns, name, values)
     frame = points.to_frame("geometry") if isinstance(points, geopandas.GeoSeries) else points
     there = [name for name in columns if name in frame.columns]
@@ -228,8 +229,7 @@ def _add(columns: dict[str, Any], name: str, values: Any) -> None:
     columns[name] = values
 
 
-def _locate(points: Any, mesh: Mesh | Locator) -> Locations:
-    locator = mesh if isinstance(mesh, Locator) else Locator(mesh)
+def _locate(points: Any, locator: Locator) -> Locations:
     if not isinstance(points, (geopandas.GeoDataFrame, geopandas.GeoSeries)):
         raise TypeError(f"points must be a GeoDataFrame or GeoSeries, not {type(points).__name__}")
     _check_systems(points.crs, locator.mesh.crs)

@@ -92,7 +92,7 @@ class _Areas:
 _Tree = shapely.STRtree  # also where a program puts the one below in its place
 
 
-class STRtree(_Tree):  # type: ignore[misc] # shapely is not typed
+class STRtree(shapely.STRtree):  # type: ignore[misc] # shapely is not typed
     """`shapely.STRtree`, which tells exactly which points are in which polygons.
 
     Parameters

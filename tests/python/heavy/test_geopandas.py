@@ -203,7 +203,7 @@ def test_join_with_a_mesh_is_one_with_its_triangles(
     assert ours.crs == theirs.crs
     for wrong in ({"how": "right"}, {"predicate": "touches"}):
         with pytest.raises(ValueError, match="with a mesh"):
-            meshwalk.geopandas.sjoin(points, mesh, **wrong)  # type: ignore[arg-type]
+            meshwalk.geopandas.sjoin(points, mesh, **wrong)
     with pytest.raises(TypeError, match="distance"):
         meshwalk.geopandas.sjoin(points, mesh, distance=3)
     with pytest.raises(ValueError, match="index_right"):
@@ -223,9 +223,7 @@ def test_meshes_as_frames(scattered: meshwalk.Mesh, random: np.random.Generator)
     assert (len(frame), len(corners)) == (count, len(given.points))
     np.testing.assert_array_equal(corners["z"], given.fields["z"])
     back = meshwalk.geopandas.mesh(frame.assign(name="text"))
-    np.testing.assert_array_equal(
-        back.points[back.triangles], given.points[given.triangles]
-    )
+    np.testing.assert_array_equal(back.points[back.triangles], given.points[given.triangles])
     np.testing.assert_array_equal(back.triangle_fields["soil"], np.arange(count))
     assert list(back.triangle_fields) == ["soil"]
     assert geopandas.GeoSeries([], crs=back.crs).crs == "EPSG:2056"

@@ -194,7 +194,7 @@ def test_containing_cells_of_quads_and_planes() -> None:
     cell = finder.find_containing_cell([0.3, 0.3, 7.0])
     assert isinstance(cell, int)
     assert cell == plane.find_containing_cell([0.3, 0.3, 7.0])
-    points = [[0.3, 0.3, 7], [0.3, 0.3, 7.1], [np.nan, 0, 7], [3, 3, 7], [0, 0, 7]]
+    points: Any = [[0.3, 0.3, 7], [0.3, 0.3, 7.1], [np.nan, 0, 7], [3, 3, 7], [0, 0, 7]]
     assert finder.find_containing_cell(points).tolist() == [cell, -1, -1, -1, 5]
     assert Finder(plane, from_above=True).find_containing_cell(points)[:2].tolist() == [cell, cell]
     plane.points[0, 2] = 8
