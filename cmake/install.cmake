@@ -15,6 +15,12 @@ endforeach()
 install(DIRECTORY include/meshwalk DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
   FILES_MATCHING PATTERN "*.h" PATTERN "*.def")
 
+if(MW_HAS_MPI)
+  install(TARGETS meshwalk_mpi EXPORT meshwalkMpiTargets)
+  install(EXPORT meshwalkMpiTargets NAMESPACE meshwalk:: DESTINATION ${package_dir})
+  install(DIRECTORY mpi/include/meshwalk-mpi DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+endif()
+
 # Manual pages of section 3 come from the comments of the headers.
 file(GLOB headers CONFIGURE_DEPENDS include/meshwalk/*.h)
 set(man3_dir ${PROJECT_BINARY_DIR}/man3)
@@ -53,4 +59,9 @@ if(needs_jansson)
 endif()
 configure_file(cmake/meshwalk.pc.in ${PROJECT_BINARY_DIR}/meshwalk.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/meshwalk.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+if(MW_HAS_MPI) # for mpicc, which knows where MPI is
+  configure_file(cmake/meshwalk-mpi.pc.in ${PROJECT_BINARY_DIR}/meshwalk-mpi.pc @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/meshwalk-mpi.pc
+    DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+endif()
 install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})

@@ -2,8 +2,8 @@
  *   open   a mesh of UGRID is read and gets a locator, beside one from arrays in memory
  *   hints  10^5 particles that drift, each located from its last triangle
  *   apply  weights of as many points as vertices, applied to 240 steps, beside copying by one
- *          thread; values side by side, or steps one after the other, of points at random or in
- *          good order
+ *          thread; values side by side, or steps one after the other; points are those of a grid,
+ *          vertices numbered so that neighbours have near numbers, or (scattered) both at random
  * Prints one row for each way, as soon as its task is measured. The other ways of a task are
  * compared with its first: by time; `apply` by the time for each byte that must be read or written.
  */

@@ -3,17 +3,24 @@
 #include "cli/frame/message.h"
 #include "cli/frame/monotonic_clock.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 /* Steps that are in memory at a time: far more than caches hold, and less than memory. */
 enum { BLOCK = 24 };
 
-enum { COPY, SIDE_1, SIDE, STEPS_1, STEPS, ORDERED_1, ORDERED, FLOATS };
+enum { COPY, SIDE_1, SIDE, STEPS_1, STEPS, SCATTERED_SIDE_1, SCATTERED_1, SCATTERED, FLOATS };
 
-const char *const ocean_weights_ways[OCEAN_WEIGHTS_WAYS] = {
-    "copy",     "side by side, 1 thr.", "side by side",      "steps, 1 thread",
-    "in steps", "ordered, 1 thread",    "ordered, in steps", "floats, in steps"};
+const char *const ocean_weights_ways[OCEAN_WEIGHTS_WAYS] = {"copy",
+                                                            "side by side, 1 thr.",
+                                                            "side by side",
+                                                            "steps, 1 thread",
+                                                            "in steps",
+                                                            "scattered, side, 1",
+                                                            "scattered, 1 thr.",
+                                                            "scattered, in steps",
+                                                            "floats, in steps"};
 
 static int weights_of_points(const mw_locator *locator, const mw_mesh *mesh, const double *xy,
                              size_t n, mw_operator **out)
@@ -27,7 +34,7 @@ static int weights_of_points(const mw_locator *locator, const mw_mesh *mesh, con
     return status ? fail_query(&error) : 0;
 }
 
-/* Rows of points, as those of a grid, are in a good order. */
+/* Points as those of a grid, row by row, or anywhere. */
 static void weights_set_points(double *xy, size_t n, bool ordered, uint64_t seed)
 {
     uint64_t random = seed + 2;
@@ -39,22 +46,60 @@ static void weights_set_points(double *xy, size_t n, bool ordered, uint64_t seed
                                             : dataset_unit(&random);
 }
 
-static int weights_make_operators(ocean_weights *w, const mw_mesh *mesh, uint64_t seed)
+static int weights_make_operator(const mw_mesh *mesh, size_t n, bool ordered, uint64_t seed,
+                                 mw_operator **out)
 {
     mw_error error;
     mw_locator *locator;
-    double *xy = malloc(2 * w->points * sizeof *xy);
+    double *xy = malloc(2 * n * sizeof *xy);
     if (!xy) return fail_memory();
-    if (mw_locator_create(mesh, NULL, &locator, &error) != MW_OK) {
-        free(xy);
-        return fail_query(&error);
-    }
-    weights_set_points(xy, w->points, false, seed);
-    int end = weights_of_points(locator, mesh, xy, w->points, &w->random);
-    weights_set_points(xy, w->points, true, seed);
-    if (end == 0) end = weights_of_points(locator, mesh, xy, w->points, &w->ordered);
-    mw_locator_destroy(locator);
+    weights_set_points(xy, n, ordered, seed);
+    mw_status status = mw_locator_create(mesh, NULL, &locator, &error);
+    int end = status ? fail_query(&error) : weights_of_points(locator, mesh, xy, n, out);
+    mw_locator_destroy(status ? NULL : locator);
     free(xy);
+    return end;
+}
+
+/* A vertex, and the strip of the square that it lies in. */
+typedef struct strip_vertex {
+    double at[2], strip;
+} strip_vertex;
+
+static int strip_compare(const void *a, const void *b)
+{
+    const strip_vertex *p = a, *q = b;
+    if (p->strip != q->strip) return p->strip < q->strip ? -1 : 1;
+    return (p->at[0] > q->at[0]) - (p->at[0] < q->at[0]);
+}
+
+/* The same vertices numbered strip by strip: as in the meshes of models, neighbours have near
+ * numbers. */
+static int weights_number_vertices(const mw_mesh *mesh, mw_mesh **out)
+{
+    enum { SPACINGS = 2 }; /* height of a strip */
+    const uint32_t n = mw_mesh_vertex_count(mesh);
+    const double strips = sqrt(n) / SPACINGS;
+    mw_error error;
+    strip_vertex *vertices = malloc((size_t)n * sizeof *vertices);
+    if (!vertices) return fail_memory();
+    for (uint32_t v = 0; v < n; v++) {
+        mw_mesh_vertex(mesh, v, vertices[v].at);
+        vertices[v].strip = floor(vertices[v].at[1] * strips);
+    }
+    qsort(vertices, n, sizeof *vertices, strip_compare);
+    mw_status status = mw_delaunay(vertices->at, n, 3, NULL, NULL, NULL, out, &error);
+    free(vertices);
+    return status ? fail_query(&error) : 0;
+}
+
+static int weights_make_operators(ocean_weights *w, const mw_mesh *mesh, uint64_t seed)
+{
+    mw_mesh *numbered = NULL;
+    int end = weights_make_operator(mesh, w->points, false, seed, &w->scattered);
+    if (end == 0) end = weights_number_vertices(mesh, &numbered);
+    if (end == 0) end = weights_make_operator(numbered, w->points, true, seed, &w->ordered);
+    mw_mesh_destroy(numbered);
     return end;
 }
 
@@ -70,16 +115,23 @@ int ocean_weights_make(ocean_weights *w, const mw_mesh *mesh, uint64_t seed)
 
 void ocean_weights_release(ocean_weights *w)
 {
-    mw_operator_destroy(w->random);
+    mw_operator_destroy(w->scattered);
     mw_operator_destroy(w->ordered);
     free(w->values);
     free(w->results);
 }
 
+static const mw_operator *weights_of_way(const ocean_weights *w, size_t way)
+{
+    return way >= SCATTERED_SIDE_1 && way <= SCATTERED ? w->scattered : w->ordered;
+}
+
 static mw_status weights_apply(const ocean_weights *w, size_t way, mw_error *error)
 {
-    const bool side = way == SIDE_1 || way == SIDE, one = way % 2 == 1 && way != FLOATS;
-    const mw_operator *weights = way == ORDERED || way == ORDERED_1 ? w->ordered : w->random;
+    const bool side = way == SIDE_1 || way == SIDE || way == SCATTERED_SIDE_1,
+               one =
+                   way == SIDE_1 || way == STEPS_1 || way == SCATTERED_SIDE_1 || way == SCATTERED_1;
+    const mw_operator *weights = weights_of_way(w, way);
     const mw_value_table table = {.values = w->values,
                                   .type = way == FLOATS ? MW_FLOAT32 : MW_FLOAT64,
                                   .count = BLOCK,
@@ -94,7 +146,7 @@ double ocean_weights_bytes(const ocean_weights *w, size_t way)
                  fields = 2 * size * (double)w->points * OCEAN_STEPS;
     mw_operator_info info;
     if (way == COPY) return fields;
-    mw_operator_describe(way == ORDERED || way == ORDERED_1 ? w->ordered : w->random, &info);
+    mw_operator_describe(weights_of_way(w, way), &info);
     return fields + (double)info.bytes * (OCEAN_STEPS / BLOCK);
 }
 

@@ -4,18 +4,18 @@
 
 #include <meshwalk/meshwalk.h>
 
-enum { OCEAN_STEPS = 240, OCEAN_WEIGHTS_WAYS = 8 };
+enum { OCEAN_STEPS = 240, OCEAN_WEIGHTS_WAYS = 9 };
 
 extern const char *const ocean_weights_ways[OCEAN_WEIGHTS_WAYS];
 
 typedef struct ocean_weights {
     size_t points;
-    mw_operator *random, *ordered; /* of points at random, and of points along a curve */
-    double *values, *results;      /* of a block of steps */
+    mw_operator *ordered, *scattered; /* points and vertices are in rows, or at random */
+    double *values, *results;         /* of a block of steps */
 } ocean_weights;
 
-/* As many points as vertices. Returns 0, or an exit code after a complaint; release in both
- * cases. */
+/* As many points as vertices, which `mesh` has in random order. Returns 0, or an exit code after a
+ * complaint; release in both cases. */
 int ocean_weights_make(ocean_weights *w, const mw_mesh *mesh, uint64_t seed);
 void ocean_weights_release(ocean_weights *w);
 

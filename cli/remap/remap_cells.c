@@ -2,8 +2,10 @@
 #include "cli/frame/files.h"
 #include "cli/frame/message.h"
 #include "cli/frame/progress.h"
+#include "cli/gdal/gdal_crs.h"
 #include "cli/gdal/gdal_raster.h"
 #include "cli/gdal/mesh_crs.h"
+#include "cli/remap/seam_cut.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -54,6 +56,8 @@ static int cells_read_mesh(remap_cells *c, const char *path, const char *crs,
     int end = files_read_mesh(path, &file);
     if (end) return end;
     end = mesh_crs_settle(path, crs, file.crs, common->quiet, &c->crs);
+    c->cut = end == 0 && c->crs && crs_is_lonlat(c->crs) && seam_crosses(&file);
+    if (c->cut) end = seam_cut(&file, path, &c->west);
     const mw_arrays arrays = mw_mesh_file_arrays(&file);
     const mw_mesh_options options = {.threads = common->threads, .progress = progress_of_call()};
     const mw_locator_options fill = {.threads = common->threads, .progress = progress_of_call()};
@@ -105,6 +109,13 @@ static double *places_of_vertices(const mw_mesh *mesh)
     return place;
 }
 
+/* Add whole turns to the longitudes of a piece of a cell that was cut. */
+static void cell_bring_near(double p[3][2], double longitude)
+{
+    const double turns = 360 * round((p[0][0] - longitude) / 360);
+    for (int k = 0; k < 3; k++) p[k][0] -= turns;
+}
+
 /* Centroids; of a cell without an area, a vertex. */
 static double *places_of_cells(const remap_cells *c)
 {
@@ -117,6 +128,7 @@ static double *places_of_cells(const remap_cells *c)
                         *sum = &area[c->face ? c->face[t] : t];
         mw_mesh_triangle(c->mesh, t, v);
         for (int k = 0; k < 3; k++) mw_mesh_vertex(c->mesh, v[k], p[k]);
+        if (c->cut && *sum > 0) cell_bring_near(p, at[0]);
         double size = fabs(mw_orient2d(p[0], p[1], p[2]));
         *sum += size;
         for (int i = 0; i < 2; i++) {
@@ -127,6 +139,8 @@ static double *places_of_cells(const remap_cells *c)
                 at[i] = p[0][i];
         }
     }
+    for (size_t i = 0; i < cells && place && c->cut; i++)
+        place[2 * i] -= 360 * floor((place[2 * i] - c->west) / 360);
     free(area);
     if (!area) {
         free(place);

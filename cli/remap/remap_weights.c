@@ -42,6 +42,17 @@ static int remap_check_systems(remap_run *r)
     return 0;
 }
 
+/* Vertices at the seam have several copies. */
+static int remap_check_cut(const remap_run *r)
+{
+    if (!r->settings->vertices || !r->source.cut) return 0;
+    complain(
+        "%s: crosses the meridian of 180 degrees, or a pole: --values vertices is not possible "
+        "there, but --values faces is",
+        r->path[0]);
+    return END_INPUT;
+}
+
 static int remap_make(remap_run *r)
 {
     mw_error error;
@@ -131,6 +142,7 @@ int remap_weights_run(const remap_settings *settings, const char *const *operand
     if (end == 0)
         end = remap_cells_read(&r.target, operands[1], settings->grid_crs, settings->common, true);
     if (end == 0) end = remap_check_systems(&r);
+    if (end == 0) end = remap_check_cut(&r);
     if (end == 0) end = remap_make(&r);
     if (end == 0) end = remap_write(&r);
     if (end == 0) end = remap_tell(&r);

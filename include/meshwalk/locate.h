@@ -163,6 +163,25 @@ typedef struct mw_locator_info {
 /** Fill `info` with the sizes of a locator. O(1). */
 MW_API void mw_locator_describe(const mw_locator *locator, mw_locator_info *info);
 
+/** An edge at the border of a hole. */
+typedef struct mw_hole_edge {
+    uint32_t triangle; /**< the caller's number; the lowest at the border of the hole */
+    uint32_t edge;     /**< local edge; the lowest of that triangle at the hole */
+} mw_hole_edge;
+
+/**
+ * Tell where the holes of a mesh are: one edge at the border of each.
+ *
+ * @param locator  a locator whose pockets and holes are filled (mw_locator_info.unfilled is 0), not
+ *                 edited
+ * @param edges    receives mw_locator_info.holes edges, by the numbers of the holes
+ * @param error    NULL, or receives the message of a failure
+ * @return MW_OK; MW_ERROR_ARGUMENT for NULL or another kind of locator.
+ *
+ * Thread-safe. O(triangles), without allocation.
+ */
+MW_API mw_status mw_locator_holes(const mw_locator *locator, mw_hole_edge *edges, mw_error *error);
+
 /** Which promise does not hold because the mesh is not an embedding (mw_locator_options.any), as a
  * text owned by the library; NULL for an embedding. O(1). */
 MW_API const char *mw_locator_void_promise(const mw_locator *locator);

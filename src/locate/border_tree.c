@@ -17,10 +17,8 @@ static bool link_is_covered(const mw_tiling *tiling, uint32_t link)
     return link != MW_NONE && !(tiling->tri[mw__link_triangle(link)].user & MW_GHOST);
 }
 
-/* The user's edge that edge k of a tile is, or, where the tile is one part of a triangle that was
- * cut, lies along. */
-static uint32_t edge_of_user(const mw_mesh *mesh, const mw_tiling *tiling, const mw_triangle *tile,
-                             uint32_t k)
+uint32_t mw__border_edge_of_user(const mw_mesh *mesh, const mw_tiling *tiling,
+                                 const mw_triangle *tile, uint32_t k)
 {
     if (!tiling->cut) return mw__user_local_edge(tile->user, k);
     const mw_triangle *t = &mesh->tri[mw__triangle_slot(mesh, tile->user & MW_USER_MASK)];
@@ -46,7 +44,7 @@ static uint32_t border_collect(const mw_mesh *mesh, const mw_tiling *tiling, mw_
             if (edge)
                 edge[n] = (mw_border_edge){tiling->point[tile->v[k]], tiling->point[tile->v[k + 1]],
                                            tile->user & MW_USER_MASK,
-                                           edge_of_user(mesh, tiling, tile, k)};
+                                           mw__border_edge_of_user(mesh, tiling, tile, k)};
             n++;
         }
     }

@@ -21,6 +21,11 @@ typedef struct mw_border_tree {
     uint32_t edge_count;
 } mw_border_tree;
 
+/* The user's edge that edge k of a tile is, or, where the tile is one part of a triangle that was
+ * cut, lies along. */
+uint32_t mw__border_edge_of_user(const mw_mesh *mesh, const mw_tiling *tiling,
+                                 const mw_triangle *tile, uint32_t k);
+
 /* The box of edge i, for the tree. */
 mw_box mw__border_edge_box(const void *edges, uint32_t i);
 

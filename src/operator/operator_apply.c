@@ -1,11 +1,11 @@
 /* operator_apply.c - an operator times a table of values.
  *
- * Rows with three entries are the common case and have loops of their own. All others, and missing
- * values that are left out, go value by value. Values of a column that lie side by side are summed
- * by row_sums.c; many fields one after another are brought side by side first (field_rows.c). */
+ * Values of a column that lie side by side are summed by row_sums.c, fields one after another by
+ * field_sums.c; many fields of scattered columns are brought side by side first (field_rows.c). */
 #include "base/job.h"
 #include "base/options.h"
 #include "operator/field_rows.h"
+#include "operator/field_sums.h"
 #include "operator/past_caches.h"
 #include "operator/row_sums.h"
 
@@ -13,7 +13,6 @@
 
 enum {
     RANGE = 1 << 14, /* ranks of a chunk of work */
-    STRIP = 2048,    /* ranks whose entries stay in the cache while field after field is read */
     /* results with more bytes are written past the caches, if a row has at least so many: */
     LARGE = 1 << 24,
     LONG = 128
@@ -22,31 +21,6 @@ enum {
 typedef struct apply_part {
     size_t from, to, field, field_end;
 } apply_part;
-
-/* --- values field by field -------------------------------------------------------------------- */
-
-static MW_INLINE double value_of_rank(const mw_apply_call *c, size_t rank, size_t k, bool narrow)
-{
-    const uint32_t *v = &c->o->column[MW_NARROW_ROW * rank];
-    const double *w = &c->o->weight[MW_NARROW_ROW * rank];
-    if (c->o->first || MW_UNLIKELY(!mw__entries_plain(c, w)))
-        return mw__sum_any(c, mw__entries_of(c->o, rank), k, narrow);
-    const size_t at = k * c->step;
-    double sum = 0 + w[0] * mw__operand_load(c->values, v[0] * c->stride + at, narrow);
-    sum += w[1] * mw__operand_load(c->values, v[1] * c->stride + at, narrow);
-    return sum + w[2] * mw__operand_load(c->values, v[2] * c->stride + at, narrow);
-}
-
-static MW_INLINE void fields_apply(const mw_apply_call *c, apply_part part, bool narrow)
-{
-    for (size_t strip = part.from; strip < part.to; strip += STRIP) {
-        const size_t end = part.to - strip < STRIP ? part.to : strip + STRIP;
-        for (size_t k = part.field; k < part.field_end; k++)
-            for (size_t rank = strip; rank < end; rank++)
-                mw__operand_store(c->result, mw__operator_row(c->o, rank) * c->row + k * c->field,
-                                  value_of_rank(c, rank, k, narrow), narrow);
-    }
-}
 
 /* --- all -------------------------------------------------------------------------------------- */
 
@@ -67,10 +41,8 @@ static void apply_chunk(void *work, uint64_t chunk, uint32_t member)
     (void)member;
     if (c->step == 1 && c->count > 1)
         mw__row_sums(c, part.from, part.to);
-    else if (c->narrow)
-        fields_apply(c, part, true);
     else
-        fields_apply(c, part, false);
+        mw__field_sums(c, part.from, part.to, part.field, part.field_end);
 }
 
 static mw_status apply_check(const mw_operator *o, const mw_value_table *table,
@@ -111,7 +83,7 @@ static mw_apply_call apply_begin(const mw_operator *o, const mw_value_table *tab
     /* If ranks are not rows, only the results of one field at a time stay in the caches until each
      * cache line is complete. */
     c.fields = fields && o->row ? 1 : c.count;
-    c.past_caches = row >= LONG && o->rows >= LARGE / row;
+    c.past_caches = (fields || row >= LONG) && row > 0 && o->rows >= LARGE / row;
     return c;
 }
 

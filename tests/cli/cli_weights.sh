@@ -45,6 +45,43 @@ if "$meshwalk" --version | grep -q 'GDAL .*found'; then
     refused 3 'pole.off, square.off: latitudes from 0 to 95: they end at 90 degrees'
     run weights square.off square.off $conservative --crs EPSG:4326 --points-crs EPSG:2056 -o x.npz
     refused 3 'bring one to the other first'
+
+    # Round the globe: an octahedron with its vertices at the poles; two caps with the poles inside,
+    # and a ring of triangles between them; the same counted from 0 to 360; a cap of four corners.
+    degrees="$conservative --crs EPSG:4326 --points-crs EPSG:4326 --stats"
+    printf '%s\n' OFF '6 8 0' '0 0 0' '90 0 0' '180 0 0' '-90 0 0' '17 90 0' '5 -90 0' \
+        '3 0 1 4' '3 1 2 4' '3 2 3 4' '3 3 0 4' '3 1 0 5' '3 2 1 5' '3 3 2 5' '3 0 3 5' >octa.off
+    printf '%s\n' OFF '6 8 0' '10 60 0' '130 60 0' '-110 60 0' '70 -45 0' '-170 -45 0' \
+        '-50 -45 0' '3 0 1 2' '3 5 4 3' '3 0 3 1' '3 1 3 4' '3 1 4 2' '3 2 4 5' '3 2 5 0' \
+        '3 0 5 3' >caps.off
+    sed 's/^-110 /250 /; s/^-170 /190 /; s/^-50 /310 /' caps.off >caps360.off
+    printf '%s\n' OFF '8 6 0' '-170 60 0' '-80 50 0' '10 50 0' '100 60 0' '-170 -60 0' \
+        '-80 -50 0' '10 -50 0' '100 -60 0' '4 0 1 2 3' '4 7 6 5 4' '4 0 4 5 1' '4 1 5 6 2' \
+        '4 2 6 7 3' '4 3 7 4 0' >box.off
+    {
+        printf '%s\n' 'ncols 8' 'nrows 4' 'xllcorner -180' 'yllcorner -90' 'cellsize 45'
+        for _ in 1 2 3 4; do echo 1 1 1 1 1 1 1 1; done
+    } >globe.asc
+    sed 's/^xllcorner -180/xllcorner 20/' globe.asc >turned.asc
+    whole() { # the whole sphere is the source, the target and what they have in common
+        exits 0
+        holds "the sphere is whole ($*)" test 3 == "$(awk '/ area / {
+            d = $3 / 12.566370614359172 - 1; n += d < 1e-13 && d > -1e-13 } END { print n }' \
+            "$logs/err")"
+    }
+    for source in octa caps caps360 box; do
+        for target in globe.asc turned.asc octa.off caps.off caps360.off box.off; do
+            run weights $source.off $target $degrees -o x.npz; whole $source $target
+        done
+    done
+    # An octant is four of these pixels, and no other.
+    run weights octa.off globe.asc $degrees -o x.npz; exits 0; says '^weights +32$'
+    run weights caps.off globe.asc $degrees -o x.npz; says '^source cells +8$'
+    run weights caps.off globe.asc $degrees --values vertices -o x.npz
+    refused 3 'caps.off: crosses the meridian of 180 degrees, or a pole: --values vertices is not'
+    sed 's/^-110 /-190 /' caps.off >odd.off
+    run weights odd.off globe.asc $degrees -o x.npz; refused 3 'longitudes, from -190 to 130, have'
+    rm -f octa.off caps.off caps360.off box.off odd.off globe.asc turned.asc x.npz
 fi
 rm -f pole.off same.npz part.npz v.npz moved.off
 

@@ -14,6 +14,7 @@
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* Squared distance from q to the segment ab, in rationals. */
 static void distance2(mpq_t result, const double a[2], const double b[2], const double q[2])
@@ -394,12 +395,75 @@ static void test_arguments(void **state)
     arrays_free(&a);
 }
 
+/* Every border edge of a punched lattice has, next to its middle, a point of the hole or pocket
+ * beyond it. So the lowest edge of each hole is found by force. */
+static void test_holes(void **state)
+{
+    (void)state;
+    uint64_t random = 20261128;
+    for (int round = 0; round < 20; round++) {
+        arrays a = arrays_grid(12, 0, &random);
+        arrays_punch(&a, round * 0.04, &random);
+        arrays_scramble(&a, round % 2, &random);
+        mw_mesh *mesh = arrays_mesh(&a, (mw_mesh_options){.threads = 1});
+        mw_locator *locator = mesh_locator(mesh, (mw_locator_options){.fill = MW_FILL_YES});
+        mw_locator_info info;
+        mw_cursor cursor = {0};
+        mw_hole_edge *edges = calloc(a.triangle_count, sizeof *edges);
+        mw_hole_edge *force = malloc(a.triangle_count * sizeof *force);
+        memset(force, 255, a.triangle_count * sizeof *force);
+        mw_locator_describe(locator, &info);
+        assert_int_equal(mw_locator_holes(locator, edges, NULL), MW_OK);
+        uint32_t seen = 0;
+        for (uint32_t t = 0; t < a.triangle_count; t++)
+            for (unsigned k = 0; k < 3; k++) {
+                if (mw_mesh_neighbour(mesh, t, k, NULL) != MW_NONE) continue;
+                const uint32_t *v = a.triangles + 3 * (size_t)t;
+                const double *p = a.points + 2 * (size_t)v[k],
+                             *q = a.points + 2 * (size_t)v[(k + 1) % 3],
+                             *r = a.points + 2 * (size_t)v[(k + 2) % 3];
+                const double x = (p[0] + q[0]) / 2, y = (p[1] + q[1]) / 2;
+                const mw_location beyond =
+                    mw_locate(locator, &cursor, x + (x - r[0]) / 64, y + (y - r[1]) / 64);
+                if (beyond.hole == MW_NONE || force[beyond.hole].triangle != MW_NONE) continue;
+                force[beyond.hole] = (mw_hole_edge){t, k};
+                seen++;
+            }
+        assert_int_equal(seen, info.holes);
+        assert_memory_equal(edges, force, info.holes * sizeof *edges);
+        free(force);
+        free(edges);
+        mw_locator_destroy(locator);
+        mw_mesh_destroy(mesh);
+        arrays_free(&a);
+    }
+}
+
+static void test_holes_arguments(void **state)
+{
+    (void)state;
+    uint64_t random = 7;
+    mw_mesh *mesh = mesh_with_hole(9, &random);
+    mw_locator *open = mesh_locator(mesh, (mw_locator_options){.fill = MW_FILL_NO});
+    mw_locator *filled = mesh_locator(mesh, (mw_locator_options){.fill = MW_FILL_YES});
+    mw_hole_edge edge;
+    mw_error error;
+    assert_int_equal(mw_locator_holes(NULL, &edge, &error), MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_locator_holes(filled, NULL, &error), MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_locator_holes(open, &edge, &error), MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_locator_holes(filled, &edge, &error), MW_OK);
+    mw_locator_destroy(open);
+    mw_locator_destroy(filled);
+    mw_mesh_destroy(mesh);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_nearest),   cmocka_unit_test(test_scales),
         cmocka_unit_test(test_widest),    cmocka_unit_test(test_near),
         cmocka_unit_test(test_near_tiny), cmocka_unit_test(test_arguments),
+        cmocka_unit_test(test_holes),     cmocka_unit_test(test_holes_arguments),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -9,6 +9,7 @@
 #include <setjmp.h>
 #include <cmocka.h>
 #include <math.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -25,8 +26,9 @@ static uint32_t next_number(uint64_t *state, uint32_t below)
     return (uint32_t)((*state >> 33) % below);
 }
 
-/* Rows of none to `width` entries, anywhere. */
-static mw_operator *make_operator(uint32_t width, uint64_t seed)
+/* Rows of none to `width` entries, anywhere; or `near`: rows that follow each other read nearby
+ * columns, and many in a row have `width` entries. */
+static mw_operator *make_operator(uint32_t width, bool near, uint64_t seed)
 {
     uint32_t *row = malloc(ROWS * WIDEST * sizeof *row), *column = malloc(ROWS * WIDEST * 4);
     double *weight = malloc(ROWS * WIDEST * sizeof *weight);
@@ -35,10 +37,12 @@ static mw_operator *make_operator(uint32_t width, uint64_t seed)
         .row = row, .column = column, .weight = weight, .rows = ROWS, .columns = COLUMNS};
     assert_true(row && column && weight);
     for (uint32_t i = 0; i < ROWS; i++) {
-        const uint32_t count = i % 7 == 0 ? next_number(&seed, width + 1) : width;
+        const bool any = near ? i / 1000 % 3 == 0 && i % 100 == 0 : i % 7 == 0;
+        const uint32_t count = any ? next_number(&seed, width + 1) : width;
         for (uint32_t k = 0; k < count; k++, entries.count++) {
             row[entries.count] = i;
-            column[entries.count] = next_number(&seed, COLUMNS);
+            column[entries.count] =
+                near ? i % (COLUMNS - 50) + next_number(&seed, 50) : next_number(&seed, COLUMNS);
             weight[entries.count] = (1 + next_number(&seed, 1000)) / 999.0;
         }
     }
@@ -49,10 +53,10 @@ static mw_operator *make_operator(uint32_t width, uint64_t seed)
     return made;
 }
 
-static void fill(void *values, mw_value_type type)
+static void fill(void *values, mw_value_type type, size_t count)
 {
     uint64_t seed = 5;
-    for (size_t i = 0; i < (size_t)COLUMNS * FIELDS; i++) {
+    for (size_t i = 0; i < count; i++) {
         const uint32_t number = next_number(&seed, 1000000);
         const double value = number % 97 == 0 ? NAN : number / 7.0;
         if (type == MW_FLOAT32)
@@ -62,21 +66,22 @@ static void fill(void *values, mw_value_type type)
     }
 }
 
-static void expect_equal(const mw_operator *weights, mw_value_type type, mw_missing_rule rule)
+static void expect_equal(const mw_operator *weights, mw_value_type type, mw_missing_rule rule,
+                         size_t fields, int rounds)
 {
     const size_t size = type == MW_FLOAT32 ? 4 : 8;
-    char *values = malloc(size * COLUMNS * FIELDS), *all = malloc(size * ROWS * FIELDS),
+    char *values = malloc(size * COLUMNS * fields), *all = malloc(size * ROWS * fields),
          *one = malloc(size * ROWS);
-    const mw_value_table table = {values, type, FIELDS, 0, COLUMNS};
+    const mw_value_table table = {values, type, fields, 0, COLUMNS};
     assert_true(values && all && one);
-    fill(values, type);
-    for (int round = 0; round < 3; round++) {
+    fill(values, type, COLUMNS * fields);
+    for (int round = 0; round < rounds; round++) {
         const mw_operator_apply_options options = {.threads = round == 1 ? 2 : 1, .missing = rule};
-        memset(all, 0x55, size * ROWS * FIELDS);
+        memset(all, 0x55, size * ROWS * fields);
         allocations_left = round == 2 ? 0 : -1;
         assert_int_equal(mw_operator_apply(weights, &table, &options, all, NULL), MW_OK);
         allocations_left = -1;
-        for (size_t k = 0; k < FIELDS; k++) {
+        for (size_t k = 0; k < fields; k++) {
             const mw_value_table field = {values + k * COLUMNS * size, type, 1, 0, 0};
             assert_int_equal(mw_operator_apply(weights, &field, &options, one, NULL), MW_OK);
             assert_memory_equal(one, all + k * ROWS * size, ROWS * size);
@@ -91,10 +96,23 @@ static void test_fields(void **state)
 {
     (void)state;
     for (uint32_t width = 3; width <= WIDEST; width += 2) {
-        mw_operator *weights = make_operator(width, width);
-        expect_equal(weights, MW_FLOAT64, MW_MISSING_SPREADS);
-        expect_equal(weights, MW_FLOAT32, MW_MISSING_SPREADS);
-        expect_equal(weights, MW_FLOAT64, MW_MISSING_LEFT_OUT);
+        mw_operator *weights = make_operator(width, false, width);
+        expect_equal(weights, MW_FLOAT64, MW_MISSING_SPREADS, FIELDS, 3);
+        expect_equal(weights, MW_FLOAT32, MW_MISSING_SPREADS, FIELDS, 3);
+        expect_equal(weights, MW_FLOAT64, MW_MISSING_LEFT_OUT, FIELDS, 3);
+        mw_operator_destroy(weights);
+    }
+}
+
+/* More results than are written into the caches, and fewer. */
+static void test_near_fields(void **state)
+{
+    (void)state;
+    for (uint32_t width = 3; width <= WIDEST; width += 2) {
+        mw_operator *weights = make_operator(width, true, 2 * width);
+        expect_equal(weights, MW_FLOAT64, MW_MISSING_SPREADS, 31, 2);
+        expect_equal(weights, MW_FLOAT32, MW_MISSING_SPREADS, 61, 1);
+        expect_equal(weights, MW_FLOAT64, MW_MISSING_LEFT_OUT, 5, 1);
         mw_operator_destroy(weights);
     }
 }
@@ -126,7 +144,7 @@ static void expect_rows_equal(const mw_operator *weights, mw_value_type type, si
 static void test_rows(void **state)
 {
     (void)state;
-    mw_operator *weights = make_operator(3, 11);
+    mw_operator *weights = make_operator(3, false, 11);
     expect_rows_equal(weights, MW_FLOAT64, 33);
     expect_rows_equal(weights, MW_FLOAT64, 5);
     expect_rows_equal(weights, MW_FLOAT32, 67);
@@ -136,6 +154,8 @@ static void test_rows(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_fields), cmocka_unit_test(test_rows)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_fields),
+                                       cmocka_unit_test(test_near_fields),
+                                       cmocka_unit_test(test_rows)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

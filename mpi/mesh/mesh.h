@@ -1,0 +1,31 @@
+/* mesh.h - a mesh in pieces: this rank's piece, the boxes of all, and the rim. Private. */
+#ifndef MWP_MESH_MESH_H
+#define MWP_MESH_MESH_H
+
+#include "mpi/mesh/rim.h"
+#include "mpi/wire/talk.h"
+
+/* Points that are being located: query/locate.c. */
+struct mwp_locating {
+    mwp_mesh *mesh;
+    const double *points;
+    size_t n, stride;
+    mwp_locate_options options;
+    mwp_location *locations;
+    size_t begin, end; /* the present block */
+    size_t next;       /* where the next block begins */
+    uint32_t *asked;   /* per question of the block: its query, from `begin` */
+    mwp_talk talk;
+};
+
+struct mwp_mesh {
+    mwp_wire wire;
+    mwp_part part;
+    mwp_router router;
+    mwp_rim rim;
+    int64_t vertices, triangles; /* of the whole mesh */
+    mwp_tables tables;           /* for talks */
+    mwp_locating locating;       /* the batch that is under way */
+};
+
+#endif

@@ -1,0 +1,35 @@
+/* router.h - which ranks may have the triangle of a point: those in whose boxes it lies. Private.
+ */
+#ifndef MWP_MESH_ROUTER_H
+#define MWP_MESH_ROUTER_H
+
+#include "mpi/wire/wire.h"
+
+#include <meshwalk/mesh.h>
+
+typedef struct mwp_box {
+    double low[2], high[2];
+    int32_t rank;
+    int32_t reserved;
+} mwp_box;
+
+/* The boxes of all ranks, and above them boxes of eight each, up to one. */
+typedef struct mwp_router {
+    mwp_box *box;  /* level by level, the lowest first */
+    size_t *level; /* where each level begins, and the end */
+    uint32_t levels;
+    uint32_t count; /* boxes of the lowest level */
+} mwp_router;
+
+/* Collective. `mesh` is that of the rank's piece, or NULL; its first `triangles` count, in boxes of
+ * runs along a Hilbert curve. Release in either case. */
+mw_status mwp__router_create(mwp_router *router, const mwp_wire *wire, const mw_mesh *mesh,
+                             uint32_t triangles, mwp_error *error);
+void mwp__router_release(mwp_router *router);
+size_t mwp__router_bytes(const mwp_router *router);
+
+/* The ranks in whose boxes a finite point lies, each once, in ascending order. `ranks` has room for
+ * all. Returns how many. */
+int mwp__router_find(const mwp_router *router, const double point[2], int *ranks);
+
+#endif

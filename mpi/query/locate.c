@@ -1,0 +1,332 @@
+/* locate.c - where points lie. A block of queries is located in the rank's own piece first; those
+ * that are not strictly inside one of its triangles are asked of the ranks in whose boxes they lie.
+ * The lowest triangle of all answers wins. What no rank has found, the rim decides. */
+#include "mpi/mesh/mesh.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { BLOCK = 1 << 18 }; /* queries in a block, and the budget by default */
+
+typedef struct question {
+    double point[2];
+} question;
+
+typedef struct answer {
+    uint32_t number; /* of the question; the talk wants it first */
+    uint32_t given;
+    double weight[3];
+    int64_t triangle;
+    uint8_t where, local;
+    uint16_t reserved[3];
+} answer;
+
+static const double *query_point(const mwp_locating *l, size_t i)
+{
+    return &l->points[i * l->stride];
+}
+
+static mwp_location location_nowhere(mw_where where)
+{
+    return (mwp_location){.weight = {NAN, NAN, NAN},
+                          .triangle = -1,
+                          .hole = MW_NONE,
+                          .rank = -1,
+                          .index = MW_NONE,
+                          .where = (uint8_t)where,
+                          .local = 255};
+}
+
+/* --- the rank's own piece --------------------------------------------------------------------- */
+
+/* Locate points in the piece; `found` receives n locations. */
+static mw_status part_locate(const mwp_part *part, const void *points, size_t n, uint32_t threads,
+                             mw_location *found, mwp_error *error)
+{
+    mw_error from;
+    const mw_query_options options = {.threads = threads};
+    return mw_locate_batch(part->locator, points, n, 2, &options, found, NULL, &from)
+               ? mwp__fail_as(error, &from)
+               : MW_OK;
+}
+
+static mwp_location location_of_part(const mwp_mesh *m, const mw_location *at)
+{
+    mwp_location l = location_nowhere(MW_OUTSIDE);
+    if (at->triangle == MW_NONE) return l;
+    memcpy(l.weight, at->weight, sizeof l.weight);
+    l.triangle = m->part.own.triangle[at->triangle];
+    l.index = m->part.own.given[at->triangle];
+    l.rank = m->wire.rank;
+    l.where = at->where;
+    l.local = at->local;
+    return l;
+}
+
+/* --- the questions of a block ----------------------------------------------------------------- */
+
+/* The block's queries, as they are sorted: which of them are in this rank's boxes, and which are
+ * asked of which other rank. */
+typedef struct block_work {
+    int *ranks;       /* of one query */
+    uint32_t *here;   /* queries in this rank's boxes, from the beginning of the block */
+    question *points; /* of these */
+    mw_location *found;
+    uint32_t *count; /* questions for each rank */
+} block_work;
+
+static bool work_create(block_work *w, const mwp_mesh *m, size_t n)
+{
+    *w = (block_work){.ranks = mwp__alloc((size_t)m->wire.size, sizeof *w->ranks),
+                      .here = mwp__alloc(n, sizeof *w->here),
+                      .points = mwp__alloc(n, sizeof *w->points),
+                      .found = mwp__alloc(n, sizeof *w->found),
+                      .count = calloc((size_t)m->wire.size, sizeof *w->count)};
+    return w->ranks && w->here && w->points && w->found && w->count;
+}
+
+static void work_release(block_work *w)
+{
+    free(w->ranks);
+    free(w->here);
+    free(w->points);
+    free(w->found);
+    free(w->count);
+}
+
+/* The other ranks that may have the triangle of query i; none if its answer is known. */
+static int query_ranks(const mwp_locating *l, size_t i, int *ranks)
+{
+    const mwp_location *at = &l->locations[i];
+    int kept = 0;
+    if (at->where == MW_BAD || (at->triangle >= 0 && at->where == MW_INSIDE)) return 0;
+    const int count = mwp__router_find(&l->mesh->router, query_point(l, i), ranks);
+    for (int k = 0; k < count; k++)
+        if (ranks[k] != l->mesh->wire.rank) ranks[kept++] = ranks[k];
+    return kept;
+}
+
+static bool query_is_here(const mwp_locating *l, size_t i, int *ranks)
+{
+    const int count = mwp__router_find(&l->mesh->router, query_point(l, i), ranks);
+    for (int k = 0; k < count; k++)
+        if (ranks[k] == l->mesh->wire.rank) return true;
+    return false;
+}
+
+static mw_status block_locate_here(const mwp_locating *l, block_work *w, mwp_error *error)
+{
+    size_t n = 0;
+    for (size_t i = l->begin; i < l->end; i++) {
+        const double *p = query_point(l, i);
+        const bool finite = isfinite(p[0]) && isfinite(p[1]);
+        l->locations[i] = location_nowhere(finite ? MW_OUTSIDE : MW_BAD);
+        if (!finite || !query_is_here(l, i, w->ranks)) continue;
+        w->here[n] = (uint32_t)(i - l->begin);
+        w->points[n++] = (question){{p[0], p[1]}};
+    }
+    if (n == 0) return MW_OK;
+    mw_status status =
+        part_locate(&l->mesh->part, w->points, n, l->options.threads, w->found, error);
+    for (size_t k = 0; k < n && !status; k++)
+        l->locations[l->begin + w->here[k]] = location_of_part(l->mesh, &w->found[k]);
+    return status;
+}
+
+static mw_status block_pack(mwp_locating *l, block_work *w, mwp_parcels *questions,
+                            mwp_error *error)
+{
+    for (size_t i = l->begin; i < l->end; i++)
+        for (int k = query_ranks(l, i, w->ranks) - 1; k >= 0; k--) w->count[w->ranks[k]]++;
+    if (!mwp__parcels_create(questions, &l->mesh->wire, sizeof(question), w->count) ||
+        !(l->asked = mwp__alloc(questions->total, sizeof *l->asked)))
+        return mwp__fail_memory(error);
+    for (size_t i = l->begin; i < l->end; i++)
+        for (int k = query_ranks(l, i, w->ranks) - 1; k >= 0; k--) {
+            const double *p = query_point(l, i);
+            l->asked[questions->next[w->ranks[k]]] = (uint32_t)(i - l->begin);
+            *(question *)mwp__parcels_add(questions, w->ranks[k]) = (question){{p[0], p[1]}};
+        }
+    return MW_OK;
+}
+
+static mw_status locate_load(void *self, mwp_parcels *questions, bool *more, mwp_error *error)
+{
+    mwp_locating *l = self;
+    block_work w;
+    l->begin = l->next;
+    l->end = l->n - l->begin > BLOCK ? l->begin + BLOCK : l->n;
+    l->next = l->end;
+    *more = l->next < l->n;
+    free(l->asked);
+    l->asked = NULL;
+    mw_status status =
+        work_create(&w, l->mesh, l->end - l->begin) ? MW_OK : mwp__fail_memory(error);
+    if (!status) status = block_locate_here(l, &w, error);
+    if (!status) status = block_pack(l, &w, questions, error);
+    work_release(&w);
+    return status;
+}
+
+/* --- answers ---------------------------------------------------------------------------------- */
+
+static mw_status locate_answer(void *self, const void *questions, size_t n, void *answers,
+                               size_t *count, mwp_error *error)
+{
+    const mwp_locating *l = self;
+    const mwp_own *own = &l->mesh->part.own;
+    answer *out = answers;
+    mw_location *found = mwp__alloc(n, sizeof *found);
+    *count = 0;
+    if (!found) return mwp__fail_memory(error);
+    mw_status status = part_locate(&l->mesh->part, questions, n, l->options.threads, found, error);
+    for (size_t i = 0; i < n && !status; i++) {
+        const mw_location *at = &found[i];
+        if (at->triangle == MW_NONE) continue;
+        answer *a = &out[(*count)++];
+        *a = (answer){.number = (uint32_t)i,
+                      .given = own->given[at->triangle],
+                      .triangle = own->triangle[at->triangle],
+                      .where = at->where,
+                      .local = at->local};
+        memcpy(a->weight, at->weight, sizeof a->weight);
+    }
+    free(found);
+    return status;
+}
+
+static void locate_take(void *self, int rank, size_t place, const void *record)
+{
+    const mwp_locating *l = self;
+    const answer *a = record;
+    mwp_location *at = &l->locations[l->begin + l->asked[place]];
+    if (at->triangle >= 0 && at->triangle <= a->triangle) return;
+    *at = (mwp_location){.triangle = a->triangle,
+                         .hole = MW_NONE,
+                         .rank = rank,
+                         .index = a->given,
+                         .where = a->where,
+                         .local = a->local};
+    memcpy(at->weight, a->weight, sizeof at->weight);
+}
+
+/* --- points in no triangle -------------------------------------------------------------------- */
+
+static mwp_location location_of_rim(const mwp_rim *rim, const mw_location *at)
+{
+    mwp_location l = location_nowhere((mw_where)at->where);
+    memcpy(l.weight, at->weight, sizeof l.weight);
+    l.local = at->local;
+    if (at->hole != MW_NONE) l.hole = rim->hole[at->hole];
+    if (at->triangle == MW_NONE) return l;
+    const mwp_record *r = &rim->all.record[at->triangle];
+    l.triangle = r->triangle;
+    l.rank = r->rank;
+    l.index = r->given;
+    return l;
+}
+
+static mw_status locate_settle(void *self, mwp_error *error)
+{
+    const mwp_locating *l = self;
+    const mwp_rim *rim = &l->mesh->rim;
+    mw_error from;
+    mw_cursor cursor;
+    const mw_query_options options = {.tolerance = l->options.tolerance};
+    if (mw_cursor_init(rim->locator, &options, &cursor, &from)) return mwp__fail_as(error, &from);
+    for (size_t i = l->begin; i < l->end; i++) {
+        mwp_location *at = &l->locations[i];
+        if (at->triangle >= 0 || at->where == MW_BAD) continue;
+        const double *p = query_point(l, i);
+        const mw_location found = mw_locate(rim->locator, &cursor, p[0], p[1]);
+        *at = location_of_rim(rim, &found);
+    }
+    return MW_OK;
+}
+
+/* --- the public calls ------------------------------------------------------------------------- */
+
+static mw_status locating_check(const mwp_locating *l, mwp_error *error)
+{
+    const mwp_locate_options *o = &l->options;
+    if (l->n && (!l->points || !l->locations))
+        return mwp__fail(error, MW_ERROR_ARGUMENT, "the points or the locations are NULL");
+    if (l->stride == 1)
+        return mwp__fail(error, MW_ERROR_ARGUMENT, "a stride of 1 double, but points have 2");
+    if (!(o->tolerance >= 0 && o->tolerance < INFINITY))
+        return mwp__fail(error, MW_ERROR_ARGUMENT, "the tolerance %g is negative or not finite",
+                         o->tolerance);
+    if (o->budget > INT32_MAX / 2)
+        return mwp__fail(error, MW_ERROR_ARGUMENT, "a budget of %u queries; at most 2^30 - 1",
+                         o->budget);
+    for (size_t i = 0; i < sizeof o->reserved / sizeof *o->reserved; i++)
+        if (o->reserved[i])
+            return mwp__fail(error, MW_ERROR_ARGUMENT,
+                             "a reserved member of mwp_locate_options is not zero");
+    return MW_OK;
+}
+
+mwp_locating *mwp_locate_begin(mwp_mesh *mesh, const double *points, size_t n, size_t stride,
+                               const mwp_locate_options *options, mwp_location *locations)
+{
+    static const mwp_talk_about about = {sizeof(question), sizeof(answer), locate_load,
+                                         locate_answer,    locate_take,    locate_settle};
+    mwp_locating *l = &mesh->locating;
+    *l = (mwp_locating){.mesh = mesh,
+                        .points = points,
+                        .n = n,
+                        .stride = stride ? stride : 2,
+                        .options = options ? *options : (mwp_locate_options){0},
+                        .locations = locations};
+    if (l->options.threads == 0) l->options.threads = 1;
+    const uint32_t budget = l->options.budget ? l->options.budget : BLOCK;
+    mw_status status = locating_check(l, &l->talk.error);
+    mwp__talk_begin(&l->talk, &mesh->wire, &mesh->tables, &about, l, budget, status);
+    return l;
+}
+
+int mwp_locate_test(mwp_locating *locating)
+{
+    return mwp__talk_go(&locating->talk);
+}
+
+mw_status mwp_locate_end(mwp_locating *locating, mwp_error *error)
+{
+    mwp_error own_error;
+    mw_status status = mwp__talk_end(&locating->talk, error ? error : &own_error);
+    free(locating->asked);
+    locating->asked = NULL;
+    return status;
+}
+
+mw_status mwp_locate_batch(mwp_mesh *mesh, const double *points, size_t n, size_t stride,
+                           const mwp_locate_options *options, mwp_location *locations,
+                           mwp_error *error)
+{
+    return mwp_locate_end(mwp_locate_begin(mesh, points, n, stride, options, locations), error);
+}
+
+mw_status mwp_nearest_border(const mwp_mesh *mesh, double x, double y,
+                             mwp_nearest_border_point *nearest, mwp_error *error)
+{
+    const mwp_rim *rim = &mesh->rim;
+    mw_error from;
+    mw_cursor cursor = {0};
+    mw_nearest_border_point at;
+    const mw_location where = mw_locate(rim->locator, &cursor, x, y);
+    if (where.where == MW_BAD)
+        return mwp__fail(error, MW_ERROR_ARGUMENT, "the point is not finite");
+    if (where.triangle != MW_NONE || (where.hole != MW_NONE && rim->hole[where.hole] == MW_NONE))
+        return mwp__fail(error, MW_ERROR_ARGUMENT, "the point lies in the mesh");
+    if (mw_nearest_border(rim->locator, x, y, &at, &from)) return mwp__fail_as(error, &from);
+    const mwp_record *r = &rim->all.record[at.triangle];
+    *nearest = (mwp_nearest_border_point){.triangle = r->triangle,
+                                          .rank = r->rank,
+                                          .index = r->given,
+                                          .edge = at.edge,
+                                          .distance = at.distance};
+    memcpy(nearest->point, at.point, sizeof at.point);
+    memcpy(nearest->weight, at.weight, sizeof at.weight);
+    return MW_OK;
+}
