@@ -3,7 +3,11 @@
 Points and queries are random in the unit square. The task ``locate`` finds the triangles of
 queries: all peers search the same triangles. ``interpolate`` takes values of many fields to the
 queries, beside ``scipy.sparse``. ``particles`` carries them round the middle of the square by steps
-    tasks = ("locate", "interpolate", "particles", "dask", *_bench_dropins.TASKS)
+of second order, which locate each of them twice, with a `Cursor` and without. ``dask`` streams
+queries through Dask's workers, and through as many plain processes. ``rays``, ``joins`` and
+``cells`` are the drop-ins for trimesh, for GeoPandas and shapely, and for pyvista beside these.
+Rounds are interleaved, so a machine that is busy for a while slows all; the best round counts. A
+peer that is not installed is left out.
 """
 
 from __future__ import annotations
@@ -16,7 +20,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 import meshwalk
-from meshwalk import _bench_dropins
+from meshwalk._drop_ins import tasks as own_tasks
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -256,8 +260,8 @@ def _print_times(times: Sequence[Time], values: int, what: str) -> None:
 
 
 def _measure_dropin(task: str, vertices: int, queries: int, rounds: int, seed: int) -> None:
-    for title, contestants in _bench_dropins.TASKS[task](vertices, queries, seed).items():
-        rows = _bench_dropins.measure(contestants, queries, rounds)
+    for title, contestants in own_tasks.TASKS[task](vertices, queries, seed).items():
+        rows = own_tasks.measure(contestants, queries, rounds)
         print(f"{title}, {queries} queries")
         print(f"{'':22}{'build, s':>10}{'ns a query':>12}{'ratio':>8}{'MB':>8}{'same answers':>14}")
         for row in rows:
@@ -269,7 +273,7 @@ def _measure_dropin(task: str, vertices: int, queries: int, rounds: int, seed: i
 def main(arguments: Sequence[str] | None = None) -> int:
     """Print a table; `arguments` are those of the command line."""
     parser = argparse.ArgumentParser("python -m meshwalk.bench", description=__doc__)
-    tasks = ("locate", "interpolate", "particles", "dask", *_bench_dropins.TASKS)
+    tasks = ("locate", "interpolate", "particles", "dask", *own_tasks.TASKS)
     parser.add_argument("--task", choices=tasks, default="locate")
     parser.add_argument("--vertices", type=float, default=1e5)
     parser.add_argument("--queries", type=float, default=1e5)
@@ -308,8 +312,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
         times = measure_particles(*sizes, given.steps, given.seed)
         _print_times(times, sizes[1] * given.steps * 2, "ns a location")
         return 0
-    if given.task in _bench_dropins.TASKS:
-        _measure_dropin(given.task, *sizes, given.seed)
+    if given.task in own_tasks.TASKS:
+        try:
+            _measure_dropin(given.task, *sizes, given.seed)
+        except ImportError as missing:
+            parser.error(f"the task {given.task} needs a package: {missing}")
         return 0
     figures = measure(*sizes, names, given.seed)
     print(f"{sizes[1]} random queries in {sizes[0]} random vertices")

@@ -18,7 +18,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pyvista
 
-from meshwalk import _arrays, _cells
+from meshwalk import _arrays
+from meshwalk._drop_ins import cells as _cells
 from meshwalk._locator import Locator
 from meshwalk._mesh import Mesh
 from meshwalk._prober import Prober

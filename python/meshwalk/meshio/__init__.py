@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from meshwalk import _cells
+from meshwalk._drop_ins import cells as _cells
 from meshwalk._mesh import Mesh
 
 if TYPE_CHECKING:
