@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from fractions import Fraction
+from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -15,7 +16,20 @@ import meshwalk
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+HEAVY = ("geopandas", "meshio", "pyvista", "shapely", "trimesh")
+"""Drop-ins for packages that ./test leaves out."""
+NOT_HERE = "is not installed: ./test --python-all tests its drop-in"
+
 SEED = int(os.environ.get("MW_TEST_SEED", "20261123"))
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Skip the examples of drop-ins whose originals are not installed."""
+    for item in items:
+        _, _, module = getattr(getattr(item, "dtest", None), "name", "").partition("meshwalk.")
+        name = module.partition(".")[0]
+        if name in HEAVY and find_spec(name) is None:
+            item.add_marker(pytest.mark.skip(reason=f"{name} {NOT_HERE}"))
 
 
 @pytest.fixture

@@ -196,6 +196,7 @@ def test_many_rays(octahedron: meshwalk.Surface, random: np.random.Generator) ->
     prober = meshwalk.Prober(octahedron, boxes=True)
     points = random.integers(-4, 5, (40, 5, 3)) / 4
     motions = random.integers(-2, 3, (40, 5, 3)).astype(float)
+    motions[~motions.any(axis=2)] = 1
     motions[0, 0], points[0, 1] = 0, np.nan
     some: Any = {"max_distance": 3, "extent": "ray", "min_distance": 0.25}
     found = prober.probe_each(points, motions, **some)

@@ -92,13 +92,13 @@ class RayIntersector:
 
     Examples
     --------
-    >>> import meshwalk.trimesh, trimesh  # doctest: +SKIP
-    >>> mesh = trimesh.creation.box()  # doctest: +SKIP
-    >>> mesh.ray = meshwalk.trimesh.RayIntersector(mesh)  # doctest: +SKIP
-    >>> mesh.ray.intersects_location([[0, 0, -5]], [[0, 0, 1]])[0]  # doctest: +SKIP
+    >>> import meshwalk.trimesh, trimesh
+    >>> mesh = trimesh.creation.box()
+    >>> mesh.ray = meshwalk.trimesh.RayIntersector(mesh)
+    >>> mesh.ray.intersects_location([[0, 0, -5]], [[0, 0, 1]])[0]
     array([[ 0. ,  0. , -0.5],
            [ 0. ,  0. ,  0.5]])
-    >>> mesh.contains([[0, 0, 0], [1, 0, 0]])  # doctest: +SKIP
+    >>> mesh.contains([[0, 0, 0], [1, 0, 0]])
     array([ True, False])
     """
 

@@ -14,14 +14,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
+from conftest import NOT_HERE
 
 import meshwalk
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-shapely = pytest.importorskip("shapely")
-geopandas = pytest.importorskip("geopandas")
+shapely = pytest.importorskip("shapely", reason=f"shapely {NOT_HERE}")
+geopandas = pytest.importorskip("geopandas", reason=f"geopandas {NOT_HERE}")
 
 import meshwalk.geopandas  # noqa: E402
 import meshwalk.shapely  # noqa: E402

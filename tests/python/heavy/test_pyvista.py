@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
+from conftest import NOT_HERE
 
 import meshwalk
 
@@ -15,9 +16,9 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-pyvista = pytest.importorskip("pyvista")
-meshio = pytest.importorskip("meshio")
-meshlane = pytest.importorskip("meshlane")
+pyvista = pytest.importorskip("pyvista", reason=f"pyvista {NOT_HERE}")
+meshio = pytest.importorskip("meshio", reason=f"meshio {NOT_HERE}")
+meshlane = pytest.importorskip("meshlane", reason=f"meshlane {NOT_HERE}")
 
 import meshwalk.meshio  # noqa: E402
 import meshwalk.pyvista  # noqa: E402

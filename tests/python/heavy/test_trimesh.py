@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
+from conftest import NOT_HERE
 
 import meshwalk.trimesh
 
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-trimesh = pytest.importorskip("trimesh")
+trimesh = pytest.importorskip("trimesh", reason=f"trimesh {NOT_HERE}")
 RayIntersector = meshwalk.trimesh.RayIntersector
 
 
