@@ -4,10 +4,11 @@ Points and queries are random in the unit square. The task ``locate`` finds the 
 queries: all peers search the same triangles. ``interpolate`` takes values of many fields to the
 queries, beside ``scipy.sparse``. ``particles`` carries them round the middle of the square by steps
 of second order, which locate each of them twice, with a `Cursor` and without. ``dask`` streams
-queries through Dask's workers, and through as many plain processes. ``rays``, ``joins`` and
-``cells`` are the drop-ins for trimesh, for GeoPandas and shapely, and for pyvista beside these.
-Rounds are interleaved, so a machine that is busy for a while slows all; the best round counts. A
-peer that is not installed is left out.
+queries through Dask's workers, and through as many plain processes. ``drop-ins`` asks drop-ins and
+their originals (``--peers xugrid,uxarray`` chooses), and tells the memory that they keep. ``rays``,
+``joins`` and ``cells`` do that for trimesh, for GeoPandas and shapely, and for pyvista. Rounds are
+interleaved, so a machine that is busy for a while slows all; the best round counts. A peer that is
+not installed is left out.
 """
 
 from __future__ import annotations
@@ -272,8 +273,11 @@ def _measure_dropin(task: str, vertices: int, queries: int, rounds: int, seed: i
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Print a table; `arguments` are those of the command line."""
+    from meshwalk._drop_ins.bench import PAIRS, report
+    from meshwalk._drop_ins.bench import measure as measure_drop_ins
+
     parser = argparse.ArgumentParser("python -m meshwalk.bench", description=__doc__)
-    tasks = ("locate", "interpolate", "particles", "dask", *own_tasks.TASKS)
+    tasks = ("locate", "interpolate", "particles", "dask", "drop-ins", *own_tasks.TASKS)
     parser.add_argument("--task", choices=tasks, default="locate")
     parser.add_argument("--vertices", type=float, default=1e5)
     parser.add_argument("--queries", type=float, default=1e5)
@@ -286,7 +290,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--peers", default="", help="names, separated by commas")
     given = parser.parse_args(arguments)
     names = [name.strip() for name in given.peers.split(",") if name.strip()]
-    unknown = set(names) - {peer.name for peer in PEERS}
+    unknown = set(names) - (set(PAIRS) if given.task == "drop-ins" else {p.name for p in PEERS})
     if unknown:
         parser.error(f"no such peer: {', '.join(sorted(unknown))}")
     counts = (given.queries, given.rounds, given.columns, given.steps, given.workers, given.chunk)
@@ -297,6 +301,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print(f"{given.columns} fields of {sizes[0]} vertices at {sizes[1]} random queries")
         times = measure_interpolation(*sizes, given.columns, given.seed)
         _print_times(times, sizes[1] * given.columns, "ns a value")
+        return 0
+    if given.task == "drop-ins":
+        print(f"{sizes[1]} random queries in {sizes[0]} random vertices")
+        report(measure_drop_ins(names or tuple(PAIRS), *sizes, given.seed))
         return 0
     if given.task == "dask":
         from meshwalk.dask.bench import measure_streams

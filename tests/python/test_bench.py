@@ -55,3 +55,15 @@ def test_particles_go_the_same_way() -> None:
     np.testing.assert_array_equal(by_cursor, meshwalk.bench._drift(locator.locate, place, 30))
     radius = np.hypot(*(by_cursor - 0.5).T)
     np.testing.assert_allclose(radius, np.hypot(*(place - 0.5).T), rtol=0.01)
+
+
+def test_drop_ins_agree_with_their_originals(capsys: pytest.CaptureFixture[str]) -> None:
+    options = ["--task", "drop-ins", "--vertices", "300", "--queries", "200", "--rounds", "1"]
+    assert meshwalk.bench.main([*options, "--peers", "matplotlib,scipy"]) == 0
+    rows = [line.split() for line in capsys.readouterr().out.splitlines()[2:]]
+    assert [row[0] for row in rows] == [
+        *("matplotlib", "meshwalk.matplotlib", "scipy", "meshwalk.scipy")
+    ]
+    assert all(float(row[-1]) == 1 for row in rows)
+    with pytest.raises(SystemExit):
+        meshwalk.bench.main([*options, "--peers", "shapely"])

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import pickle
 import shutil
-import subprocess
-import sys
 import warnings
 from fractions import Fraction
 from importlib.util import find_spec
@@ -14,7 +12,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
-from conftest import NOT_HERE
+from conftest import NOT_HERE, PAGES, run_page
+from originals import run_their_tests
 
 import meshwalk
 
@@ -274,16 +273,11 @@ def test_the_originals_own_tests(
         if not source.exists():
             pytest.skip(f"{peer} was installed without its tests")
         shutil.copy(source, tmp_path)
-    (tmp_path / "drop_in.py").write_text(plugin)
+    work = tmp_path / "work"
+    work.mkdir()
     tests = [Path(file).name for file in files if Path(file).name.startswith("test_")]
-    ran = subprocess.run(
-        [sys.executable, "-m", "pytest", "-q", "-p", "drop_in", "-p", "no:cacheprovider", *tests],
-        cwd=tmp_path,
-        env={"PYTHONPATH": str(tmp_path), "PATH": "/usr/bin:/bin", "HOME": str(tmp_path)},
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    assert ran.returncode == 0, ran.stdout[-3000:]
-    passed = int(ran.stdout.rsplit(" passed", 1)[0].split()[-1])
-    assert passed >= least, ran.stdout[-500:]
+    run_their_tests(tmp_path, tests, plugin, "test", least, work)
+
+
+def test_the_page() -> None:
+    run_page(PAGES / "geopandas.md")

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
-from conftest import NOT_HERE
+from conftest import NOT_HERE, PAGES, run_page
 
 import meshwalk
 
@@ -221,3 +221,7 @@ def test_closest_cells(random: np.random.Generator) -> None:
     assert one == cell[0]
     assert place.shape == (3,)
     assert Finder(ball).find_closest_cell([np.nan, 0, 0]) == -1
+
+
+def test_the_page() -> None:
+    run_page(PAGES / "pyvista.md")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+from conftest import NOT_HERE
 
 import meshwalk.bench
 
@@ -11,7 +12,7 @@ NEEDED = {"rays": "trimesh", "joins": "geopandas", "cells": "pyvista"}
 
 @pytest.mark.parametrize("task", NEEDED)
 def test_tasks(task: str, capsys: pytest.CaptureFixture[str]) -> None:
-    pytest.importorskip(NEEDED[task])
+    pytest.importorskip(NEEDED[task], reason=f"{NEEDED[task]} {NOT_HERE}")
     options = ["--vertices", "300", "--queries", "200", "--rounds", "1", "--task", task]
     assert meshwalk.bench.main(options) == 0
     lines = capsys.readouterr().out.splitlines()

@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 import copy
-import os
 import pickle
-import subprocess
-import sys
-import tarfile
+import shutil
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
-from conftest import NOT_HERE
+from conftest import NOT_HERE, PAGES, run_page
+from originals import run_their_tests, sources
 
 import meshwalk.trimesh
 
@@ -266,37 +264,21 @@ from trimesh.ray import ray_pyembree, ray_triangle
 ray_pyembree.RayMeshIntersector = meshwalk.trimesh.RayIntersector
 ray_triangle.RayMeshIntersector = meshwalk.trimesh.RayIntersector
 """
-# It reads all models.
-LEFT_OUT = "not test_rays"
+# test_rays reads all models.
 
 
 def test_the_originals_own_tests(tmp_path: Path) -> None:
-    pytest.importorskip("trimesh.ray.ray_pyembree")
-    pytest.importorskip("manifold3d")
-    pip = [sys.executable, "-m", "pip", "download", "--quiet", "--no-deps", "--no-binary", ":all:"]
-    fetched = subprocess.run(
-        [*pip, "--dest", str(tmp_path), f"trimesh=={trimesh.__version__}"],
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    if fetched.returncode:
-        pytest.skip(f"no source archive of trimesh: {fetched.stderr[-200:]}")
-    with tarfile.open(next(tmp_path.glob("*.tar.gz"))) as archive:
-        archive.extractall(tmp_path, filter="data")
-    tests = next(tmp_path.glob("trimesh-*/tests"))
+    for peer in ("trimesh.ray.ray_pyembree", "manifold3d"):
+        pytest.importorskip(peer, reason=f"{peer} {NOT_HERE}")
+    tests, work = tmp_path / "tests", tmp_path / "work"
+    shutil.copytree(sources("trimesh") / "tests", tests)
+    work.mkdir()
     (tests / "generic.py").write_text(GENERIC)
-    (tests / "drop_in.py").write_text(DROP_IN)
-    names = ["test_ray.py", "test_ray_upstream.py"]
-    run = [sys.executable, "-m", "pytest", "-q", "-rs", "-p", "drop_in", "-p", "no:cacheprovider"]
-    ran = subprocess.run(
-        [*run, "-k", LEFT_OUT, "--import-mode=append", *names],
-        cwd=tests,
-        env={"PYTHONPATH": str(tests), "PATH": os.environ["PATH"], "HOME": str(tmp_path)},
-        capture_output=True,
-        text=True,
-        check=False,
+    run_their_tests(
+        tests, ["test_ray.py", "test_ray_upstream.py"], DROP_IN, "not test_rays", 12, work
     )
-    assert ran.returncode == 0, ran.stdout[-3000:]
-    passed = int(ran.stdout.rsplit(" passed", 1)[0].split()[-1])
-    assert passed >= 12, ran.stdout[-500:]
+
+
+def test_the_page() -> None:
+    pytest.importorskip("trimesh.ray.ray_pyembree", reason=f"embreex {NOT_HERE}")
+    run_page(PAGES / "trimesh.md")
