@@ -18,14 +18,24 @@ struct mwp_locating {
     mwp_talk talk;
 };
 
+/* Values of a file at the vertices of a piece. */
+enum { MWP_FIELD_NAME = 128 };
+typedef struct mwp_fields {
+    uint32_t count;
+    char (*names)[MWP_FIELD_NAME];
+    double *rows; /* a row of all fields for each vertex */
+} mwp_fields;
+void mwp__fields_release(mwp_fields *fields);
+
 struct mwp_mesh {
     mwp_wire wire;
     mwp_part part;
     mwp_router router;
     mwp_rim rim;
     int64_t vertices, triangles; /* of the whole mesh */
-    mwp_tables tables;           /* for talks */
-    mwp_locating locating;       /* the batch that is under way */
+    mwp_fields fields;
+    mwp_tables tables;     /* for talks */
+    mwp_locating locating; /* the batch that is under way */
 };
 
 #endif

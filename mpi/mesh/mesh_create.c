@@ -70,11 +70,11 @@ static mw_status mesh_prepare(mwp_mesh *m, mw_status status, mwp_error *error)
     return status ? status : mwp__rim_create(&m->rim, &m->wire, part, &m->router, error);
 }
 
+/* All but the wire, the tables and the fields. */
 static void mesh_release(mwp_mesh *m)
 {
     mwp__rim_release(&m->rim);
     mwp__router_release(&m->router);
-    mwp__tables_release(&m->tables);
     part_release(&m->part);
 }
 
@@ -120,10 +120,41 @@ mw_status mwp_mesh_create(MPI_Comm comm, const mwp_piece *piece, const mwp_mesh_
     return status;
 }
 
+mw_status mwp_update(mwp_mesh *mesh, const double *points, size_t stride, mwp_error *error)
+{
+    mwp_error own_error;
+    if (!error) error = &own_error;
+    mwp_mesh moved = {.wire = mesh->wire, .part.threads = mesh->part.threads};
+    mw_status status = mwp__own_move(&moved.part.own, &mesh->part.own, points, stride, error);
+    status = mesh_prepare(&moved, status, error);
+    if (status) {
+        mesh_release(&moved);
+        return status;
+    }
+    moved.tables = mesh->tables;
+    moved.fields = mesh->fields;
+    mesh_release(mesh);
+    *mesh = moved;
+    return MW_OK;
+}
+
+void mwp_mesh_piece(const mwp_mesh *mesh, mwp_piece *piece)
+{
+    const mwp_own *own = &mesh->part.own;
+    *piece = (mwp_piece){.arrays = {.points = own->points,
+                                    .point_count = own->vertex_count,
+                                    .triangles = own->corner,
+                                    .triangle_count = own->triangle_count},
+                         .vertex_numbers = own->vertex,
+                         .triangle_numbers = own->triangle};
+}
+
 void mwp_mesh_destroy(mwp_mesh *mesh)
 {
     if (!mesh) return;
     mesh_release(mesh);
+    mwp__tables_release(&mesh->tables);
+    mwp__fields_release(&mesh->fields);
     mwp__wire_close(&mesh->wire);
     free(mesh);
 }

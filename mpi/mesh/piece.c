@@ -91,6 +91,7 @@ static mw_status own_copy_triangles(mwp_own *own, const mwp_piece *piece, mwp_er
         const int64_t number = sorted[i].number;
         own->triangle[i] = number;
         own->given[i] = sorted[i].place;
+        own->place[sorted[i].place] = i;
         if (i > 0 && number == sorted[i - 1].number)
             status = mwp__fail_at(error, number, -1, "triangle %" PRId64 " is twice in the piece",
                                   number);
@@ -139,7 +140,8 @@ static bool own_make_room(mwp_own *own, size_t vertices, size_t triangles)
     own->corner = mwp__alloc(triangles, 3 * sizeof *own->corner);
     own->triangle = mwp__alloc(triangles, sizeof *own->triangle);
     own->given = mwp__alloc(triangles, sizeof *own->given);
-    return own->points && own->vertex && own->corner && own->triangle && own->given;
+    own->place = mwp__alloc(triangles, sizeof *own->place);
+    return own->points && own->vertex && own->corner && own->triangle && own->given && own->place;
 }
 
 mw_status mwp__own_create(mwp_own *own, const mwp_piece *piece, mwp_error *error)
@@ -188,6 +190,7 @@ mw_status mwp__own_move(mwp_own *own, const mwp_own *from, const double *points,
     memcpy(own->corner, from->corner, triangles * 3 * sizeof *own->corner);
     memcpy(own->triangle, from->triangle, triangles * sizeof *own->triangle);
     memcpy(own->given, from->given, triangles * sizeof *own->given);
+    memcpy(own->place, from->place, triangles * sizeof *own->place);
     return MW_OK;
 }
 
@@ -198,6 +201,7 @@ void mwp__own_release(mwp_own *own)
     free(own->corner);
     free(own->triangle);
     free(own->given);
+    free(own->place);
     *own = (mwp_own){0};
 }
 
@@ -205,7 +209,7 @@ size_t mwp__own_bytes(const mwp_own *own)
 {
     return own->vertices * (2 * sizeof *own->points + sizeof *own->vertex) +
            own->triangles * (3 * sizeof *own->corner + sizeof *own->triangle) +
-           own->triangle_count * sizeof *own->given;
+           own->triangle_count * (sizeof *own->given + sizeof *own->place);
 }
 
 /* Make one array larger; false when out of memory. */

@@ -15,6 +15,7 @@ typedef struct mwp_own {
     uint32_t *corner;                      /* three vertices of each triangle */
     int64_t *triangle;                     /* numbers of triangles; the rank's own ascend */
     uint32_t *given;                       /* per own triangle: its place in the caller's arrays */
+    uint32_t *place;                       /* and back */
 } mwp_own;
 
 /* Check the arrays of a piece and copy them. Not collective. Release in either case. */

@@ -281,8 +281,9 @@ mwp_locating *mwp_locate_begin(mwp_mesh *mesh, const double *points, size_t n, s
                         .locations = locations};
     if (l->options.threads == 0) l->options.threads = 1;
     const uint32_t budget = l->options.budget ? l->options.budget : BLOCK;
-    mw_status status = locating_check(l, &l->talk.error);
-    mwp__talk_begin(&l->talk, &mesh->wire, &mesh->tables, &about, l, budget, status);
+    mwp_error error;
+    mw_status status = locating_check(l, &error);
+    mwp__talk_begin(&l->talk, &mesh->wire, &mesh->tables, &about, l, budget, status, &error);
     return l;
 }
 

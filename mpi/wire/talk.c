@@ -316,16 +316,12 @@ static void talk_make_types(mwp_talk *t)
 }
 
 void mwp__talk_begin(mwp_talk *talk, const mwp_wire *wire, const mwp_tables *tables,
-                     const mwp_talk_about *about, void *self, uint32_t budget, mw_status status)
+                     const mwp_talk_about *about, void *self, uint32_t budget, mw_status status,
+                     const mwp_error *error)
 {
-    const mwp_error error = talk->error;
-    *talk = (mwp_talk){.wire = wire,
-                       .tables = tables,
-                       .about = about,
-                       .self = self,
-                       .budget = budget,
-                       .status = status,
-                       .error = error};
+    *talk =
+        (mwp_talk){.wire = wire, .tables = tables, .about = about, .self = self, .budget = budget};
+    if (status) talk_fail(talk, status, error);
     memset(tables->next, 0, (size_t)wire->size * sizeof *tables->next);
     talk_make_types(talk);
     if (talk->broken) return;

@@ -76,9 +76,10 @@ bool mwp__tables_create(mwp_tables *tables, const mwp_wire *wire);
 void mwp__tables_release(mwp_tables *tables);
 
 /* Begin. Not collective, but all ranks begin the same talks in the same order, one at a time.
- * `status` and talk->error tell whether this rank has come so far. */
+ * `status` tells whether this rank has come so far; if not, `error` tells why. */
 void mwp__talk_begin(mwp_talk *talk, const mwp_wire *wire, const mwp_tables *tables,
-                     const mwp_talk_about *about, void *self, uint32_t budget, mw_status status);
+                     const mwp_talk_about *about, void *self, uint32_t budget, mw_status status,
+                     const mwp_error *error);
 /* Go on as far as possible without waiting. Is it over? */
 bool mwp__talk_go(mwp_talk *talk);
 /* Wait for the end; the same status and error on all ranks. */

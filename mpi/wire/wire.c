@@ -140,6 +140,22 @@ mw_status mwp__wire_agree(const mwp_wire *wire, mw_status status, mwp_error *err
     return error->status;
 }
 
+mw_status mwp__wire_same(const mwp_wire *wire, mw_status status, int64_t number, const char *what,
+                         mwp_error *error)
+{
+    MPI_Request request;
+    const int64_t mine[2] = {number, -number};
+    int64_t most[2] = {0, 0};
+    status = mwp__wire_agree(wire, status, error);
+    if (!status)
+        status = mwp__wire_wait(
+            MPI_Iallreduce(mine, most, 2, MPI_INT64_T, MPI_MAX, wire->comm, &request), &request,
+            error);
+    if (status || most[0] == -most[1]) return status;
+    return mwp__wire_agree(
+        wire, mwp__fail(error, MW_ERROR_ARGUMENT, "%s are not the same on all ranks", what), error);
+}
+
 mw_status mwp__wire_sum(const mwp_wire *wire, int64_t *number, mwp_error *error)
 {
     MPI_Request request;

@@ -48,6 +48,10 @@ void mwp__wire_close(mwp_wire *wire);
  * rank. `error` is not NULL. */
 mw_status mwp__wire_agree(const mwp_wire *wire, mw_status status, mwp_error *error);
 
+/* The same, and refuse a number that is not equal on all ranks. `what` is it? */
+mw_status mwp__wire_same(const mwp_wire *wire, mw_status status, int64_t number, const char *what,
+                         mwp_error *error);
+
 /* Replace a number by its sum over all ranks. */
 mw_status mwp__wire_sum(const mwp_wire *wire, int64_t *number, mwp_error *error);
 

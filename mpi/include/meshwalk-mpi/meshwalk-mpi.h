@@ -20,6 +20,7 @@
 #ifndef MESHWALK_MPI_H
 #define MESHWALK_MPI_H
 
+#include <meshwalk/io.h>
 #include <meshwalk/locate.h>
 #include <mpi.h>
 
@@ -81,6 +82,61 @@ typedef struct mwp_mesh_options {
  */
 MW_API mw_status mwp_mesh_create(MPI_Comm comm, const mwp_piece *piece,
                                  const mwp_mesh_options *options, mwp_mesh **out, mwp_error *error);
+
+/**
+ * Distribute a mesh that rank 0 has. Each rank gets a run of triangles along a Hilbert curve,
+ * equally many, and the heights and fields of their vertices. Numbers are those of the file.
+ * Meanwhile rank 0 needs about 200 bytes a triangle.
+ *
+ * @param comm     the communicator; it is duplicated
+ * @param file     on rank 0 the mesh, which is only read; not looked at on the others
+ * @param options  NULL selects the defaults
+ * @param out      receives the mesh, owned by the caller (mwp_mesh_destroy()); NULL on failure
+ * @param error    NULL, or receives the message of a failure
+ * @return as mwp_mesh_create().
+ */
+MW_API mw_status mwp_mesh_scatter(MPI_Comm comm, const mw_mesh_file *file,
+                                  const mwp_mesh_options *options, mwp_mesh **out,
+                                  mwp_error *error);
+
+/**
+ * Prepare a mesh in pieces from a file, which rank 0 reads: mw_read_mesh(), then
+ * mwp_mesh_scatter().
+ *
+ * @param comm     the communicator; it is duplicated
+ * @param path     the file, on rank 0: any that mw_read_mesh() reads
+ * @param options  NULL selects the defaults
+ * @param out      receives the mesh, owned by the caller (mwp_mesh_destroy()); NULL on failure
+ * @param error    NULL, or receives the message of a failure
+ * @return as mw_read_mesh() and mwp_mesh_create().
+ */
+MW_API mw_status mwp_mesh_read(MPI_Comm comm, const char *path, const mwp_mesh_options *options,
+                               mwp_mesh **out, mwp_error *error);
+
+/**
+ * Move the vertices. Triangles and numbers stay; what mwp_mesh_create() checks is checked again.
+ *
+ * @param mesh    the mesh; if the call fails, it is as before
+ * @param points  x, y of vertex i of this rank's piece at points[i * stride], as the piece had them
+ * @param stride  doubles from one vertex to the next; 0 means 2
+ * @param error   NULL, or receives the message of a failure
+ * @return as mwp_mesh_create(), and at the same cost.
+ */
+MW_API mw_status mwp_update(mwp_mesh *mesh, const double *points, size_t stride, mwp_error *error);
+
+/** The piece of this rank: triangles in the order of their numbers, vertices as they were given.
+ * Its arrays belong to the mesh, until its end or mwp_update(). Not collective. O(1). */
+MW_API void mwp_mesh_piece(const mwp_mesh *mesh, mwp_piece *piece);
+
+/** Number of fields of a mesh from a file; heights are the field "z". Not collective. */
+MW_API size_t mwp_mesh_field_count(const mwp_mesh *mesh);
+/** The name of a field by its index, owned by the mesh, at most 127 bytes; NULL beyond the last.
+ * Not collective. */
+MW_API const char *mwp_mesh_field_name(const mwp_mesh *mesh, size_t index);
+/** Set `table` to the values of a field at the vertices of this rank's piece, for
+ * mwp_interpolate(); they belong to the mesh. Returns 0 if no field has that name, else 1. Not
+ * collective. */
+MW_API int mwp_mesh_field(const mwp_mesh *mesh, const char *name, mw_value_table *table);
 
 /** Destroy a mesh in pieces. NULL is allowed, on all ranks. */
 MW_API void mwp_mesh_destroy(mwp_mesh *mesh);
@@ -169,6 +225,76 @@ MW_API int mwp_locate_test(mwp_locating *locating);
 
 /** Wait for the end. Releases `locating`; returns and fills `error` as mwp_locate_batch(). */
 MW_API mw_status mwp_locate_end(mwp_locating *locating, mwp_error *error);
+
+/**
+ * Interpolate values that lie with the pieces, at locations on any rank.
+ *
+ * @param mesh       the mesh
+ * @param table      values at the vertices of this rank's piece, side by side for each vertex
+ *                   (`step` 0 or 1); type and count are the same on all ranks
+ * @param locations  n locations, of mwp_locate_batch() or mwp_migrate()
+ * @param n          number of locations of this rank
+ * @param result     receives values of the table's type, packed: value k of location i at
+ *                   result[i * count + k]; NaN for a location without a triangle
+ * @param error      NULL, or receives the message of a failure
+ * @return MW_OK; MW_ERROR_ARGUMENT for NULL, tables that differ, or locations of another mesh;
+ *         MW_ERROR_MEMORY, MW_ERROR_SYSTEM.
+ *
+ * The results are those of mw_interpolate_table() for the whole mesh, bit for bit. A location of
+ * another rank's triangle costs 32 bytes there, and 8 more than its values back.
+ */
+MW_API mw_status mwp_interpolate(mwp_mesh *mesh, const mw_value_table *table,
+                                 const mwp_location *locations, size_t n, void *result,
+                                 mwp_error *error);
+
+/**
+ * The weights of locations as the rows of a sparse matrix, in compressed form (CSR): what
+ * mw_operator_copy() gives for the whole mesh. Each rank gets the rows of its locations.
+ *
+ * @param mesh       the mesh
+ * @param locations  n locations, of mwp_locate_batch() or mwp_migrate()
+ * @param n          number of locations of this rank
+ * @param first      receives n + 1 numbers: the entries of row i are first[i] to first[i + 1] - 1
+ * @param column     receives the number of a vertex in the whole mesh for each entry; room for 3 n
+ * @param weight     receives the weight of each entry, never 0; room for 3 n
+ * @param error      NULL, or receives the message of a failure
+ * @return MW_OK; MW_ERROR_ARGUMENT for NULL or locations of another mesh; MW_ERROR_MEMORY,
+ *         MW_ERROR_SYSTEM.
+ */
+MW_API mw_status mwp_operator(mwp_mesh *mesh, const mwp_location *locations, size_t n,
+                              uint64_t *first, int64_t *column, double *weight, mwp_error *error);
+
+/** Particles that have arrived. Release with mwp_particles_release(). */
+typedef struct mwp_particles {
+    mwp_location *locations; /**< of each */
+    void *payload;           /**< of each, packed */
+    size_t count;
+} mwp_particles;
+
+/**
+ * Move particles, with what they carry, to the ranks that have their triangles. Those without a
+ * triangle stay. None is lost, and none comes twice.
+ *
+ * @param mesh       the mesh
+ * @param locations  n locations, of mwp_locate_batch() or mwp_migrate()
+ * @param payload    `bytes` for each particle, packed; NULL if `bytes` is 0
+ * @param bytes      bytes that a particle carries, its coordinates included if they are wanted; at
+ *                   most 2^20, the same on all ranks
+ * @param n          number of particles of this rank
+ * @param out        receives the particles that are on this rank now, in the order of their former
+ *                   ranks, then of their places there; empty on failure
+ * @param error      NULL, or receives the message of a failure
+ * @return MW_OK; MW_ERROR_ARGUMENT for NULL, payloads of different size, or ranks that do not
+ *         exist; MW_ERROR_MEMORY, MW_ERROR_SYSTEM.
+ *
+ * A particle that moves costs one message of 64 bytes and its payload, in rounds of at most 65,536
+ * particles that a rank takes at a time.
+ */
+MW_API mw_status mwp_migrate(mwp_mesh *mesh, const mwp_location *locations, const void *payload,
+                             size_t bytes, size_t n, mwp_particles *out, mwp_error *error);
+
+/** Release particles. Not collective. A zero-initialised structure is allowed. */
+MW_API void mwp_particles_release(mwp_particles *particles);
 
 /** The border edge nearest to a point outside. */
 typedef struct mwp_nearest_border_point {

@@ -96,11 +96,33 @@ def _our_uxarray(points: Points, triangles: Triangles) -> Ask:
     return lambda lonlat: np.asarray(find(lonlat)[0])[:, 0]
 
 
+def _parcels_grid(points: Points, triangles: Triangles) -> Any:
+    import parcels
+    import uxarray
+
+    grid = _uxarray_grid(points, triangles)
+    depth = uxarray.UxDataArray(np.array([0.0, 1.0]), dims=["zf"], uxgrid=grid)
+    return parcels.UxGrid(grid, z=depth, mesh="flat")
+
+
+def _parcels(points: Points, triangles: Triangles) -> Ask:
+    table = _parcels_grid(points, triangles).get_spatial_hash()
+    return lambda xy: np.asarray(table.query(xy[:, 1], xy[:, 0])[1])
+
+
+def _our_parcels(points: Points, triangles: Triangles) -> Ask:
+    from meshwalk.parcels import SpatialHash
+
+    table = SpatialHash(_parcels_grid(points, triangles))
+    return lambda xy: table.query(xy[:, 1], xy[:, 0])[1]
+
+
 PAIRS = {
     "matplotlib": Pair("matplotlib", _matplotlib, _our_matplotlib),
     "scipy": Pair("scipy", _scipy, _our_scipy),
     "xugrid": Pair("numba_celltree", _xugrid, _our_xugrid),
     "uxarray": Pair("uxarray", _uxarray, _our_uxarray, on_sphere=True),
+    "parcels": Pair("parcels", _parcels, _our_parcels),
 }
 
 

@@ -183,7 +183,7 @@ def cut_facets(
     Returns
     -------
     triangles : ndarray of intp, shape (p, 3)
-        Their corners.
+        Their corners. The first one of a triangle stays the first.
     face : ndarray of intp, shape (p,), or None
         The face of each triangle, ascending; None where all faces are triangles.
 
@@ -196,8 +196,9 @@ def cut_facets(
     triangles = np.empty((first[-1], 3), np.intp)
     for n in np.unique(sizes):
         chosen = np.flatnonzero(sizes == n)
-        fans, _ = _best_fans(points, faces[chosen, :n], _turn_in_space)
+        rows = faces[chosen, :n]
+        fans = rows[:, None] if n == 3 else _best_fans(points, rows, _turn_in_space)[0]
         triangles[first[chosen][:, None] + np.arange(n - 2)] = fans
     turned = _turn_in_space(*np.moveaxis(points[triangles], 1, 0)) < 0
-    triangles[turned] = triangles[turned][:, ::-1]
+    triangles[turned] = triangles[turned][:, [0, 2, 1]]
     return triangles, None if (sizes == 3).all() else np.repeat(np.arange(len(faces)), sizes - 2)

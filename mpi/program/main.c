@@ -1,0 +1,92 @@
+/* meshwalk-mpi - the program on many machines. Rank 0 runs the sub-command that the first argument
+ * names: it reads and writes; the other ranks do what it orders. */
+#include "mpi/program/commands.h"
+
+#include "cli/frame/files.h"
+#include "cli/frame/help.h"
+#include "cli/frame/message.h"
+#include "cli/frame/progress.h"
+#include "cli/frame/signals.h"
+
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const command *const commands[] = {&locate_pieces_command, &sample_pieces_command};
+#define COMMAND_COUNT (sizeof commands / sizeof *commands)
+
+static service of_program;
+
+service *program_service(void)
+{
+    return &of_program;
+}
+
+static int main_print_help(void)
+{
+    text t = {0};
+    text_string(&t, "meshwalk-mpi - point location in triangle meshes, by all ranks of mpiexec\n\n"
+                    "usage: mpiexec -n RANKS meshwalk-mpi COMMAND [options] FILES\n\ncommands:\n");
+    for (size_t i = 0; i < COMMAND_COUNT; i++)
+        text_printf(&t, "  %-8s %s\n           meshwalk-mpi %s [options] %s\n", commands[i]->name,
+                    commands[i]->summary, commands[i]->name, commands[i]->operands);
+    text_string(&t, "\n'meshwalk-mpi COMMAND --help all' tells about its options.\n");
+    return files_write_text(NULL, &t);
+}
+
+static int command_print_help(const command *c, bool all)
+{
+    text t = {0};
+    help_of_command(&t, c, all);
+    return files_write_text(NULL, &t);
+}
+
+static int command_run(const command *c, int count, char **arguments)
+{
+    const char *operands[MAX_OPERANDS] = {0};
+    void *settings = calloc(1, c->settings_size);
+    if (!settings) return fail_memory();
+    int end = options_parse(c, count, arguments, settings, operands);
+    const common_settings *common = settings;
+    if (end == 0 && common->help) {
+        end = command_print_help(c, common->help_all);
+    } else if (end == 0) {
+        signals_begin();
+        progress_begin(common->quiet);
+        files_use_layout(common->layout);
+        end = c->run(settings, operands);
+        progress_end();
+    }
+    free(settings);
+    return end;
+}
+
+static int main_run(int count, char **arguments)
+{
+    const char *word = count < 2 ? "--help" : arguments[1];
+    if (strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0) return main_print_help();
+    for (size_t i = 0; i < COMMAND_COUNT; i++)
+        if (strcmp(commands[i]->name, word) == 0)
+            return command_run(commands[i], count - 2, arguments + 2);
+    complain("unknown command '%s'; 'meshwalk-mpi --help' lists them", word);
+    return END_USAGE;
+}
+
+int main(int count, char **arguments)
+{
+    mwp_error error;
+    int end = END_RESOURCE, given = 0;
+    signal(SIGPIPE, SIG_IGN); /* a closed pipe is then an error of the output */
+    MPI_Init_thread(&count, &arguments, MPI_THREAD_FUNNELED, &given);
+    if (service_open(&of_program, &error)) {
+        complain("%s", error.message);
+    } else if (of_program.wire.rank == 0) {
+        end = main_run(count, arguments);
+        service_end(&of_program, end);
+    } else {
+        end = service_run(&of_program);
+    }
+    service_close(&of_program);
+    MPI_Finalize();
+    return end;
+}

@@ -1,0 +1,177 @@
+/* pieces_query.c - a mesh in pieces for a command, and the stream of its points. */
+#include "mpi/program/pieces_query.h"
+
+#include "cli/frame/files.h"
+#include "cli/frame/message.h"
+#include "cli/frame/monotonic_clock.h"
+#include "cli/frame/progress.h"
+#include "cli/gdal/gdal_point_layer.h"
+#include "cli/gdal/mesh_crs.h"
+#include "cli/stream/statistics.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+const option pieces_options[] = {
+    {"tolerance", 0, OPTION_LENGTH, offsetof(pieces_settings, tolerance), "D",
+     "a point outside, at most D away from the mesh, is 'near' (default: 0)", NULL},
+    {"columns", 0, OPTION_TEXT, offsetof(pieces_settings, stream.source.columns), "LIST",
+     "columns of POINTS that hold x and y, as names or numbers from 1", NULL},
+    {"crs", 0, OPTION_TEXT, offsetof(pieces_settings, crs), "CRS",
+     "the coordinate system of MESH (default: what its file tells)", NULL},
+    {"points-crs", 0, OPTION_TEXT, offsetof(pieces_settings, stream.source.crs), "CRS",
+     "that of POINTS, or 'same' as MESH (default: what POINTS tell)", NULL},
+    {0},
+};
+
+/* The exit code for an error of the ranks, after a complaint. */
+static int pieces_fail(const char *path, const mwp_error *from)
+{
+    mw_error error = {
+        .status = from->status, .triangle = from->triangle, .vertex = from->vertex, .line = -1};
+    memcpy(error.message, from->message, sizeof error.message);
+    return from->status == MW_ERROR_INPUT ? fail_mesh(path, &error) : fail_query(&error);
+}
+
+/* --- the mesh --------------------------------------------------------------------------------- */
+
+/* The file as it is distributed: without heights and fields but the one that is asked for. */
+static int file_distribute(pieces_query *q, const mw_mesh_file *file, const mw_mesh *mesh,
+                           const mesh_field_choice *field)
+{
+    mwp_error error;
+    mw_mesh_file bare = {.points = file->points,
+                         .point_count = file->point_count,
+                         .triangles = file->triangles,
+                         .triangle_count = file->triangle_count};
+    char *name = field ? (char *)(uintptr_t)field->field : NULL;
+    double *values = field ? (double *)(uintptr_t)mw_mesh_field(mesh, name) : NULL;
+    if (field) {
+        bare.field_names = &name; /* only read */
+        bare.fields = &values;
+        bare.field_count = 1;
+    }
+    progress_phase("distributing", q->path);
+    mw_status status =
+        service_scatter(q->service, &bare, q->settings->stream.common.threads, &error);
+    return status ? pieces_fail(q->path, &error) : 0;
+}
+
+static int file_take(pieces_query *q, mw_mesh_file *file, const mesh_field_choice *field)
+{
+    mw_error error;
+    mw_mesh *mesh;
+    const bool quiet = q->settings->stream.common.quiet;
+    const mw_arrays arrays = mw_mesh_file_arrays(file);
+    extent_add(&q->extent, file->points, file->point_count, 3);
+    if (mw_mesh_create(&arrays, NULL, &mesh, &error) != MW_OK) return fail_mesh(q->path, &error);
+    if (!quiet) extent_warn_of_seam(q->path, &q->extent, mesh);
+    q->first_number = file->first_number;
+    int end = mesh_crs_settle(q->path, q->settings->crs, file->crs, quiet, &q->crs);
+    if (end == 0 && field) end = mesh_field_load(mesh, q->path, file, field);
+    if (end == 0) end = file_distribute(q, file, mesh, field);
+    mw_mesh_destroy(mesh);
+    q->faces = file->faces;
+    file->faces = NULL;
+    return end;
+}
+
+int pieces_query_open(pieces_query *q, service *s, const pieces_settings *settings,
+                      const char *const *operands, const mesh_field_choice *field)
+{
+    mw_mesh_file file;
+    *q = (pieces_query){.settings = settings,
+                        .service = s,
+                        .path = operands[0],
+                        .values = field != NULL,
+                        .begin = monotonic_seconds()};
+    int end = files_check_output(settings->stream.common.output, operands, 2);
+    if (end == 0) end = point_layers_check(operands, 2);
+    if (end == 0) end = query_stream_check_output(&settings->stream);
+    if (end == 0) end = query_crs_check(settings->crs, settings->stream.source.crs);
+    if (end == 0) end = files_read_mesh(q->path, &file);
+    if (end) return end;
+    end = file_take(q, &file, field);
+    mw_mesh_file_release(&file);
+    return end;
+}
+
+void pieces_query_release(pieces_query *q)
+{
+    free(q->crs);
+    free(q->faces);
+}
+
+/* --- the points ------------------------------------------------------------------------------- */
+
+typedef struct pieces_context {
+    pieces_query *query;
+    pieces_row *row;
+    const void *self;
+} pieces_context;
+
+static int pieces_answer(void *self, const query_block *block, void *answers)
+{
+    const pieces_context *context = self;
+    pieces_query *q = context->query;
+    mwp_error error;
+    const service_answer *answer = answers;
+    const service_options options = {.tolerance = q->settings->tolerance,
+                                     .threads = q->settings->stream.common.threads,
+                                     .values = q->values};
+    if (service_locate(q->service, block->values, block->stride, block->count, &options, answers,
+                       &error))
+        return pieces_fail(q->path, &error);
+    for (size_t i = 0; i < block->count; i++) q->where[answer[i].at.where]++;
+    extent_add(&q->points, block->values, block->count, block->stride);
+    return 0;
+}
+
+static bool pieces_write_row(const void *self, const double *point, const void *answer, text *out)
+{
+    const pieces_context *context = self;
+    return context->row(context->query, context->self, point, answer, out);
+}
+
+static void pieces_report(const void *self, report *r)
+{
+    const pieces_context *context = self;
+    const pieces_query *q = context->query;
+    mwp_mesh_info info;
+    mwp_mesh_describe(q->service->mesh, &info);
+    for (int i = 0; i < MW_WHERE_COUNT; i++)
+        report_count(r, mw_where_name((mw_where)i), q->where[i]);
+    report_count(r, "ranks", (uint64_t)q->service->wire.size);
+    report_count(r, "rim_triangles", info.rim_triangles);
+    report_count(r, "bytes_of_rank_0", info.bytes);
+}
+
+int pieces_query_run(pieces_query *q, const char *points, const char *const *answers,
+                     const char *kinds, pieces_row *row, const void *self)
+{
+    pieces_context context = {q, row, self};
+    const query_stream s = {
+        .settings = &q->settings->stream,
+        .begin = q->begin,
+        .doing = "locating",
+        .columns = {.axes = QUERY_PLANE, .names = {"x", "y"}, .count = 2},
+        .domain = QUERIES_IN_PLANE,
+        .mesh = q->path,
+        .mesh_crs = q->crs,
+        .heights = q->values,
+        .shown = 2,
+        .answers = answers,
+        .kinds = kinds,
+        .answer_size = sizeof(service_answer),
+        .answer = pieces_answer,
+        .row = pieces_write_row,
+        .report = pieces_report,
+        .self = &context,
+    };
+    const int end = query_stream_run(&s, points);
+    if ((end == 0 || end == END_UNANSWERED) && !q->settings->stream.common.quiet)
+        extent_remark(q->path, &q->extent, points, &q->points,
+                      q->where[MW_INSIDE] + q->where[MW_ON_EDGE] + q->where[MW_ON_VERTEX] +
+                          q->where[MW_NEAR]);
+    return end;
+}

@@ -1,0 +1,47 @@
+/* pieces_query.h - what the commands of meshwalk-mpi share: a mesh from a file that rank 0 reads
+ * and distributes, and a stream of points that all ranks locate. As cli/stream/point_query.h. */
+#ifndef MWP_PROGRAM_PIECES_QUERY_H
+#define MWP_PROGRAM_PIECES_QUERY_H
+
+#include "cli/input/mesh_field.h"
+#include "cli/stream/extent_remark.h"
+#include "cli/stream/query_stream.h"
+#include "mpi/program/service.h"
+
+/* The settings, and the options for them. */
+typedef struct pieces_settings {
+    query_stream_settings stream;
+    const char *crs;
+    double tolerance;
+} pieces_settings;
+
+extern const option pieces_options[];
+
+typedef struct pieces_query {
+    const pieces_settings *settings;
+    service *service;
+    const char *path;
+    char *crs;       /* NULL: not known */
+    uint32_t *faces; /* NULL: faces are the triangles */
+    int first_number;
+    bool values; /* each point gets a value of the field */
+    extent_box extent, points;
+    uint64_t where[MW_WHERE_COUNT];
+    double begin;
+} pieces_query;
+
+/* Write the cells of an answer; returns false if there is none. */
+typedef bool pieces_row(const pieces_query *q, const void *self, const double point[2],
+                        const service_answer *answer, text *out);
+
+/* Read the mesh operands[0] and distribute it, with the field of `field` unless that is NULL.
+ * Returns 0, or an exit code after a complaint. Release it in both cases. */
+int pieces_query_open(pieces_query *q, service *s, const pieces_settings *settings,
+                      const char *const *operands, const mesh_field_choice *field);
+void pieces_query_release(pieces_query *q);
+
+/* Write the header and the rows of all points. Arguments as point_query_run. */
+int pieces_query_run(pieces_query *q, const char *points, const char *const *answers,
+                     const char *kinds, pieces_row *row, const void *self);
+
+#endif
