@@ -7,12 +7,10 @@
 #include "cli/frame/signals.h"
 #include "cli/frame/spelling.h"
 #include "cli/version.h"
+#include "src/base/posix.h"
 
-#include <fcntl.h>
-#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 static const command *const commands[] = {
     &info_command,    &check_command, &triangulate_command, &locate_command,   &sample_command,

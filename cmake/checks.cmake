@@ -74,9 +74,14 @@ add_test(NAME citations COMMAND ${PROJECT_SOURCE_DIR}/tools/check_citations)
 add_test(NAME links COMMAND ${PROJECT_SOURCE_DIR}/tools/check_links)
 add_test(NAME columns COMMAND ${PROJECT_SOURCE_DIR}/tools/check_columns)
 add_test(NAME names COMMAND ${PROJECT_SOURCE_DIR}/tools/check_names)
+add_test(NAME recipes COMMAND ${PROJECT_SOURCE_DIR}/tools/check_recipes)
 add_test(NAME symbols COMMAND ${PROJECT_SOURCE_DIR}/tools/check_symbols
   ${PROJECT_SOURCE_DIR}/include
   $<TARGET_FILE:meshwalk_shared> $<TARGET_FILE:meshwalk_static>)
+if(MW_BUILD_CLI)
+  add_test(NAME posix COMMAND ${CMAKE_COMMAND} -E env CC=${CMAKE_C_COMPILER}
+    ${PROJECT_SOURCE_DIR}/tools/check_posix ${PROJECT_BINARY_DIR})
+endif()
 find_program(ABIDIFF abidiff)
 if(ABIDIFF)
   add_test(NAME abi_self_test COMMAND ${PROJECT_SOURCE_DIR}/tools/test_check_abi)
@@ -92,6 +97,8 @@ set_tests_properties(fast_math PROPERTIES PASS_REGULAR_EXPRESSION
 if(MW_BUILD_CLI)
   add_subdirectory(${PROJECT_SOURCE_DIR}/web/test ${PROJECT_BINARY_DIR}/web/test)
   add_test(NAME install COMMAND ${PROJECT_SOURCE_DIR}/tools/check_install ${PROJECT_BINARY_DIR}
+    ${CMAKE_C_COMPILER})
+  add_test(NAME upgrade COMMAND ${PROJECT_SOURCE_DIR}/tools/check_upgrade ${PROJECT_BINARY_DIR}
     ${CMAKE_C_COMPILER})
   add_test(NAME strangers COMMAND ${PROJECT_SOURCE_DIR}/tools/check_strangers ${PROJECT_BINARY_DIR})
 endif()

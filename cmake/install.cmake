@@ -2,16 +2,17 @@
 # program and its manual pages are installed by cli/. Only a top-level build installs.
 include(CMakePackageConfigHelpers)
 
-set_target_properties(meshwalk_shared PROPERTIES EXPORT_NAME meshwalk)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/meshwalk)
 
 # Two export sets: users of the shared library need the development files of neither zlib nor
 # Jansson.
-install(TARGETS meshwalk_shared EXPORT meshwalkSharedTargets)
 install(TARGETS meshwalk_static EXPORT meshwalkStaticTargets)
-foreach(kind Shared Static)
-  install(EXPORT meshwalk${kind}Targets NAMESPACE meshwalk:: DESTINATION ${package_dir})
-endforeach()
+install(EXPORT meshwalkStaticTargets NAMESPACE meshwalk:: DESTINATION ${package_dir})
+if(TARGET meshwalk_shared)
+  set_target_properties(meshwalk_shared PROPERTIES EXPORT_NAME meshwalk)
+  install(TARGETS meshwalk_shared EXPORT meshwalkSharedTargets)
+  install(EXPORT meshwalkSharedTargets NAMESPACE meshwalk:: DESTINATION ${package_dir})
+endif()
 install(DIRECTORY include/meshwalk DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
   FILES_MATCHING PATTERN "*.h" PATTERN "*.def")
 
@@ -30,6 +31,10 @@ add_custom_command(OUTPUT ${man3_dir}/meshwalk-base.3
 add_custom_target(man3 ALL DEPENDS ${man3_dir}/meshwalk-base.3)
 install(DIRECTORY ${man3_dir}/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man3)
 
+set(needs_threads ON)
+if(MW_WASI)
+  set(needs_threads OFF)
+endif()
 set(needs_jansson OFF)
 if(TARGET PkgConfig::JANSSON)
   set(needs_jansson ON)

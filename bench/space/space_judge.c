@@ -1,9 +1,16 @@
 #include "bench/space/space_judge.h"
 #include "bench/space/space_engine.h"
 
+#include <float.h>
 #include <math.h>
 
+/* 113 bits, by whatever name; compilers for 32-bit ARM have no such type, and there the judge
+ * rounds as doubles do. */
+#if LDBL_MANT_DIG < 113 && defined(__SIZEOF_FLOAT128__)
 __extension__ typedef __float128 judge_quad;
+#else
+typedef long double judge_quad;
+#endif
 
 static const double *judge_corner(const space_model *m, uint32_t triangle, int k)
 {

@@ -7,11 +7,11 @@
 #include "cli/input/query_source.h"
 #include "cli/view/view_content.h"
 #include "cli/view/view_page.h"
+#include "src/base/posix.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 typedef struct view_settings {
     mesh_space_settings mesh;

@@ -151,8 +151,7 @@ static int views_prepare(visible_views *v, const visible_settings *s, const mw_l
     for (size_t i = 0; i < v->count; i++) {
         if (mw_viewpoint_init(locator, heights, &v->ends[i], &v->views[i], &error) == MW_OK)
             continue;
-        complain("%s: the viewpoint %.17g,%.17g: %s", path, v->ends[i].x, v->ends[i].y,
-                 error.message);
+        complain("%s: at %.10g,%.10g: %s", path, v->ends[i].x, v->ends[i].y, error.message);
         return END_INPUT;
     }
     return 0;

@@ -8,12 +8,12 @@
 #include "cli/frame/progress.h"
 #include "cli/input/lonlat_input.h"
 #include "cli/input/mesh_space.h"
+#include "src/base/posix.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 typedef struct walk_settings {
     mesh_space_settings mesh;

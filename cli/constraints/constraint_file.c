@@ -3,14 +3,13 @@
 #include "cli/frame/message.h"
 #include "cli/frame/progress.h"
 #include "cli/gdal/gdal_library.h"
+#include "src/base/posix.h"
 
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
-#include <sys/stat.h>
 
 static bool path_is_directory(const char *path)
 {

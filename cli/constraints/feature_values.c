@@ -1,9 +1,9 @@
 #include "cli/constraints/feature_values.h"
 #include "cli/frame/message.h"
+#include "src/base/posix.h"
 
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 static int values_fail_name(const char *path, const char *name, size_t length,
                             const char *const *names, size_t count)

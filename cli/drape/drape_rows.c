@@ -3,11 +3,11 @@
 #include "cli/frame/message.h"
 #include "cli/frame/progress.h"
 #include "cli/output/csv_row.h"
+#include "src/base/posix.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 /* A polygon, or a line: lines `first` .. `end` - 1 of the file are its rings. */
 typedef struct drape_shape {

@@ -6,9 +6,9 @@
  * data. Each picture is painted over the previous one; unchanged pixels are transparent, so they
  * take almost no space. */
 #include "cli/draw/animation.h"
+#include "src/base/posix.h"
 
 #include <string.h>
-#include <strings.h>
 
 bool animation_named(const char *path)
 {

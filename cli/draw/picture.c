@@ -1,8 +1,8 @@
 #include "cli/draw/picture.h"
 #include "cli/frame/message.h"
+#include "src/base/posix.h"
 
 #include <string.h>
-#include <strings.h>
 
 enum { SVG, PNG, PDF, UNKNOWN };
 

@@ -1,6 +1,6 @@
 #include "cli/frame/monotonic_clock.h"
-
-#include <time.h>
+#include "src/base/posix.h"
+#include "src/base/posix.h"
 
 double monotonic_seconds(void)
 {

@@ -2,13 +2,13 @@
  * second, then repaints the line a few times a second until it is told to stop. */
 #include "cli/frame/progress.h"
 #include "cli/frame/signals.h"
+#include "src/base/posix.h"
+#include "src/base/posix.h"
 
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
 #include <threads.h>
-#include <time.h>
-#include <unistd.h>
 
 #define REPAINT_NANOSECONDS 250000000L
 

@@ -1,12 +1,9 @@
 #include "cli/frame/signals.h"
+#include "src/base/posix.h"
 
-#include <dirent.h>
-#include <pthread.h>
-#include <signal.h>
 #include <stdatomic.h>
 #include <stddef.h>
 #include <stdio.h>
-#include <unistd.h>
 
 /* While this is held, no signal ends the program. */
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;

@@ -1,11 +1,11 @@
 #include "cli/gdal/gdal_crs.h"
 #include "cli/frame/message.h"
+#include "src/base/posix.h"
 
 #include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 /* --- texts ------------------------------------------------------------------------------------ */
 

@@ -1,14 +1,13 @@
 #include "cli/gdal/gdal_directory.h"
 #include "cli/frame/message.h"
 #include "cli/frame/signals.h"
+#include "src/base/posix.h"
 
-#include <dirent.h>
 #include <errno.h>
 #include <meshwalk/meshwalk.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 int gdal_directory_open(gdal_directory *d, const char *path)
 {

@@ -1,9 +1,8 @@
 #include "cli/gdal/gdal_library.h"
 #include "cli/frame/message.h"
+#include "src/base/posix.h"
 
 #ifdef MW_GDAL
-
-#include <dlfcn.h>
 
 static bool gdal_library_find(gdal_functions *gdal)
 {

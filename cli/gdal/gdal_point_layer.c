@@ -2,14 +2,13 @@
 #include "cli/frame/message.h"
 #include "cli/frame/text.h"
 #include "cli/gdal/gdal_crs.h"
+#include "src/base/posix.h"
 
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
-#include <sys/stat.h>
 
 static bool path_ends(const char *path, const char *ending)
 {
@@ -28,6 +27,15 @@ static bool path_has_vector_ending(const char *path)
     return false;
 }
 
+/* A mesh of VTK is XML as well as much that GDAL reads. */
+static bool head_is_vtk(const unsigned char *head, size_t size)
+{
+    static const char mark[] = "<VTKFile";
+    for (size_t i = 0; i + sizeof mark - 1 <= size; i++)
+        if (memcmp(head + i, mark, sizeof mark - 1) == 0) return true;
+    return false;
+}
+
 static bool head_is_vector(const unsigned char *head, size_t size)
 {
     static const char shape[] = {0, 0, 0x27, 0x0a};
@@ -37,14 +45,15 @@ static bool head_is_vector(const unsigned char *head, size_t size)
         return true;
     if (size >= 3 && memcmp(head, "\xef\xbb\xbf", 3) == 0) head += 3, size -= 3;
     while (size > 0 && strchr(" \t\r\n", *head)) head++, size--;
-    return size > 0 && (*head == '{' || *head == '<' ||
-                        (size >= 6 && strncasecmp((const char *)head, "!table", 6) == 0));
+    if (size == 0 || head_is_vtk(head, size)) return false;
+    return *head == '{' || *head == '<' ||
+           (size >= 6 && strncasecmp((const char *)head, "!table", 6) == 0);
 }
 
 bool point_layer_known(const char *path)
 {
     struct stat s;
-    unsigned char head[64];
+    unsigned char head[256];
     if (strcmp(path, "-") == 0 || stat(path, &s) != 0) return false;
     if (S_ISDIR(s.st_mode) || path_has_vector_ending(path)) return path_has_vector_ending(path);
     FILE *file = S_ISREG(s.st_mode) ? fopen(path, "rb") : NULL;

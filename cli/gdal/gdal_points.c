@@ -1,4 +1,3 @@
-#define _GNU_SOURCE /* memmem */
 #include "cli/gdal/gdal_points.h"
 #include "cli/frame/message.h"
 #include "cli/frame/text.h"

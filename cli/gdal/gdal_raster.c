@@ -3,12 +3,12 @@
 #include "cli/frame/message.h"
 #include "cli/gdal/gdal_crs.h"
 #include "cli/gdal/gdal_directory.h"
+#include "src/base/posix.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 uint32_t gdal_raster_size(raster_type type)
 {

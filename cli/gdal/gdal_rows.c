@@ -5,6 +5,7 @@
 #include "cli/gdal/gdal_crs.h"
 #include "cli/gdal/gdal_directory.h"
 #include "cli/gdal/vector_formats.h"
+#include "src/base/posix.h"
 
 #include <inttypes.h>
 #include <limits.h>
@@ -13,8 +14,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
-#include <unistd.h>
 
 bool gdal_rows_known(const char *path)
 {

@@ -1,6 +1,7 @@
 #include "cli/gdal/gdal_vertices.h"
 #include "cli/frame/message.h"
 #include "cli/gdal/gdal_point_layer.h"
+#include "src/base/posix.h"
 
 #ifdef MW_GDAL
 
@@ -8,7 +9,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 /* A value of each vertex, by its column of the layer. */
 typedef struct vertex_value {

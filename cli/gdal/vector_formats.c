@@ -1,8 +1,8 @@
 #include "cli/gdal/vector_formats.h"
+#include "src/base/posix.h"
 
 #include <stddef.h>
 #include <string.h>
-#include <strings.h>
 
 /* GeoJSON with all digits of a double. */
 #define DIGITS "SIGNIFICANT_FIGURES=17"

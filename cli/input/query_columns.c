@@ -2,9 +2,9 @@
 #include "cli/frame/files.h"
 #include "cli/frame/message.h"
 #include "cli/frame/text.h"
+#include "src/base/posix.h"
 
 #include <string.h>
-#include <strings.h>
 
 /* The columns that a set of names leads to. */
 typedef struct found_columns {

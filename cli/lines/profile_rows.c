@@ -2,11 +2,11 @@
 #include "cli/frame/message.h"
 #include "cli/frame/progress.h"
 #include "cli/output/csv_row.h"
+#include "src/base/posix.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 enum { SEGMENTS_AT_A_TIME = 1 << 16 };
 
@@ -97,6 +97,13 @@ static int profile_begin_segment(profile *p, const profile_line *line, const dou
     return profile_write_point(p, line->number, &point);
 }
 
+/* The way along a segment up to a part of it. Its whole length may be too large for a double. */
+static double profile_way(const double *ends, double length, double part)
+{
+    if (isfinite(length)) return part * length;
+    return 2 * hypot(part * (ends[2] / 2 - ends[0] / 2), part * (ends[3] / 2 - ends[1] / 2));
+}
+
 /* One piece: where it begins, if that is behind a gap, and where it ends, if that is not the end of
  * the segment. `next` begins there, or is NULL. */
 static int profile_write_piece(profile *p, profile_line *line, const double *ends, double length,
@@ -107,7 +114,7 @@ static int profile_write_piece(profile *p, profile_line *line, const double *end
     profile_point point;
     if (piece->gap) {
         point = profile_point_of(p, ends, piece, 0);
-        point.chainage = line->chainage + piece->from * length;
+        point.chainage = line->chainage + profile_way(ends, length, piece->from);
         point.triangle = piece->triangle;
         end = profile_write_point(p, line->number, &point);
     }
@@ -116,7 +123,7 @@ static int profile_write_piece(profile *p, profile_line *line, const double *end
         line->reached = point.value;
         return end;
     }
-    point.chainage = line->chainage + piece->to * length;
+    point.chainage = line->chainage + profile_way(ends, length, piece->to);
     point.triangle = next ? next->triangle : MW_NONE;
     return end ? end : profile_write_point(p, line->number, &point);
 }

@@ -2,9 +2,9 @@
 #include "cli/frame/message.h"
 #include "cli/frame/progress.h"
 #include "cli/output/csv_row.h"
+#include "src/base/posix.h"
 
 #include <string.h>
-#include <strings.h>
 
 static bool sight_pairs_has(const void *rows, const char *name)
 {

@@ -4,10 +4,10 @@
 #include "cli/frame/progress.h"
 #include "cli/frame/signals.h"
 #include "cli/output/prj_output.h"
+#include "src/base/posix.h"
 
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 enum { FORMAT_BY_ENDING = 0 };
 

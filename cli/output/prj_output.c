@@ -2,11 +2,11 @@
 #include "cli/frame/files.h"
 #include "cli/frame/message.h"
 #include "cli/gdal/gdal_crs.h"
+#include "src/base/posix.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 /* Can another file stand beside the output? */
 static bool output_has_neighbours(const char *output)

@@ -77,24 +77,20 @@ static int raster_mesh_locate(raster_mesh *m, const char *path, const raster_mes
     return end;
 }
 
-/* The extent of the vertices that triangles have, and their number. */
-static int raster_mesh_measure(raster_mesh *m)
+/* The extent of the vertices that triangles have, and their number: those of the file, which lie in
+ * order. */
+static int raster_mesh_measure(raster_mesh *m, const mw_mesh_file *file)
 {
-    uint32_t v[3], n = mw_mesh_vertex_count(m->mesh);
-    double p[2];
-    uint8_t *used = calloc((size_t)n + 1, 1);
+    uint8_t *used = calloc(file->point_count + 1, 1);
     if (!used) return fail_memory();
-    for (uint32_t t = 0; t < mw_mesh_triangle_count(m->mesh); t++) {
-        mw_mesh_triangle(m->mesh, t, v);
-        for (int k = 0; k < 3; k++) used[v[k]] = 1;
-    }
+    for (size_t i = 0; i < 3 * file->triangle_count; i++) used[file->triangles[i]] = 1;
     for (int k = 0; k < 4; k++) m->extent[k] = k < 2 ? (double)INFINITY : -(double)INFINITY;
-    for (uint32_t i = 0; i < n; i++) {
+    for (size_t i = 0; i < file->point_count; i++) {
+        const double *p = file->points + 3 * i;
         if (!used[i]) continue;
-        mw_mesh_vertex(m->mesh, i, p);
         for (int k = 0; k < 2; k++) {
-            m->extent[k] = fmin(m->extent[k], p[k]);
-            m->extent[k + 2] = fmax(m->extent[k + 2], p[k]);
+            m->extent[k] = p[k] < m->extent[k] ? p[k] : m->extent[k];
+            m->extent[k + 2] = p[k] > m->extent[k + 2] ? p[k] : m->extent[k + 2];
         }
         m->vertices++;
     }
@@ -150,7 +146,7 @@ int raster_mesh_read(raster_mesh *m, const char *path, const raster_mesh_setting
         end = s->over_time ? raster_mesh_leave_values(m, &file)
                            : raster_mesh_take_values(m, path, &file, s);
     if (end == 0 && s->max_edge > 0) end = raster_mesh_peel(m, path, &file, s);
+    if (end == 0) end = raster_mesh_measure(m, &file);
     mw_mesh_file_release(&file);
-    if (end == 0) end = raster_mesh_locate(m, path, s);
-    return end ? end : raster_mesh_measure(m);
+    return end ? end : raster_mesh_locate(m, path, s);
 }

@@ -6,11 +6,11 @@
 #include "cli/gdal/gdal_raster.h"
 #include "cli/gdal/mesh_crs.h"
 #include "cli/remap/seam_cut.h"
+#include "src/base/posix.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 void remap_cells_release(remap_cells *c)
 {

@@ -7,10 +7,10 @@
 #include "cli/gdal/gdal_raster.h"
 #include "cli/gdal/mesh_crs.h"
 #include "cli/remap/remap_cells.h"
+#include "src/base/posix.h"
 
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 /* A fraction of an area below this counts as rounding error. */
 #define REMAP_NOTHING 1e-9

@@ -1,8 +1,8 @@
 #include "cli/stream/query_header.h"
+#include "src/base/posix.h"
 
 #include <stdio.h>
 #include <string.h>
-#include <strings.h>
 
 /* The names that are taken. */
 typedef struct taken_names {

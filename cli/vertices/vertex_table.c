@@ -3,12 +3,12 @@
 #include "cli/frame/message.h"
 #include "cli/frame/progress.h"
 #include "cli/frame/text.h"
+#include "src/base/posix.h"
 
 #include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 void vertex_table_release(vertex_table *v)
 {

@@ -1,12 +1,10 @@
 #include "base/base.h"
+#include "base/posix.h"
 
 #include <meshwalk/version.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
-#if __has_include(<sys/mman.h>)
-#include <sys/mman.h>
-#endif
 
 const char *mw_status_text(mw_status status)
 {
@@ -61,7 +59,7 @@ mw_status mw__fail_memory(mw_error *error)
     return mw__fail(error, MW_ERROR_MEMORY, "out of memory");
 }
 
-void *mw__alloc(size_t count, size_t size)
+void *mw__alloc(uint64_t count, size_t size)
 {
     return mw__realloc(NULL, count, size);
 }
@@ -75,7 +73,7 @@ static void *alloc_aligned(size_t alignment, size_t bytes)
 /* Queries read arrays at random positions: with pages of 4 KiB nearly every miss of the cache is
  * one of the table of pages, too. So an array that is large enough asks for large pages. The
  * request is only advice: a system without large pages ignores it. */
-void *mw__alloc_lines(size_t count, size_t size)
+void *mw__alloc_lines(uint64_t count, size_t size)
 {
     enum { LINE = 64, PAGE = 1 << 21, PAGES = 2 };
     size_t bytes;
@@ -88,12 +86,13 @@ void *mw__alloc_lines(size_t count, size_t size)
     return lines;
 }
 
-void *mw__calloc(size_t count, size_t size)
+void *mw__calloc(uint64_t count, size_t size)
 {
-    return calloc(count ? count : 1, size);
+    if (count > SIZE_MAX) return NULL;
+    return calloc(count ? (size_t)count : 1, size);
 }
 
-void *mw__realloc(void *old, size_t count, size_t size)
+void *mw__realloc(void *old, uint64_t count, size_t size)
 {
     size_t bytes;
     if (__builtin_mul_overflow(count, size, &bytes)) return NULL;

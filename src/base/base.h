@@ -23,14 +23,14 @@ mw_status mw__fail_memory(mw_error *error);
 mw_status mw__fail_at(mw_error *error, int64_t triangle, int64_t vertex, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 
-/* Arrays: count * size checked for overflow; NULL on failure; count 0 gives a valid pointer.
- * Release with free(). */
-void *mw__alloc(size_t count, size_t size);
-void *mw__calloc(size_t count, size_t size);
+/* Arrays: count * size checked for overflow, on machines of 32 bits too, where counts of 64 are
+ * larger than any array; NULL on failure; count 0 gives a valid pointer. Release with free(). */
+void *mw__alloc(uint64_t count, size_t size);
+void *mw__calloc(uint64_t count, size_t size);
 /* As mw__alloc, but begins with a cache line, so that records of a power of two of bytes do not
  * straddle two. */
-void *mw__alloc_lines(size_t count, size_t size);
-void *mw__realloc(void *old, size_t count, size_t size);
+void *mw__alloc_lines(uint64_t count, size_t size);
+void *mw__realloc(void *old, uint64_t count, size_t size);
 
 static inline void mw__swap(uint32_t *a, uint32_t *b)
 {

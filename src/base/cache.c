@@ -2,8 +2,7 @@
  *
  * Asked each time: the library keeps no state of its own, and the C library knows the answer. */
 #include "base/cache.h"
-
-#include <unistd.h>
+#include "base/posix.h"
 
 enum {
     SECOND = 1 << 19, /* assumed where the system does not say */

@@ -2,7 +2,7 @@
 #ifndef MW_SRC_BASE_CLOCK_H
 #define MW_SRC_BASE_CLOCK_H
 
-#include <time.h>
+#include "base/posix.h"
 
 /* Seconds of a clock that is never set: only differences mean something. */
 static inline double mw__seconds(void)

@@ -2,10 +2,10 @@
 #ifndef MW_SRC_BASE_COORDINATES_H
 #define MW_SRC_BASE_COORDINATES_H
 
+#include "base/posix.h"
 #include "base/random.h"
 
 #include <string.h>
-#include <time.h>
 
 /* Differs from run to run, and from table to table, so that no points can be made to collide. */
 static inline uint64_t mw__coordinates_seed(const void *table)

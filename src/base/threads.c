@@ -1,14 +1,7 @@
 /* threads.c - threads made for one call. */
 #define _GNU_SOURCE /* sched_getaffinity */
 #include "base/threads.h"
-
-#include <pthread.h>
-#include <signal.h>
-#include <unistd.h>
-
-#ifdef __linux__
-#include <sched.h>
-#endif
+#include "base/posix.h"
 
 /* Processors that this process may use. A container or taskset(1) may allow fewer than there are.
  */

@@ -5,9 +5,9 @@
  * and a chunk knows nothing of the one before it. */
 #include "batch/batch.h"
 
+#include "base/posix.h"
 #include "base/random.h"
 
-#include <pthread.h>
 #include <stdlib.h>
 
 enum {

@@ -1,8 +1,8 @@
 /* borrowed_check.c - are the caller's numbers right? */
 #include "borrow/borrowed.h"
+#include "base/posix.h"
 
 #include <inttypes.h>
-#include <pthread.h>
 
 typedef struct borrowed_scan {
     const mw_borrowed *mesh;

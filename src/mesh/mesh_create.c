@@ -1,11 +1,10 @@
 /* mesh_create.c - makes a planar mesh from arrays: copies, orientation, neighbours. */
 #include "base/options.h"
+#include "base/posix.h"
 #include "mesh/arrays.h"
 #include "mesh/connect.h"
 #include "mesh/layout.h"
 #include "mesh/mesh_create.h"
-
-#include <pthread.h>
 
 typedef struct mesh_filling {
     mw_mesh *mesh;

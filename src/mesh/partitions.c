@@ -7,9 +7,9 @@
  * and all partitions before it are sorted. */
 #include "mesh/partitions.h"
 
+#include "base/posix.h"
 #include "mesh/partition_links.h"
 
-#include <pthread.h>
 #include <stdlib.h>
 
 /* The strays for a partition. Each is stored in the buckets, in place of a triangle that has been

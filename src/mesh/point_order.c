@@ -4,8 +4,8 @@
  * cache. Points that crowd in one cell of the curve are sorted again, along a curve of their
  * own. */
 #include "mesh/point_order.h"
+#include "base/posix.h"
 
-#include <pthread.h>
 #include <stdlib.h>
 
 enum {

@@ -10,7 +10,7 @@ bool mw__sparse_rows_init(mw_sparse_rows *s, uint32_t rows, uint32_t columns, ui
 {
     *s = (mw_sparse_rows){.rows = rows,
                           .columns = columns,
-                          .first = mw__calloc((size_t)rows + 1, sizeof *s->first),
+                          .first = mw__calloc((uint64_t)rows + 1, sizeof *s->first),
                           .column = mw__alloc(entries, sizeof *s->column),
                           .weight = mw__alloc(entries, sizeof *s->weight)};
     return s->first && s->column && s->weight;
@@ -74,8 +74,8 @@ static void rows_measure(const mw_sparse_rows *s, mw_operator *o)
 static bool rows_allocate(mw_operator *o)
 {
     const bool narrow = o->widest <= MW_NARROW_ROW;
-    const size_t room = narrow ? MW_NARROW_ROW * (size_t)o->rows : o->entries;
-    if (!narrow) o->first = mw__alloc((size_t)o->rows + 1, sizeof *o->first);
+    const uint64_t room = narrow ? MW_NARROW_ROW * (uint64_t)o->rows : o->entries;
+    if (!narrow) o->first = mw__alloc((uint64_t)o->rows + 1, sizeof *o->first);
     o->column = mw__alloc(room, sizeof *o->column);
     o->weight = mw__alloc(room, sizeof *o->weight);
     return (narrow || o->first) && o->column && o->weight;

@@ -174,7 +174,7 @@ static void remap_divide(double *fraction, const double *area, uint32_t n)
 static bool remap_sort(const remap_entry *from, remap_entry *to, size_t n, bool by_row,
                        uint32_t keys)
 {
-    size_t *first = mw__calloc((size_t)keys + 1, sizeof *first);
+    size_t *first = mw__calloc((uint64_t)keys + 1, sizeof *first);
     if (!first) return false;
     for (size_t i = 0; i < n; i++) first[(by_row ? from[i].row : from[i].column) + 1]++;
     for (uint32_t k = 0; k < keys; k++) first[k + 1] += first[k];

@@ -44,7 +44,7 @@ bool mw__rank_lists_create(mw_rank_lists *lists, mw_rank_entries *e, uint32_t ro
     *lists = (mw_rank_lists){0};
     if (e->count == 0) return true;
     if (e->count >= MW_NONE || !entries_sort(e)) return false;
-    lists->first = mw__calloc((size_t)rows + 1, sizeof *lists->first);
+    lists->first = mw__calloc((uint64_t)rows + 1, sizeof *lists->first);
     lists->item = mw__alloc(e->count, sizeof *lists->item);
     if (!lists->first || !lists->item) return false;
     uint32_t made = 0, row = 0;

@@ -7,8 +7,6 @@
 #include "predicates/big.h"
 #include "predicates/expansion.h"
 
-__extension__ typedef __int128 angle_wide;
-
 /* Expansions are exact in the range that incircle has: products of four differences here too, eight
  * of them. */
 #define LOW 0x1p-216
@@ -32,9 +30,12 @@ static arms make_arms(mw_arena *arena, mw_point a, mw_point b, mw_point c)
     return r;
 }
 
+#ifdef __SIZEOF_INT128__
+__extension__ typedef __int128 angle_wide;
+
 /* A short cut for points of a grid, where many angles are equal: all differences are integers below
  * 2^30 times one power of two, so that cross and dot products are below 2^61. False for other
- * points. */
+ * points, and where compilers have no integers of 128 bits. */
 static bool to_integers(const arms *r, double scale, int64_t v[4])
 {
     const mw_expansion *all[4] = {&r->x[0], &r->y[0], &r->x[1], &r->y[1]};
@@ -68,6 +69,13 @@ static bool angle_on_grid(const arms *r, const arms *s, int *sign)
     *sign = (left > right) - (left < right);
     return true;
 }
+#else
+static bool angle_on_grid(const arms *r, const arms *s, int *sign)
+{
+    (void)r, (void)s, (void)sign;
+    return false;
+}
+#endif
 
 static mw_expansion arms_cross(mw_arena *arena, const arms *r)
 {

@@ -1,10 +1,10 @@
 #include "predicates/big.h"
 
+#include "base/wide.h"
+
 #include <float.h>
 #include <math.h>
 #include <string.h>
-
-__extension__ typedef unsigned __int128 big_wide;
 
 /* |v| = mantissa * 2^exponent. v is finite. */
 static uint64_t mantissa_of(double v, int *exponent)
@@ -52,10 +52,10 @@ static void big_set(mw_big *r, double v, int base)
         shift = 0;
     }
     int first = shift / 64;
-    big_wide shifted = (big_wide)m << shift % 64;
+    mw_wide shifted = mw__wide_shifted(m, shift % 64);
     for (int i = 0; i < first; i++) r->limb[i] = 0;
-    r->limb[first] = (uint64_t)shifted;
-    r->limb[first + 1] = (uint64_t)(shifted >> 64);
+    r->limb[first] = shifted.low;
+    r->limb[first + 1] = shifted.high;
     r->n = first + 2;
     r->sign = signbit(v) ? -1 : 1;
     big_trim(r);
@@ -90,9 +90,9 @@ static void add_magnitude(mw_big *r, const mw_big *a, const mw_big *b)
     int n = a->n, shorter = b->n;
     uint64_t carry = 0;
     for (int i = 0; i < n; i++) {
-        big_wide sum = (big_wide)a->limb[i] + (i < shorter ? b->limb[i] : 0) + carry;
-        r->limb[i] = (uint64_t)sum;
-        carry = (uint64_t)(sum >> 64);
+        uint64_t sum;
+        bool over = __builtin_add_overflow(a->limb[i], i < shorter ? b->limb[i] : 0, &sum);
+        carry = __builtin_add_overflow(sum, carry, &r->limb[i]) || over;
     }
     r->n = n;
     if (carry) r->limb[r->n++] = carry;
@@ -104,9 +104,9 @@ static void subtract_magnitude(mw_big *r, const mw_big *a, const mw_big *b)
     int n = a->n, shorter = b->n;
     uint64_t borrow = 0;
     for (int i = 0; i < n; i++) {
-        big_wide difference = (big_wide)a->limb[i] - (i < shorter ? b->limb[i] : 0) - borrow;
-        r->limb[i] = (uint64_t)difference;
-        borrow = (uint64_t)(difference >> 64) & 1;
+        uint64_t difference;
+        bool under = __builtin_sub_overflow(a->limb[i], i < shorter ? b->limb[i] : 0, &difference);
+        borrow = __builtin_sub_overflow(difference, borrow, &r->limb[i]) || under;
     }
     r->n = n;
 }
@@ -142,9 +142,10 @@ void mw__big_multiply(mw_big *r, const mw_big *a, const mw_big *b)
     for (int i = 0; i < a->n; i++) {
         uint64_t carry = 0;
         for (int j = 0; j < b->n; j++) {
-            big_wide sum = (big_wide)a->limb[i] * b->limb[j] + r->limb[i + j] + carry;
-            r->limb[i + j] = (uint64_t)sum;
-            carry = (uint64_t)(sum >> 64);
+            mw_wide sum = mw__wide_product(a->limb[i], b->limb[j]);
+            sum.high += __builtin_add_overflow(sum.low, r->limb[i + j], &sum.low);
+            sum.high += __builtin_add_overflow(sum.low, carry, &r->limb[i + j]);
+            carry = sum.high;
         }
         r->limb[i + b->n] = carry;
     }

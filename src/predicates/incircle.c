@@ -4,9 +4,6 @@
 #include "predicates/error_free.h"
 #include "predicates/expansion.h"
 
-__extension__ typedef __int128 incircle_wide;
-#define LOW_BITS (((incircle_wide)1 << 42) - 1)
-
 /* Expansions are exact for nonzero coordinates of magnitude 2^-216 to 2^253: products of four
  * differences are multiples of 2^(4 * (-216 - 52)) = 2^-1072, and the twelve of them are at most 12
  * * 2^(4 * 254) < 2^1020. */
@@ -22,6 +19,10 @@ typedef struct row {
     mw_expansion x, y;
 } row;
 
+#ifdef __SIZEOF_INT128__
+__extension__ typedef __int128 incircle_wide;
+#define LOW_BITS (((incircle_wide)1 << 42) - 1)
+
 /* Is x * scale, of magnitude below 2^41, an integer? */
 static bool to_integer(mw_expansion x, double scale, int64_t *n)
 {
@@ -35,7 +36,7 @@ static bool to_integer(mw_expansion x, double scale, int64_t *n)
  * together far from the origin: all differences are integers below 2^41 times one power of two.
  * Then lifts and minors are below 2^83; each lift is cut into high * 2^42 + low, and the sums of
  * high * minor and of low * minor stay below 3 * 2^125. Two (grid) to eight times as fast as
- * expansions. False for other points. */
+ * expansions. False for other points, and where compilers have no integers of 128 bits. */
 static bool incircle_on_grid(const row p[3], double *det)
 {
     double largest = 0;
@@ -61,6 +62,13 @@ static bool incircle_on_grid(const row p[3], double *det)
     *det = ((double)high * 0x1p42 + (double)low) * unit * unit * unit * unit;
     return true;
 }
+#else
+static bool incircle_on_grid(const row p[3], double *det)
+{
+    (void)p, (void)det;
+    return false;
+}
+#endif
 
 static mw_expansion expansion_term(mw_arena *arena, const row *p, const row *q, const row *r)
 {

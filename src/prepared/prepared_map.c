@@ -1,17 +1,14 @@
 /* prepared_map.c - prepared files are mapped: read when they are needed, and shared by all
  * processes that map them. */
 #include "base/options.h"
+#include "base/posix.h"
 #include "io/text/descriptor.h"
 #include "io/text/system_error.h"
 #include "prepared/prepared.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/mman.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 /* Map an open file; *bytes is NULL on failure, and for an empty file. */
 static mw_status file_map(int fd, const char *path, void **bytes, size_t *size, mw_error *error)

@@ -4,11 +4,10 @@
  * random numbers. So answers and counters do not depend on the threads. If walks race, the races
  * use the threads. */
 #include "base/job.h"
+#include "base/posix.h"
 #include "base/random.h"
 #include "probe/plane_walk.h"
 #include "probe/ray.h"
-
-#include <pthread.h>
 
 enum { CHUNK = 1 << 12 }; /* probes that one thread takes at a time */
 

@@ -4,11 +4,10 @@
  *
  * Walk i is the same in any thread. So walks one after the other always find the same triangle. In
  * a race the answer depends on the fastest walk. With one thread, walks run one after the other. */
+#include "base/posix.h"
 #include "base/random.h"
 #include "base/threads.h"
 #include "probe/plane_walk.h"
-
-#include <pthread.h>
 
 uint32_t mw__probe_search_from(const mw_probe_search *search, uint64_t i, uint32_t first,
                                const _Atomic uint32_t *found, mw_probe_counters *work,

@@ -29,6 +29,8 @@ typedef struct segment_batch {
     segments_chunk *chunk; /* [chunk] */
     size_t *offset;        /* at i + 1: the number of pieces of segment i, later their end */
     mw_segment_piece *piece;
+    bool in_order;      /* one thread answers chunk after chunk: pieces are appended at once */
+    size_t count, room; /* of pieces, then */
     mw_job *job;
     atomic_bool no_memory;
 } segment_batch;
@@ -204,6 +206,41 @@ static bool chunk_join(segments_chunk *chunk, const segments_follower *lanes, ui
     return true;
 }
 
+/* Room for more pieces; `done` segments have theirs then. Room for those of all segments, if the
+ * others have as many each, so that they need not be copied again. */
+static bool batch_make_room(segment_batch *b, size_t more, size_t done)
+{
+    const size_t wanted = b->count + more, least = wanted + wanted / 2;
+    const double guess = 1.05 * (double)wanted / (double)done * (double)b->n,
+                 most = 16 * (double)wanted; /* the others may be shorter */
+    if (wanted <= b->room) return true;
+    size_t room = guess < (double)least ? least : (size_t)(guess < most ? guess : most);
+    mw_segment_piece *piece = mw__alloc_lines(room, sizeof *piece);
+    if (!piece && room > least) piece = mw__alloc_lines(room = least, sizeof *piece);
+    if (!piece) return false;
+    if (b->count) memcpy(piece, b->piece, b->count * sizeof *piece);
+    free(b->piece);
+    b->piece = piece;
+    b->room = room;
+    return true;
+}
+
+/* Append the pieces of all lanes; `done` segments have theirs then. */
+static bool batch_append(segment_batch *b, segments_chunk *chunk, const segments_follower *lanes,
+                         uint32_t count, size_t done)
+{
+    size_t all = 0;
+    for (uint32_t i = 0; i < count; i++) all += lanes[i].count;
+    if (!batch_make_room(b, all, done)) return false;
+    for (uint32_t i = 0; i < count; i++) {
+        if (lanes[i].count)
+            memcpy(b->piece + b->count, lanes[i].piece, lanes[i].count * sizeof *b->piece);
+        b->count += lanes[i].count;
+        chunk->bad += lanes[i].bad;
+    }
+    return true;
+}
+
 static void segments_answer_chunk(void *work, uint64_t number, uint32_t member)
 {
     segment_batch *b = work;
@@ -227,7 +264,9 @@ static void segments_answer_chunk(void *work, uint64_t number, uint32_t member)
                                        .end = first + size * (i + 1) / count};
     }
     followers_run(b, lanes, count);
-    if (!chunk_join(&b->chunk[number], lanes, count))
+    segments_chunk *chunk = &b->chunk[number];
+    if (!(b->in_order ? batch_append(b, chunk, lanes, count, first + size)
+                      : chunk_join(chunk, lanes, count)))
         atomic_store_explicit(&b->no_memory, true, memory_order_relaxed);
     for (uint32_t i = 0; i < count; i++) free(lanes[i].piece);
 }
@@ -245,21 +284,38 @@ static void segments_collect_chunk(void *work, uint64_t number, uint32_t member)
     chunk->piece = NULL;
 }
 
-static mw_status segments_run(segment_batch *b, mw_segment_pieces *pieces, mw_error *error)
+/* The pieces of all chunks, one after another. */
+static mw_status segments_collect(segment_batch *b, uint32_t team, size_t chunks, mw_error *error)
 {
-    size_t chunks = (b->n + BATCH_CHUNK - 1) / BATCH_CHUNK;
-    uint32_t team = mw__job_team(b->job, chunks);
-    mw__job_stage(b->job, "following segments", 0.9);
-    if (!mw__job_chunks(b->job, team, chunks, segments_answer_chunk, b) || b->no_memory)
-        return mw__fail_memory(error);
-    for (size_t i = 0; i < b->n; i++) b->offset[i + 1] += b->offset[i];
-    for (size_t i = 0; i < chunks; i++) pieces->bad_count += b->chunk[i].bad;
     b->piece = mw__alloc_lines(b->offset[b->n], sizeof *b->piece);
     if (!b->piece) return mw__fail_memory(error);
     mw__job_stage(b->job, "collecting pieces", 0.1);
     if (!mw__job_chunks(b->job, team, chunks, segments_collect_chunk, b))
         return mw__fail_memory(error);
     return MW_OK;
+}
+
+/* Give back the room that was too much. */
+static mw_status segments_fit(segment_batch *b, mw_error *error)
+{
+    mw_segment_piece *piece = b->piece ? mw__realloc(b->piece, b->count, sizeof *piece)
+                                       : mw__alloc_lines(0, sizeof *piece);
+    if (!piece) return mw__fail_memory(error);
+    b->piece = piece;
+    return MW_OK;
+}
+
+static mw_status segments_run(segment_batch *b, mw_segment_pieces *pieces, mw_error *error)
+{
+    size_t chunks = (b->n + BATCH_CHUNK - 1) / BATCH_CHUNK;
+    uint32_t team = mw__job_team(b->job, chunks);
+    b->in_order = team == 1;
+    mw__job_stage(b->job, "following segments", b->in_order ? 1 : 0.9);
+    if (!mw__job_chunks(b->job, team, chunks, segments_answer_chunk, b) || b->no_memory)
+        return mw__fail_memory(error);
+    for (size_t i = 0; i < b->n; i++) b->offset[i + 1] += b->offset[i];
+    for (size_t i = 0; i < chunks; i++) pieces->bad_count += b->chunk[i].bad;
+    return b->in_order ? segments_fit(b, error) : segments_collect(b, team, chunks, error);
 }
 
 static mw_status segments_check(const mw_locator *locator, const double *segments, size_t n,

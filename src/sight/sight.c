@@ -54,9 +54,7 @@ mw_status mw_viewpoint_init(const mw_locator *locator, const double *heights,
         sight_ground(locator, heights, &view->here, (mw_point){at[0], at[1]}, &ground);
     if (grounded == MW_NONE && !from->absolute)
         return mw__fail(error, MW_ERROR_INPUT,
-                        "the viewpoint %.17g, %.17g is above no ground: no triangle with heights "
-                        "contains it",
-                        at[0], at[1]);
+                        "the viewpoint is above no ground: no triangle with heights contains it");
     if (!sight_find_level(&line, from, grounded, ground, &level))
         return mw__fail(error, MW_ERROR_INPUT,
                         "the viewpoint lies below the ground, whose height there is %.17g", ground);

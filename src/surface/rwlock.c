@@ -6,8 +6,8 @@
  * one sees the other: the reader, which steps back, or the writer, which waits. In the same way,
  * the last reader to unlock sees the flag, or the writer sees no reader. */
 #include "surface/rwlock.h"
+#include "base/posix.h"
 
-#include <pthread.h>
 #include <stdatomic.h>
 #include <stdlib.h>
 

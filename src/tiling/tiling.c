@@ -1,9 +1,9 @@
 /* tiling.c - what a tiling is asked for, and its end. */
 #include "tiling/tiling.h"
 
+#include "base/posix.h"
 #include "tiling/hub_table.h"
 
-#include <pthread.h>
 #include <stdlib.h>
 
 uint32_t mw__lowest_around_vertex(const mw_tiling *tiling, uint32_t first, uint32_t v)

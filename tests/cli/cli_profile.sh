@@ -135,6 +135,11 @@ run_on $'x,y\n1,1\n2,2\n' profile --attribute name gap.off -
 refused 2 "'--attribute' is for vector"
 run profile gap.off roads.geojson --columns 1,2; refused 2 "'--columns' is for a table"
 run profile gap.off absent.csv; refused 3 'absent.csv: No such file'
+# The length of a line may be too large for a double; those up to its crossings are not.
+run_on $'x,y\n1e308,1\n-1e308,1\n' profile gap.off -; exits 0
+prints_line '^0,0,1e[+]308,4,1,.*,edge$'
+prints_line '^0,0,inf,-1e[+]308,1,,-1,end$'
+
 run profile gap.off; refused 2 ''
 run_on $'x,y\n1,1\n2,2\n' profile gap.off - -o gap.off; refused 2 'gap.off'
 printf '%s\n' OFF '4 2 0' '0 0 0' '4 0 0' '4 4 0' '3 1 0' '3 0 1 2' '3 0 1 3' >folded.off

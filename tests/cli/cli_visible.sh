@@ -57,7 +57,7 @@ prints_line '^2.5,1,1$'
 for wrong in '0,1;' ';0,1' '0,1,2,' '0,1,2,3' '0' '0,1 8,1' 'nan,1'; do
     run visible ridge.off --from "$wrong" --to sites.csv; refused 2 "'--from'"
 done
-run visible ridge.off --from '0,1;20,1' --to sites.csv; refused 3 'viewpoint 20,1: .*no ground'
+run visible ridge.off --from '0,1;20,1' --to sites.csv; refused 3 'at 20,1: the viewpoint is above no ground'
 
 # Pairs: from the first to the last point of each line.
 cat >pairs.geojson <<'END'

@@ -75,6 +75,8 @@ static void test_calendars(void **state)
     expect_times("gregorian_noleap", "noleap", "0001-12-31_23:59:59", "0002-01-01_00:00:01",
                  2 / 86400.0);
     expect_times("360_day", "360_day", "2000-02-28_00:00:00", "2001-03-01_00:00:00", 363);
+    expect_times("360_day", "360_day", "2000-02-30_00:00:00", "2000-12-30_00:00:00", 300);
+    expect_times(NULL, plain, "2000-02-29_00:00:00", "2000-12-31_00:00:00", 306);
     files_clear();
 }
 
@@ -98,6 +100,10 @@ static void test_refused(void **state)
         expect_refused(NULL, "2000-01-01_00:00:00", wrong[k], "variable xtime: step 1: '");
     expect_refused("mayan", "2000-01-01_00:00:00", "2000-01-02_00:00:00",
                    "config_calendar_type 'mayan' is not known");
+    expect_refused(NULL, "2000-01-02_00:00:00", "2001-02-29_00:00:00",
+                   "step 1: there is no day '2001-02-29' in its calendar");
+    expect_refused("noleap", "2000-01-02_00:00:00", "2000-02-29_00:00:00", "no day '2000-02-29'");
+    expect_refused("360_day", "2000-01-02_00:00:00", "2000-12-31_00:00:00", "no day '2000-12-31'");
     expect_refused(NULL, "2000-01-02_00:00:00", "2000-01-01_00:00:00",
                    "variable xtime: times do not increase");
     files_clear();

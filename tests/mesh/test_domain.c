@@ -5,6 +5,7 @@
 #include <setjmp.h>
 #include <cmocka.h>
 
+#include <gmp.h>
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
@@ -488,9 +489,22 @@ static void test_hole_numbers(void **state)
     arrays_free(&a);
 }
 
-/* Stored areas of thin triangles: in integers of 31 bits, where doubles round the products. */
-__extension__ typedef __int128 wide_area;
+/* Twice the area of a triangle, in integers of 33 bits, cut to a double. */
+static double exact_area(const int64_t p[6])
+{
+    mpz_t left, right, factor;
+    mpz_init_set_d(left, (double)(p[2] - p[0]));
+    mpz_init_set_d(right, (double)(p[3] - p[1]));
+    mpz_init_set_d(factor, (double)(p[5] - p[1]));
+    mpz_mul(left, left, factor);
+    mpz_set_d(factor, (double)(p[4] - p[0]));
+    mpz_submul(left, right, factor);
+    double area = mpz_get_d(left);
+    mpz_clears(left, right, factor, NULL);
+    return area;
+}
 
+/* Stored areas of thin triangles, where doubles round the products. */
 static void test_areas_of_thin_triangles(void **state)
 {
     (void)state;
@@ -502,10 +516,8 @@ static void test_areas_of_thin_triangles(void **state)
         for (int i = 0; i < 2; i++)
             p[4 + i] =
                 p[i] + (int64_t)(along * (double)(p[2 + i] - p[i])) + mw__random_below(&random, 3);
-        wide_area exact =
-            (wide_area)(p[2] - p[0]) * (p[5] - p[1]) - (wide_area)(p[3] - p[1]) * (p[4] - p[0]);
-        if (exact <= 0) continue;
-        double want = (double)exact;
+        double want = exact_area(p);
+        if (want <= 0) continue;
         arrays a = arrays_make(3, 1);
         for (int i = 0; i < 3; i++) arrays_point(&a, (double)p[2 * i], (double)p[2 * i + 1]);
         arrays_triangle(&a, 0, 1, 2);

@@ -13,9 +13,6 @@
 #define realpath(path, resolved) strdup(path)
 #define fchmod(descriptor, mode) ((void)0)
 
-/* The GNU function, which returns the text. */
-#define strerror_r(number, text, size) ((void)(text), strerror(number))
-
 /* Descriptors 0 to 2 are taken from the beginning, so none is ever duplicated. */
 #define F_DUPFD_CLOEXEC 1030
 

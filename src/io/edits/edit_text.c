@@ -2,6 +2,7 @@
  * carries out. */
 #include "io/edits/edit_text.h"
 #include "base/options.h"
+#include "base/posix.h"
 #include "io/text/delimited.h"
 #include "io/text/number_text.h"
 
@@ -11,7 +12,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 /* Fields with longer names are written as numbers: MW_EDIT_TEXT_SIZE has room for no more. */
 enum { NAME_LIMIT = 40 };

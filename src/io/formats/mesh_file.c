@@ -1,5 +1,6 @@
 /* Meshes in files: choosing the reader or the writer. */
 #include "base/options.h"
+#include "base/posix.h"
 #include "io/mesh/mesh_builder.h"
 #include "io/formats/mesh_formats.h"
 #include "io/layouts/layout_find.h"
@@ -11,7 +12,6 @@
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 /* Read from a source. Its contents decide the format, or else its name. */
 static mw_status mesh_read_source(mw_source *source, mw_mesh_builder *builder, mw_error *error)

@@ -1,5 +1,6 @@
 #include "io/formats/mesh_formats.h"
 
+#include "base/posix.h"
 #include "io/grid/grid_readers.h"
 #include "io/grid/grid_writers.h"
 #include "io/grid/selafin.h"
@@ -11,7 +12,6 @@
 
 #include <stdio.h>
 #include <string.h>
-#include <strings.h>
 
 /* [ST][C][N][4][n]OFF */
 static bool is_off(const char *word)

@@ -259,7 +259,7 @@ static mw_status npz_take_column(const npz_file *z, const npz_array *a, size_t c
         for (size_t v = 0; !status && v < a->rows; v++) values[v] = npy_at(a, v, column);
         return status;
     }
-    values = mw__alloc((size_t)a->rows, sizeof *values);
+    values = mw__alloc((uint64_t)a->rows, sizeof *values);
     if (!values) return mw__fail_memory(error);
     for (size_t f = 0; f < a->rows; f++) values[f] = npy_at(a, f, column);
     mw_status status = mw__build_face_field(z->builder, name, values, error);

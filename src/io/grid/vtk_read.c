@@ -2,6 +2,7 @@
  * triangles, quadrilaterals, pixels, polygons and strips; vertices, lines and volumes are passed
  * over. Values of points become fields, those of cells triangle fields; a vector becomes NAME_0,
  * NAME_1, ... */
+#include "base/posix.h"
 #include "io/grid/cell_builder.h"
 #include "io/grid/grid_readers.h"
 #include "io/grid/value_source.h"
@@ -9,7 +10,6 @@
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 typedef struct vtk_mesh {
     mw_value_source values;

@@ -147,7 +147,7 @@ static mw_status corner_read_all(corner_reading *reading, mw_job *job, mw_error 
     if (at_once == 0) at_once = 1;
     if (at_once > table->face_count) at_once = table->face_count; /* 0: of whatever width */
     reading->block = mw__alloc(at_once * table->width, sizeof *reading->block);
-    table->corners = mw__alloc(table->face_count * table->width, sizeof *table->corners);
+    table->corners = mw__alloc((uint64_t)table->face_count * table->width, sizeof *table->corners);
     if (!reading->block || !table->corners) return mw__fail_memory(error);
     mw_status status = MW_OK;
     for (size_t from = 0; from < table->face_count && !status; from += at_once) {

@@ -48,7 +48,7 @@ static mw_status netcdf_mesh_points(const mw_netcdf *file, const mw_layout *layo
                         mw__netcdf_name(file), MW_MAX_VERTICES);
     mw_status status = mw__netcdf_check_size(file, layout->x, error);
     if (status) return status;
-    double *points = mw__calloc(3 * count, sizeof *points);
+    double *points = mw__calloc(count, 3 * sizeof *points);
     if (!points) return mw__fail_memory(error);
     builder->file->points = points;
     for (size_t k = 0; k < 3 && !status; k++) {

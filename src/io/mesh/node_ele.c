@@ -7,6 +7,7 @@
  * top, which other programs skip, names them here, and an attribute called z is taken as the
  * height. */
 #include "io/mesh/node_ele.h"
+#include "base/posix.h"
 #include "io/mesh/mesh_readers.h"
 #include "io/mesh/mesh_writers.h"
 #include "io/text/counted_rows.h"
@@ -17,7 +18,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 static const char names_mark[] = "# attributes:";
 

@@ -1,6 +1,7 @@
 /* STL, as text ("solid ... facet ... vertex x y z ...") and binary (80 bytes, a count, 50 bytes
  * a triangle of single precision numbers). Corners with equal coordinates become one vertex. */
 #define _DEFAULT_SOURCE /* strncasecmp */
+#include "base/posix.h"
 #include "io/mesh/mesh_readers.h"
 #include "io/mesh/mesh_writers.h"
 #include "io/mesh/weld.h"
@@ -11,7 +12,6 @@
 #include <inttypes.h>
 #include <math.h>
 #include <string.h>
-#include <strings.h>
 
 enum { HEADER = 80, FACET = 50, HEAD = 1024 };
 

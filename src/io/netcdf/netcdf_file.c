@@ -1,5 +1,6 @@
 #include "io/netcdf/netcdf_file.h"
 
+#include "base/posix.h"
 #include "io/netcdf/netcdf_library.h"
 #include "io/netcdf/rehearsal.h"
 #include "io/text/byte_source.h"
@@ -10,7 +11,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 /* Longest text of an attribute that is taken; a CRS as WKT is the longest of use. */
 enum { TEXT_LIMIT = 1 << 16 };

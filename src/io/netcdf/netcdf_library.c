@@ -1,9 +1,8 @@
 #include "io/netcdf/netcdf_library.h"
+#include "base/posix.h"
 
 #include <meshwalk/io.h>
 
-#include <dlfcn.h>
-#include <pthread.h>
 #include <stdio.h>
 
 /* Releases of netCDF 4 since 2015, and those to come; each has its number in the name. */

@@ -1,4 +1,5 @@
 #include "io/netcdf/rehearsal.h"
+#include "base/posix.h"
 
 #ifdef __wasi__ /* no processes, and no libnetcdf */
 
@@ -19,14 +20,7 @@ bool mw__rehearsal_end(mw_rehearsal *r)
 #else
 
 #include <errno.h>
-#include <fcntl.h>
-#include <poll.h>
-#include <signal.h>
 #include <stddef.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <time.h>
-#include <unistd.h>
 
 /* Seconds of processor time that a child may use; and seconds on the clock that it may be idle. */
 enum { PROCESSOR_SECONDS = 5, IDLE_SECONDS = 3 };

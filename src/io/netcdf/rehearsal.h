@@ -3,8 +3,9 @@
 #ifndef MW_SRC_IO_NETCDF_REHEARSAL_H
 #define MW_SRC_IO_NETCDF_REHEARSAL_H
 
+#include "base/posix.h"
+
 #include <stdbool.h>
-#include <sys/types.h>
 
 /* A rehearsal that has begun. */
 typedef struct mw_rehearsal {

@@ -7,6 +7,7 @@
  * skipped. */
 #include "io/points/las.h"
 
+#include "base/posix.h"
 #include "io/points/las_trailer.h"
 
 #include "io/text/byte_order.h"
@@ -17,7 +18,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 enum { HEADER = 227, HEADER_1_4 = 375, VLR_HEADER = 54, LASZIP_RECORD = 22204 };
 enum { WKT_RECORD = 2112, GEO_KEYS_RECORD = 34735 };

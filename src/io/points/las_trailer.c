@@ -1,13 +1,12 @@
 #include "io/points/las_trailer.h"
 
+#include "base/posix.h"
 #include "io/text/byte_order.h"
 #include "io/text/crs_text.h"
 #include "io/text/descriptor.h"
 
-#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 #include <zlib.h>
 
 enum { EVLR_HEADER = 60, MOST_RECORDS = 1000, WKT_RECORD = 2112 };

@@ -1,6 +1,7 @@
 /* Points from text: which columns are read, and the rows. */
 #include "io/points/point_table.h"
 
+#include "base/posix.h"
 #include "io/points/table_header.h"
 #include "io/text/delimited.h"
 #include "io/text/number_text.h"
@@ -10,7 +11,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 enum { UNUSED = 0xffff }; /* a column that is not read */
 

@@ -1,4 +1,5 @@
 #include "io/points/table_header.h"
+#include "base/posix.h"
 #include "io/points/axis_names.h"
 #include "io/points/row_texts.h"
 #include "io/text/delimited.h"
@@ -7,7 +8,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 void mw__table_header_release(mw_table_header *c)
 {

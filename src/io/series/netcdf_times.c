@@ -1,5 +1,6 @@
 #include "io/series/netcdf_times.h"
 
+#include "base/posix.h"
 #include "io/netcdf/netcdf_values.h"
 #include "io/series/time_dates.h"
 #include "io/series/time_texts.h"
@@ -7,7 +8,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 /* Names of time axes, of any case. */
 static bool netcdf_times_named(const char *name)

@@ -3,6 +3,7 @@
  * whether it is active, and the values) and as bytes (the same as numbers of cards). A file has one
  * dataset; its values belong to the faces if the name of the file contains "_els". A vector becomes
  * two fields. */
+#include "base/posix.h"
 #include "io/grid/value_source.h"
 #include "io/series/step_series.h"
 #include "io/text/number_text.h"
@@ -12,7 +13,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 typedef struct sms_data {
     mw_value_source values;

@@ -1,10 +1,10 @@
 #include "io/series/time_dates.h"
+#include "base/posix.h"
 
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <strings.h>
 
 enum { DAY = 86400 };
 
@@ -125,6 +125,14 @@ int64_t mw__date_days(const mw_date *date, mw_calendar calendar)
     const int64_t year = date->year - (date->month < 3), month = (date->month + 9) % 12;
     const int64_t leap = year >= 0 ? year / 4 - year / 100 + year / 400 : -1;
     return 365 * year + (calendar == MW_GREGORIAN ? leap : 0) + before[month] + date->day - 1;
+}
+
+bool mw__date_exists(const mw_date *date, mw_calendar calendar)
+{
+    const bool last = date->month == 12;
+    const mw_date first = {.year = date->year, .month = date->month, .day = 1},
+                  next = {.year = date->year + last, .month = last ? 1 : date->month + 1, .day = 1};
+    return date->day <= mw__date_days(&next, calendar) - mw__date_days(&first, calendar);
 }
 
 double mw__date_seconds(const mw_date *date, mw_calendar calendar)

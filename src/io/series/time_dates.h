@@ -21,6 +21,9 @@ bool mw__date_parse(const char *text, mw_date *date);
  * these. */
 bool mw__calendar_find(const char *name, mw_calendar *calendar);
 
+/* Does the month of the date have its day? */
+bool mw__date_exists(const mw_date *date, mw_calendar calendar);
+
 /* Days, and seconds, since the first of March of the year 0. */
 int64_t mw__date_days(const mw_date *date, mw_calendar calendar);
 double mw__date_seconds(const mw_date *date, mw_calendar calendar);

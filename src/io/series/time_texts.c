@@ -51,7 +51,7 @@ static mw_status time_find_calendar(const mw_netcdf *file, mw_calendar *calendar
 
 /* One row, without the blanks that follow. */
 static mw_status time_read_row(const mw_netcdf *file, const mw_netcdf_variable *texts, size_t step,
-                               mw_date *time, mw_error *error)
+                               mw_calendar calendar, mw_date *time, mw_error *error)
 {
     char row[LONGEST + 1];
     const size_t starts[] = {step, 0}, counts[] = {1, texts->lengths[1]};
@@ -61,7 +61,11 @@ static mw_status time_read_row(const mw_netcdf *file, const mw_netcdf_variable *
     row[length] = 0;
     length = strlen(row);
     while (length > 0 && row[length - 1] == ' ') row[--length] = 0;
-    if (length >= SHORTEST && mw__date_parse(row, time)) return MW_OK;
+    if (length >= SHORTEST && mw__date_parse(row, time)) {
+        if (mw__date_exists(time, calendar)) return MW_OK;
+        return mw__netcdf_fail(file, texts, error,
+                               "step %zu: there is no day '%.10s' in its calendar", step, row);
+    }
     return mw__netcdf_fail(file, texts, error,
                            "step %zu: '%.40s' is not a time such as "
                            "2014-01-01_06:00:00",
@@ -77,7 +81,7 @@ mw_status mw__time_texts_read(const mw_netcdf *file, const mw_netcdf_variable *t
     mw_status status = mw__netcdf_check_size(file, texts, error);
     if (!status) status = time_find_calendar(file, &calendar, part, error);
     for (size_t step = 0; step < part->step_count && !status; step++) {
-        status = time_read_row(file, texts, step, &time, error);
+        status = time_read_row(file, texts, step, calendar, &time, error);
         if (step == 0) {
             first = time;
             first.second = floor(first.second); /* as the unit tells it */
@@ -104,7 +108,7 @@ mw_status mw__time_texts_refine(const mw_netcdf *file, const mw_netcdf_variable 
     if (!exact) return mw__fail_memory(error);
     bool same = true;
     for (size_t step = 0; step < part->step_count && same; step++) {
-        same = time_read_row(file, texts, step, &time, NULL) == MW_OK;
+        same = time_read_row(file, texts, step, calendar, &time, NULL) == MW_OK;
         if (!same) break;
         exact[step] =
             (mw__date_seconds(&time, calendar) - mw__date_seconds(&since, calendar)) / unit;

@@ -1,19 +1,16 @@
 /* One block of the input in a buffer that is refilled from zlib (which hands plain files
  * through) or from memory. */
 #include "io/text/byte_source.h"
+#include "base/posix.h"
 #include "io/text/descriptor.h"
 #include "io/text/system_error.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <inttypes.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
-#include <sys/stat.h>
-#include <unistd.h>
 #include <zlib.h>
 
 enum { BLOCK = 1 << 18, PACKED_BLOCK = 1 << 16, MEMORY_BLOCK = 64 };

@@ -1,14 +1,11 @@
 #include "io/text/crs_text.h"
+#include "base/posix.h"
 #include "io/text/descriptor.h"
 
-#include <fcntl.h>
 #include <meshwalk/io.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 static bool crs_gap(char c)
 {

@@ -1,8 +1,8 @@
 #include "io/text/delimited.h"
+#include "base/posix.h"
 #include "io/text/number_text.h"
 
 #include <string.h>
-#include <strings.h>
 
 static bool char_is_gap(char c, char separator)
 {

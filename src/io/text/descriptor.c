@@ -1,9 +1,8 @@
 #define _GNU_SOURCE /* F_DUPFD_CLOEXEC, O_CLOEXEC */
 #include "io/text/descriptor.h"
+#include "base/posix.h"
 
 #include <errno.h>
-#include <fcntl.h>
-#include <unistd.h>
 
 int mw__descriptor_duplicate(int fd)
 {

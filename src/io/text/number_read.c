@@ -4,6 +4,7 @@
  *   - by one multiplication or division of integers where w < 2^64 and |e| <= 27,
  *   - otherwise by strtod_l in the "C" locale. */
 #define _GNU_SOURCE /* strtod_l */
+#include "base/wide.h"
 #include "io/text/number_text.h"
 
 #include <locale.h>
@@ -63,18 +64,16 @@ double mw__decimal(uint64_t digits, int exponent)
         if (digits == 0) return 0;
     }
     if (exponent >= 0) {
-        unsigned __int128 product = (unsigned __int128)digits * mw__power_of_5[exponent];
-        return (double)product * power_of_2(exponent);
+        mw_wide product = mw__wide_product(digits, mw__power_of_5[exponent]);
+        return mw__wide_double(product) * power_of_2(exponent);
     }
     /* Divide w by 5^k, both shifted up to their 64th bit: the quotient has 63 or 64 bits, and
      * its last bit may stand for all that follow when it is rounded to 53. */
     uint64_t divisor = mw__power_of_5[-exponent];
     int up = __builtin_clzll(digits), down = __builtin_clzll(divisor);
-    unsigned __int128 numerator = (unsigned __int128)(digits << up) << 63;
-    uint64_t quotient = (uint64_t)(numerator / (divisor << down));
-    /* compared modulo 2^64; the rest is below that */
-    bool rest = (uint64_t)numerator != quotient * (divisor << down);
-    return (double)(quotient | rest) * power_of_2(down - up - 63 + exponent);
+    uint64_t rest,
+        quotient = mw__wide_divide(mw__wide_shifted(digits << up, 63), divisor << down, &rest);
+    return (double)(quotient | (rest != 0)) * power_of_2(down - up - 63 + exponent);
 }
 
 static MW_INLINE bool is_digit(char c)

@@ -1,6 +1,7 @@
 /* Numbers to text: the shortest of 15, 16 and 17 significant digits that reads back as the same
  * double, laid out as printf's %g does. Doubles from 1e-10 to 1e41 are decided exactly in
  * 128-bit integers, the rest by snprintf. */
+#include "base/wide.h"
 #include "io/text/number_text.h"
 
 #include <math.h>
@@ -76,19 +77,17 @@ typedef struct scaled_number {
 
 static scaled_number decimal_scale(uint64_t m, int e, int k)
 {
-    unsigned __int128 one = 1;
     if (k >= 0) {
-        unsigned __int128 product = (unsigned __int128)m * mw__power_of_5[k];
+        mw_wide product = mw__wide_product(m, mw__power_of_5[k]);
         int shift = -(e + k);
-        if (shift <= 0) return (scaled_number){(uint64_t)(product << -shift), false, false};
-        unsigned __int128 fraction = product & ((one << shift) - 1), middle = one << (shift - 1);
-        return (scaled_number){(uint64_t)(product >> shift), fraction >= middle,
-                               fraction != 0 && fraction != middle};
+        if (shift <= 0) return (scaled_number){product.low << -shift, false, false};
+        return (scaled_number){mw__wide_right(product, shift),
+                               mw__wide_right(product, shift - 1) & 1,
+                               mw__wide_any(product, shift - 1)};
     }
     /* v >= 10^17, and then e + k > 0 */
-    unsigned __int128 numerator = (unsigned __int128)m << (e + k);
-    uint64_t divisor = mw__power_of_5[-k];
-    uint64_t whole = (uint64_t)(numerator / divisor), left = (uint64_t)(numerator % divisor);
+    uint64_t divisor = mw__power_of_5[-k], left;
+    uint64_t whole = mw__wide_divide(mw__wide_shifted(m, e + k), divisor, &left);
     return (scaled_number){whole, left > divisor / 2, left != 0}; /* 5^k is odd: no ties */
 }
 

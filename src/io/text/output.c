@@ -8,19 +8,16 @@
  * terminal, /dev/null) is written directly. */
 #define _GNU_SOURCE /* O_TMPFILE */
 #include "io/text/output.h"
+#include "base/posix.h"
 #include "base/random.h"
 #include "io/text/descriptor.h"
 #include "io/text/system_error.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <time.h>
-#include <unistd.h>
 
 enum { ROOM = 1 << 16, NAME_ATTEMPTS = 100, MAX_LINKS = 40, PATH_SIZE = 4096 };
 

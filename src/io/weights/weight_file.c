@@ -1,10 +1,10 @@
 /* weight_file.c - writes an operator; the name of the file decides the format. */
 #include "base/options.h"
+#include "base/posix.h"
 #include "io/weights/weight_rows.h"
 
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 static bool path_ends_in(const char *path, const char *ending)
 {
@@ -15,7 +15,7 @@ static bool path_ends_in(const char *path, const char *ending)
 static bool rows_copy(mw_weight_rows *rows, const mw_operator *weights)
 {
     mw_operator_describe(weights, &rows->info);
-    rows->first = mw__alloc((size_t)rows->info.rows + 1, sizeof *rows->first);
+    rows->first = mw__alloc((uint64_t)rows->info.rows + 1, sizeof *rows->first);
     rows->column = mw__alloc(rows->info.entries, sizeof *rows->column);
     rows->weight = mw__alloc(rows->info.entries, sizeof *rows->weight);
     const bool made = rows->first && rows->column && rows->weight;

@@ -6,11 +6,11 @@
 #include "triangulate/delaunay/delaunay.h"
 #include "base/options.h"
 
+#include "base/posix.h"
 #include "mesh/layout.h"
 #include "triangulate/delaunay/delaunay_collect.h"
 
 #include <limits.h>
-#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 
