@@ -28,7 +28,7 @@ _meshwalk_options() {
             echo "--nodata --columns --crs --points-crs $stream $common"
             ;;
         edit)
-            echo "--answers --heights --changes --numbers --log --constraints --undo --delaunay --skip --strict --walk"
+            echo "--as --answers --heights --changes --numbers --log --constraints --undo --delaunay --skip --strict --walk"
             echo "--start --cells --layers --descent --format --stats --json $common"
             ;;
         star) echo "--centre --lonlat --walk --start --finish --sample --cells --levels --columns $stream $common" ;;
@@ -65,7 +65,7 @@ _meshwalk_names() {
             ;;
         --help | -h) echo all ;;
         --fix) echo 'weld orient drop split all' ;;
-        --as) echo 'plane surface star' ;;
+        --as) [[ $1 == edit ]] && echo 'plane surface' || echo 'plane surface star' ;;
         --walk)
             [[ $1 == star ]] && echo 'auto stochastic forgetful barycentric orthogonal straight' &&
                 return

@@ -5,11 +5,13 @@
 #include "cli/frame/monotonic_clock.h"
 #include "cli/frame/progress.h"
 #include "cli/constraints/constraint_file.h"
+#include "cli/input/mesh_space.h"
 #include "cli/vertices/traced_constraints.h"
 #include "cli/vertices/vertex_table.h"
 #include "cli/output/mesh_output.h"
 #include "cli/stream/edit_stream.h"
 #include "cli/stream/point_query.h"
+#include "cli/stream/surface_edit_stream.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -23,6 +25,7 @@ typedef struct edit_settings {
     int delaunay, format; /* mw_delaunay_mode; a number of mesh_formats */
     int walk, start;      /* mw_walk_kind, mw_start_kind */
     int descent;          /* mw_descent */
+    int space;            /* SPACE_PLANE or SPACE_SURFACE */
     bool skip, heights, strict, stats, json;
 } edit_settings;
 
@@ -36,11 +39,23 @@ static const char *delaunay_help(int i)
                             "make it so first, and keep it so",
                             "flip no edge unless the stream asks for it"}[i];
 }
+static const char *edit_space_name(int i)
+{
+    return (const char *[]){"plane", "surface", NULL}[i];
+}
+static const char *edit_space_help(int i)
+{
+    return (const char *[]){"a mesh in the plane of x and y",
+                            "a surface in space; EDITS then has other lines, and probes"}[i];
+}
+static const choices edit_spaces = {"way to take a mesh", edit_space_name, edit_space_help};
 static const choices delaunay_choices = {"way of --delaunay", delaunay_name, delaunay_help};
 
 static const option edit_options[] = {
+    {"as", 0, OPTION_CHOICE, offsetof(edit_settings, space), "NAME",
+     "what to take MESH as (default: plane):", &edit_spaces},
     {"answers", 0, OPTION_TEXT, offsetof(edit_settings, paths[EDIT_STREAM_ANSWERS]), "FILE",
-     "write the answers to locate lines to FILE (default: -, standard output)", NULL},
+     "write the answers to locate or probe lines to FILE (default: -, standard output)", NULL},
     {"heights", 0, OPTION_FLAG, offsetof(edit_settings, heights), NULL,
      "add the column z to the answers, interpolated", NULL},
     {"changes", 0, OPTION_TEXT, offsetof(edit_settings, paths[EDIT_STREAM_CHANGES]), "FILE",
@@ -65,7 +80,9 @@ static const option edit_options[] = {
      "name lines that cannot be carried out, and go on; without it the first one ends the command",
      NULL},
     {"strict", 0, OPTION_FLAG, offsetof(edit_settings, strict), NULL,
-     "exit with 1 if a point lies in no triangle, or --skip has skipped a line", NULL},
+     "exit with 1 if a point lies in no triangle, a probe is not finite, or --skip has skipped a "
+     "line",
+     NULL},
     {"walk", 0, OPTION_CHOICE, offsetof(edit_settings, walk), "NAME",
      "how to walk to the triangle of a point (default: auto):", &point_query_walks},
     {"start", 0, OPTION_CHOICE, offsetof(edit_settings, start), "NAME",
@@ -126,12 +143,31 @@ static int edit_check_node_file(const edit_settings *s)
     return constraint_file_check_output(s->constraints, output);
 }
 
+/* Refuse options that a surface has no use for. */
+static int edit_check_surface(const edit_settings *s)
+{
+    const struct {
+        bool given;
+        const char *name;
+    } options[] = {{s->heights, "heights"},   {s->constraints, "constraints"},
+                   {s->delaunay, "delaunay"}, {s->walk, "walk"},
+                   {s->start, "start"},       {s->cells, "cells"},
+                   {s->layers, "layers"},     {s->descent, "descent"}};
+    for (size_t i = 0; i < sizeof options / sizeof *options && s->space == SPACE_SURFACE; i++) {
+        if (!options[i].given) continue;
+        complain("option '--%s' needs --as plane", options[i].name);
+        return END_USAGE;
+    }
+    return 0;
+}
+
 /* Refuse wrong settings before the work begins. */
 static int edit_check_settings(const edit_settings *s, const char *const *operands,
                                const edit_stream *e)
 {
     const char *output = s->common.output, *inputs[3] = {operands[0], operands[1], s->constraints};
-    int count = s->constraints ? 3 : 2, end = point_query_check_index(s->cells, s->layers);
+    int count = s->constraints ? 3 : 2, end = edit_check_surface(s);
+    if (end == 0) end = point_query_check_index(s->cells, s->layers);
     if (end == 0) end = mesh_output_check("edit", output, s->format);
     if (end == 0) end = files_check_output(output, inputs, count);
     if (end == 0) end = edit_check_node_file(s);
@@ -314,6 +350,81 @@ static int edit_print_statistics(const edit_settings *s, const edit_work *w)
     return files_write_error_text(&r.text);
 }
 
+/* --- a surface -------------------------------------------------------------------------------- */
+
+static int edit_print_surface_statistics(const edit_settings *s, const surface_edit_stream *e,
+                                         double seconds)
+{
+    report r;
+    mw_surface_editor_info info;
+    mw_prober_info boxes;
+    mw_surface_editor_describe(e->editor, &info);
+    mw_prober_describe(e->prober, &boxes);
+    report_begin(&r, s->json);
+    report_count(&r, "lines", e->lines);
+    for (int i = 0; i < MW_SURFACE_EDIT_KIND_COUNT; i++)
+        report_count(&r, mw_surface_edit_name((mw_surface_edit_kind)i), e->edits[i]);
+    report_count(&r, "undo", e->undone);
+    report_count(&r, "compact", e->compactions);
+    report_count(&r, "skipped", e->skipped);
+    for (int i = 0; i < MW_TOUCH_STATE_COUNT; i++)
+        report_count(&r, mw_touch_state_name((mw_touch_state)i), e->states[i]);
+    report_count(&r, "vertices", info.vertices);
+    report_count(&r, "triangles", info.triangles);
+    report_count(&r, "border_edges", info.border_edges);
+    report_count(&r, "editor_bytes", info.bytes);
+    report_count(&r, "undo_bytes", info.undo_bytes);
+    report_count(&r, "box_bytes", boxes.box_bytes);
+    statistics_report_settings(&r, &s->common);
+    report_rounded(&r, "seconds", seconds);
+    report_end(&r);
+    return files_write_error_text(&r.text);
+}
+
+/* Values of vertices and triangles do not follow edits of a surface. */
+static void edit_warn_fields(const edit_settings *s, const char *path, const mw_mesh_file *file)
+{
+    if (s->common.quiet || (!file->field_count && !file->triangle_field_count)) return;
+    complain("%s: its fields are not kept: only the shape of a surface is edited", path);
+}
+
+static int edit_surface_work(const edit_settings *s, const char *const *operands,
+                             surface_edit_stream *e, bool temporary)
+{
+    mw_mesh_file file;
+    int end = files_read_mesh(operands[0], &file);
+    if (end) return end;
+    edit_warn_fields(s, operands[0], &file);
+    end = surface_edit_stream_open(e, operands[0], &file, s->common.threads);
+    if (end == 0) end = surface_edit_stream_run(e, operands[1]);
+    if (end == 0 && !side_outputs_failed(e->output, EDIT_STREAM_OUTPUTS)) {
+        end = surface_edit_stream_take(e, &file);
+        if (end == 0)
+            end = mesh_output_write(s->common.output, s->format, &file, temporary, s->common.quiet);
+    }
+    mw_mesh_file_release(&file);
+    return end;
+}
+
+/* The outputs are chosen and checked. */
+static int edit_surface_run(const edit_settings *s, const char *const *operands, edit_stream *plan)
+{
+    double begin = monotonic_seconds();
+    bool temporary = false;
+    surface_edit_stream e = {
+        .output = plan->output, .undo = plan->undo, .skip = s->skip, .quiet = s->common.quiet};
+    int end = files_try_output(s->common.output, &temporary);
+    if (end == 0) end = side_outputs_open(e.output, EDIT_STREAM_OUTPUTS);
+    if (end == 0) end = edit_surface_work(s, operands, &e, temporary);
+    int closed = side_outputs_close(e.output, EDIT_STREAM_OUTPUTS, end == 0);
+    if (end == 0) end = closed;
+    if (end == 0 && s->stats)
+        end = edit_print_surface_statistics(s, &e, monotonic_seconds() - begin);
+    if (end == 0 && s->strict && (e.unanswered || e.skipped)) end = END_UNANSWERED;
+    surface_edit_stream_release(&e);
+    return end;
+}
+
 /* --- the command ------------------------------------------------------------------------------ */
 
 /* The outputs are open. The mesh is written before they are closed: if the disk is full, none of
@@ -339,6 +450,7 @@ static int edit_run(const void *settings, const char *const *operands)
     e->quiet = s->common.quiet;
     edit_choose_outputs(s, e);
     int end = edit_check_settings(s, operands, e);
+    if (end == 0 && s->space == SPACE_SURFACE) return edit_surface_run(s, operands, e);
     if (end == 0) end = files_try_output(s->common.output, &temporary);
     if (end == 0) end = side_outputs_open(e->output, EDIT_STREAM_OUTPUTS);
     if (end == 0) end = edit_work_run(s, operands, &w, temporary);
@@ -376,7 +488,12 @@ const command edit_command = {
         "the "
         "next one. A locate line is answered as the command locate does it: "
         "x,y,status,triangle,w0,w1,w2. The mesh "
-        "written is numbered anew, without gaps and in the same order. '-' is standard input.",
+        "written is numbered anew, without gaps and in the same order. '-' is standard input. With "
+        "--as surface the lines are: add-vertex X Y Z, remove-vertex V, move-vertex V X Y Z, "
+        "add-triangle V V V, remove-triangle T, split-edge V V [X Y Z], split-triangle T [X Y Z], "
+        "flip V V, collapse V V [X Y Z], cut V V ..., sew V V ... to V V ..., probe X Y Z MX MY "
+        "MZ, "
+        "undo, compact; a probe line is answered as 'probe --certain' does it.",
     .options = tables,
     .essential = "answers changes numbers log output",
     .settings_size = sizeof(edit_settings),

@@ -3,6 +3,7 @@
 #include "cli/frame/message.h"
 #include "cli/frame/progress.h"
 #include "cli/output/csv_row.h"
+#include "cli/stream/number_rows.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -168,29 +169,13 @@ static void number_table_release(number_table *n)
     free(n->vertex);
 }
 
-static void number_table_write_rows(edit_stream *s, int64_t line, const char *what,
-                                    const uint32_t *number, uint32_t count)
-{
-    text *row = &s->row;
-    for (uint32_t i = 0; i < count; i++) {
-        if (line > 0) text_printf(row, "%" PRId64, line);
-        text_string(row, what);
-        csv_row_count(row, true, i);
-        if (number[i] != MW_NONE)
-            csv_row_count(row, true, number[i]);
-        else
-            text_string(row, ",-1");
-        csv_row_end(row);
-        edit_stream_write_row(s, EDIT_STREAM_NUMBERS);
-    }
-}
-
 /* Write the new numbers of a compact line; of the mesh at the end if `line` is 0. */
 static void number_table_write(edit_stream *s, int64_t line, const number_table *n)
 {
     if (!n->vertex) return;
-    number_table_write_rows(s, line, ",vertex", n->vertex, n->before.vertex_range);
-    number_table_write_rows(s, line, ",triangle", n->triangle, n->before.triangle_range);
+    mw_output *out = s->output[EDIT_STREAM_NUMBERS].out;
+    number_rows_write(out, &s->row, line, "vertex", n->vertex, n->before.vertex_range);
+    number_rows_write(out, &s->row, line, "triangle", n->triangle, n->before.triangle_range);
 }
 
 static int edit_stream_compact(edit_stream *s, const char *path, const mw_edit_line *line)
@@ -251,12 +236,10 @@ static int edit_stream_next_line(edit_stream *s, const char *path, mw_edit_reade
 static void edit_stream_write_headers(edit_stream *s)
 {
     static const char changes[] = "line,edit,vertex,vertex_is,made,reused,freed,flips,pieces\n";
-    static const char renumbered[] = "line,what,old,new\n";
     if (!files_is_standard(s->output[EDIT_STREAM_ANSWERS].path)) edit_stream_write_answer_header(s);
     if (s->output[EDIT_STREAM_CHANGES].out)
         mw_output_write(s->output[EDIT_STREAM_CHANGES].out, changes, strlen(changes));
-    if (s->output[EDIT_STREAM_NUMBERS].out)
-        mw_output_write(s->output[EDIT_STREAM_NUMBERS].out, renumbered, strlen(renumbered));
+    if (s->output[EDIT_STREAM_NUMBERS].out) number_rows_begin(s->output[EDIT_STREAM_NUMBERS].out);
 }
 
 int edit_stream_run(edit_stream *s, const char *path)

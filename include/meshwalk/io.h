@@ -15,6 +15,7 @@
 
 #include <meshwalk/edit.h>
 #include <meshwalk/mesh.h>
+#include <meshwalk/surface_edit.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -550,6 +551,70 @@ MW_API double mw_edit_reader_fraction(const mw_edit_reader *reader);
 
 /** Close a reader. NULL is allowed. */
 MW_API void mw_edit_reader_close(mw_edit_reader *reader);
+
+/** What a line of a stream of edits of a surface requests. */
+typedef enum mw_surface_edit_line_kind {
+    MW_SURFACE_EDIT_LINE_NONE = 0, /**< nothing: the end of the stream */
+    MW_SURFACE_EDIT_LINE_EDIT,     /**< `edit`, for mw_surface_edit_apply() */
+    MW_SURFACE_EDIT_LINE_PROBE,    /**< a probe from `point` along `motion`, for mw_probe() */
+    MW_SURFACE_EDIT_LINE_UNDO,     /**< mw_surface_edit_undo() */
+    MW_SURFACE_EDIT_LINE_COMPACT   /**< mw_surface_editor_compact() */
+} mw_surface_edit_line_kind;
+
+/** One line of a stream of edits of a surface. */
+typedef struct mw_surface_edit_line {
+    mw_surface_edit edit; /**< its paths are owned by the reader, valid until the next line */
+    mw_surface_edit_line_kind kind;
+    uint32_t reserved;
+    double point[3], motion[3];
+    const char *text; /**< the request as it was read, without comment; owned by the reader */
+    int64_t line;     /**< line of the file, from 1 */
+} mw_surface_edit_line;
+
+/** A stream of edits of a surface, read line by line. Opaque. */
+typedef struct mw_surface_edit_reader mw_surface_edit_reader;
+
+/**
+ * Open a stream of edits of a surface.
+ *
+ * A line holds one request, with words as in mw_edit_parse():
+ *
+ *     add-vertex X Y Z   remove-vertex V   move-vertex V X Y Z   add-triangle V V V
+ *     remove-triangle T   split-edge V V [X Y Z]   split-triangle T [X Y Z]   flip V V
+ *     collapse V V [X Y Z]   cut V V [V ...]   sew V V [V ...] to V V [V ...]
+ *     probe X Y Z MX MY MZ   undo   compact
+ *
+ * V is the number of a vertex, T of a triangle, from 0.
+ *
+ * @param path   the file; "-": standard input
+ * @param out    receives the reader, owned by the caller (mw_surface_edit_reader_close()); NULL on
+ *               failure
+ * @param error  NULL, or receives the message of a failure
+ * @return MW_OK; MW_ERROR_IO, MW_ERROR_MEMORY; MW_ERROR_ARGUMENT for NULL. Thread-safe.
+ */
+MW_API mw_status mw_surface_edit_reader_open(const char *path, mw_surface_edit_reader **out,
+                                             mw_error *error);
+
+/**
+ * Read the next request. Blank lines and comments are skipped.
+ *
+ * After MW_ERROR_INPUT that names a line (line->line > 0) reading may go on with the next one.
+ *
+ * @param reader  the reader
+ * @param line    receives the request; MW_SURFACE_EDIT_LINE_NONE at the end, with line 0
+ * @param error   NULL, or receives the message of a failure, with the line
+ * @return MW_OK, also at the end; MW_ERROR_INPUT, MW_ERROR_IO, MW_ERROR_MEMORY.
+ *
+ * Thread-safe on different readers.
+ */
+MW_API mw_status mw_surface_edit_reader_read(mw_surface_edit_reader *reader,
+                                             mw_surface_edit_line *line, mw_error *error);
+
+/** As mw_point_reader_fraction. */
+MW_API double mw_surface_edit_reader_fraction(const mw_surface_edit_reader *reader);
+
+/** Close a reader. NULL is allowed. */
+MW_API void mw_surface_edit_reader_close(mw_surface_edit_reader *reader);
 
 /**
  * An output file that appears under its name only when it is complete. Opaque.

@@ -20,6 +20,7 @@
 #include <meshwalk/surface.h>
 #include <meshwalk/star.h>
 #include <meshwalk/probe.h>
+#include <meshwalk/surface_edit.h>
 #include <meshwalk/remesh.h>
 #include <meshwalk/io.h>
 #include <meshwalk/prepared.h>

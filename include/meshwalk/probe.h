@@ -57,7 +57,9 @@ MW_API void mw_prober_destroy(mw_prober *prober);
 /**
  * Bring the boxes up to date with a changed surface, during its update. Not needed without boxes.
  *
- * Until this is done, certain probes return MW_TOUCH_BAD.
+ * Until this is done, certain probes return MW_TOUCH_BAD. After edits (surface_edit.h) that the
+ * boxes did not follow, they are made anew, in O(n log n); if memory runs out, they stay out of
+ * date.
  *
  * @param prober   the prober
  * @param moved    an upper bound of the distance that any vertex moved since the last update: the

@@ -68,18 +68,19 @@ MW_API mw_status mw_surface_create(const mw_arrays *arrays, const mw_surface_opt
 /** Destroy a surface. Stars and probers of it must be destroyed before. NULL is allowed. */
 MW_API void mw_surface_destroy(mw_surface *surface);
 
-/** Number of vertices, unused ones included. O(1). */
+/** Number of vertices, unused ones included; those that an editor (surface_edit.h) has freed, too:
+ * all numbers are below it. O(1). */
 MW_API uint32_t mw_surface_vertex_count(const mw_surface *surface);
 
-/** Number of triangles. O(1). */
+/** Number of triangles; those that an editor (surface_edit.h) has freed, too. O(1). */
 MW_API uint32_t mw_surface_triangle_count(const mw_surface *surface);
 
 /** Copy x, y, z of a vertex. `vertex` must be less than the number of vertices; it is not checked.
  */
 MW_API void mw_surface_vertex(const mw_surface *surface, uint32_t vertex, double point[3]);
 
-/** Copy the vertices of a triangle, as given. `triangle` must be less than the number of
- * triangles; it is not checked. */
+/** Copy the vertices of a triangle, as given; of a freed one three times the same. `triangle` must
+ * be less than the number of triangles; it is not checked. */
 MW_API void mw_surface_triangle(const mw_surface *surface, uint32_t triangle, uint32_t vertices[3]);
 
 /**
@@ -152,7 +153,8 @@ MW_API double *mw_surface_points(mw_surface *surface);
  * @return MW_OK; MW_ERROR_INPUT, with the surface unchanged, if the edge has one triangle only, its
  *         triangles have opposite orientation, c equals d, or an edge already joins c and d. That
  *         edge is looked for among the triangles round c that hang together with `triangle`;
- *         another fan of a pinched vertex is not searched.
+ *         another fan of a pinched vertex is not searched. MW_ERROR_ARGUMENT if the surface has an
+ *         editor (mw_surface_edit_flip()).
  *
  * Time: proportional to the triangles round c.
  */
@@ -163,7 +165,7 @@ MW_API mw_status mw_surface_flip(mw_surface *surface, uint32_t triangle, unsigne
 
 /** Counts and properties of a surface. */
 typedef struct mw_surface_info {
-    uint32_t vertices, triangles; /**< as given */
+    uint32_t vertices, triangles; /**< as given, without those that an editor has freed */
     uint32_t unused_vertices;     /**< vertices of no triangle */
     uint32_t flat_triangles;      /**< triangles without area */
     uint32_t clashing_edges;      /**< inner edges whose two triangles have opposite orientation */

@@ -156,7 +156,7 @@ mw_status mwp__own_create(mwp_own *own, const mwp_piece *piece, mwp_error *error
     if (status) return status;
     if (!own_make_room(own, a->point_count, a->triangle_count)) return mwp__fail_memory(error);
     own_copy_points(own, a->points, a->point_stride);
-    memcpy(own->vertex, piece->vertex_numbers, a->point_count * sizeof *own->vertex);
+    mwp__copy(own->vertex, piece->vertex_numbers, a->point_count * sizeof *own->vertex);
     status = own_check_vertices(own, error);
     return status ? status : own_copy_triangles(own, piece, error);
 }

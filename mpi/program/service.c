@@ -90,7 +90,7 @@ static mw_status all_locate(service *s, const double *points, size_t stride, siz
     }
     if (!status) status = share_locate(s, &share, options, back.records, error);
     if (!status) status = mwp__wire_exchange(&s->wire, MW_OK, &back, &told, error);
-    if (!status && s->wire.rank == 0) memcpy(answers, told.records, n * sizeof *answers);
+    if (!status && s->wire.rank == 0) mwp__copy(answers, told.records, n * sizeof *answers);
     mwp__parcels_release(&out);
     mwp__parcels_release(&share);
     mwp__parcels_release(&back);

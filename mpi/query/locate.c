@@ -74,7 +74,10 @@ typedef struct block_work {
     question *points; /* of these */
     mw_location *found;
     uint32_t *count; /* questions for each rank */
+    int *rank;       /* per query: the only rank in whose boxes it is, or NOBODY, or SEVERAL */
 } block_work;
+
+enum { NOBODY = -1, SEVERAL = -2 };
 
 static bool work_create(block_work *w, const mwp_mesh *m, size_t n)
 {
@@ -82,8 +85,9 @@ static bool work_create(block_work *w, const mwp_mesh *m, size_t n)
                       .here = mwp__alloc(n, sizeof *w->here),
                       .points = mwp__alloc(n, sizeof *w->points),
                       .found = mwp__alloc(n, sizeof *w->found),
-                      .count = calloc((size_t)m->wire.size, sizeof *w->count)};
-    return w->ranks && w->here && w->points && w->found && w->count;
+                      .count = calloc((size_t)m->wire.size, sizeof *w->count),
+                      .rank = mwp__alloc(n, sizeof *w->rank)};
+    return w->ranks && w->here && w->points && w->found && w->count && w->rank;
 }
 
 static void work_release(block_work *w)
@@ -93,26 +97,35 @@ static void work_release(block_work *w)
     free(w->points);
     free(w->found);
     free(w->count);
+    free(w->rank);
 }
 
-/* The other ranks that may have the triangle of query i; none if its answer is known. */
-static int query_ranks(const mwp_locating *l, size_t i, int *ranks)
+/* Note in whose boxes query i is. Is it in this rank's? */
+static bool query_look(const mwp_locating *l, size_t i, block_work *w)
+{
+    const int count = mwp__router_find(&l->mesh->router, query_point(l, i), w->ranks);
+    w->rank[i - l->begin] = count == 0 ? NOBODY : count == 1 ? w->ranks[0] : SEVERAL;
+    for (int k = 0; k < count; k++)
+        if (w->ranks[k] == l->mesh->wire.rank) return true;
+    return false;
+}
+
+/* The other ranks that may have the triangle of query i, in w->ranks; none if its answer is
+ * known. Returns how many. */
+static int query_ranks(const mwp_locating *l, size_t i, const block_work *w)
 {
     const mwp_location *at = &l->locations[i];
+    const int only = w->rank[i - l->begin], own = l->mesh->wire.rank;
     int kept = 0;
-    if (at->where == MW_BAD || (at->triangle >= 0 && at->where == MW_INSIDE)) return 0;
-    const int count = mwp__router_find(&l->mesh->router, query_point(l, i), ranks);
+    if (at->triangle >= 0 && at->where == MW_INSIDE) return 0;
+    if (only != SEVERAL) {
+        w->ranks[0] = only;
+        return only != NOBODY && only != own;
+    }
+    const int count = mwp__router_find(&l->mesh->router, query_point(l, i), w->ranks);
     for (int k = 0; k < count; k++)
-        if (ranks[k] != l->mesh->wire.rank) ranks[kept++] = ranks[k];
+        if (w->ranks[k] != own) w->ranks[kept++] = w->ranks[k];
     return kept;
-}
-
-static bool query_is_here(const mwp_locating *l, size_t i, int *ranks)
-{
-    const int count = mwp__router_find(&l->mesh->router, query_point(l, i), ranks);
-    for (int k = 0; k < count; k++)
-        if (ranks[k] == l->mesh->wire.rank) return true;
-    return false;
 }
 
 static mw_status block_locate_here(const mwp_locating *l, block_work *w, mwp_error *error)
@@ -122,7 +135,8 @@ static mw_status block_locate_here(const mwp_locating *l, block_work *w, mwp_err
         const double *p = query_point(l, i);
         const bool finite = isfinite(p[0]) && isfinite(p[1]);
         l->locations[i] = location_nowhere(finite ? MW_OUTSIDE : MW_BAD);
-        if (!finite || !query_is_here(l, i, w->ranks)) continue;
+        w->rank[i - l->begin] = NOBODY;
+        if (!finite || !query_look(l, i, w)) continue;
         w->here[n] = (uint32_t)(i - l->begin);
         w->points[n++] = (question){{p[0], p[1]}};
     }
@@ -138,12 +152,12 @@ static mw_status block_pack(mwp_locating *l, block_work *w, mwp_parcels *questio
                             mwp_error *error)
 {
     for (size_t i = l->begin; i < l->end; i++)
-        for (int k = query_ranks(l, i, w->ranks) - 1; k >= 0; k--) w->count[w->ranks[k]]++;
+        for (int k = query_ranks(l, i, w) - 1; k >= 0; k--) w->count[w->ranks[k]]++;
     if (!mwp__parcels_create(questions, &l->mesh->wire, sizeof(question), w->count) ||
         !(l->asked = mwp__alloc(questions->total, sizeof *l->asked)))
         return mwp__fail_memory(error);
     for (size_t i = l->begin; i < l->end; i++)
-        for (int k = query_ranks(l, i, w->ranks) - 1; k >= 0; k--) {
+        for (int k = query_ranks(l, i, w) - 1; k >= 0; k--) {
             const double *p = query_point(l, i);
             l->asked[questions->next[w->ranks[k]]] = (uint32_t)(i - l->begin);
             *(question *)mwp__parcels_add(questions, w->ranks[k]) = (question){{p[0], p[1]}};

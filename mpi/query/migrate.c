@@ -32,7 +32,7 @@ static mw_status migration_add(migration *m, const void *records, size_t n, mwp_
         m->here = grown;
         m->room = room;
     }
-    memcpy(m->here + m->count * m->record, records, n * m->record);
+    mwp__copy(m->here + m->count * m->record, records, n * m->record);
     m->count += n;
     return MW_OK;
 }
@@ -136,7 +136,7 @@ static bool particles_unpack(const migration *m, mwp_particles *out)
     for (size_t i = 0; room && i < m->count; i++) {
         const char *record = m->here + order[i].place * m->record;
         memcpy(&out->locations[i], record, sizeof *out->locations);
-        memcpy((char *)out->payload + i * m->bytes, record + sizeof(traveller), m->bytes);
+        mwp__copy((char *)out->payload + i * m->bytes, record + sizeof(traveller), m->bytes);
     }
     free(order);
     return room;

@@ -210,8 +210,10 @@ static void grants_end(mwp_talk *t)
     const char *from = t->block.records; /* the first question for rank r */
     for (int r = 0; r < t->wire->size && t->block.count; r++) {
         const size_t bytes = b->granted[r] * t->about->question;
-        memcpy(to, from + b->next[r] * t->about->question, bytes);
-        to += bytes;
+        if (bytes > 0) { /* else there may be no room, not even for none */
+            memcpy(to, from + b->next[r] * t->about->question, bytes);
+            to += bytes;
+        }
         from += t->block.count[r] * t->about->question;
     }
     layout_write(t, b->granted, b->grant);

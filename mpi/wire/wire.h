@@ -9,6 +9,7 @@
 #include <meshwalk-mpi/meshwalk-mpi.h>
 
 #include <stdbool.h>
+#include <string.h>
 
 typedef struct mwp_wire {
     MPI_Comm comm; /* of its own */
@@ -19,6 +20,12 @@ typedef struct mwp_wire {
 
 /* Arrays as mw__alloc of the library: NULL on failure or overflow; 0 gives a valid pointer. */
 void *mwp__alloc(size_t count, size_t size);
+
+/* memcpy, where nothing may be copied from or to NULL. */
+static inline void mwp__copy(void *to, const void *from, size_t bytes)
+{
+    if (bytes > 0) memcpy(to, from, bytes);
+}
 
 /* Fill in an error (NULL allowed) and return its status. */
 mw_status mwp__fail(mwp_error *error, mw_status status, const char *format, ...)

@@ -7,7 +7,7 @@
  * resolution.
  *
  * bvh_build.c divides the triangles, bvh_fit.c fits the boxes, bvh_beam.h tests the children of a
- * node against a line. */
+ * node against a line, bvh_follow.c lets the tree follow single triangles. */
 #ifndef MW_SRC_PROBE_BVH_H
 #define MW_SRC_PROBE_BVH_H
 
@@ -15,8 +15,10 @@
 #include "surface/surface.h"
 
 #define MW_BVH_WIDTH 8u
-/* Levels, of which the last ones halve: see bvh_build.c. */
-#define MW_BVH_LEVELS 36
+/* Levels that building makes, of which the last ones halve (bvh_build.c); and with those that
+ * insertions add (bvh_follow.c). */
+#define MW_BVH_BUILT_LEVELS 36
+#define MW_BVH_LEVELS 52
 
 /* A child is a node; with this bit, a triangle; or MW_NONE. */
 #define MW_BVH_TRIANGLE 0x80000000u
@@ -31,13 +33,16 @@ typedef struct mw_bvh_node {
 } mw_bvh_node;
 
 typedef struct mw_bvh {
-    /* Level by level; node 0 is the root. The children of a node that are nodes are one after the
-     * other. */
+    /* Node 0 is the root. Level by level, until the tree follows single triangles. */
     mw_bvh_node *node;
     uint32_t node_count, level_count;
-    uint32_t first[MW_BVH_LEVELS + 1]; /* first node of a level; then node_count */
-    double scale, centre[3];           /* the frame; scale is a power of two */
-    bool finite;                       /* all corners were finite at the last fit */
+    uint32_t first[MW_BVH_BUILT_LEVELS + 1]; /* first node of a level; then node_count */
+    double scale, centre[3];                 /* the frame; scale is a power of two */
+    bool finite; /* all corners were finite at the last fit, and those put in since */
+    /* Of a tree that follows single triangles; else NULL. A place is 8 * node + child. */
+    uint32_t *place;  /* of each triangle; MW_NONE: it is not in the tree */
+    uint32_t *parent; /* of each node: its place; MW_NONE for the root. Of a free node: the next. */
+    uint32_t place_room, node_room, free_node; /* free_node: the first; MW_NONE: none */
 } mw_bvh;
 
 /* Make the tree without fitting its boxes. Stages of the present part of the job. Returns false
@@ -62,9 +67,36 @@ mw_bvh_box mw__bvh_box_of(const mw_bvh *bvh, const mw_surface *surface, uint32_t
  * of the job. Returns false if it is cancelled. */
 bool mw__bvh_fit(mw_bvh *bvh, const mw_surface *surface, mw_job *job);
 
+/* Fit the boxes of one node to its children, whose own are fitted. Returns whether all its
+ * triangles are finite. */
+bool mw__bvh_fit_node(const mw_bvh *bvh, const mw_surface *surface, mw_bvh_node *node);
+/* The box of all children of a node. */
+mw_bvh_box mw__bvh_box_of_node(const mw_bvh_node *node);
+
 /* The size of a common triangle, in units of length: the mean edge of its box, and of that the
  * median of a sample. */
 double mw__bvh_triangle_size(const mw_bvh *bvh);
+
+/* --- bvh_follow.c --- */
+
+/* Let a fitted tree follow single triangles from now on. False when out of memory. O(n). */
+bool mw__bvh_follow(mw_bvh *bvh, const mw_surface *surface);
+
+/* Make room for triangles below tri_count, and for so many insertions. False when out of memory. */
+bool mw__bvh_reserve(mw_bvh *bvh, size_t tri_count, size_t insertions);
+
+/* Would so many insertions make the tree deeper than searches can go? It is then built anew. */
+static MW_INLINE bool mw__bvh_is_deep(const mw_bvh *bvh)
+{
+    return bvh->level_count > MW_BVH_BUILT_LEVELS;
+}
+
+/* Put a triangle in, beside a triangle that is in the tree, or MW_NONE: where it fits best. */
+void mw__bvh_put(mw_bvh *bvh, const mw_surface *surface, uint32_t triangle, uint32_t beside);
+/* The triangle has other corners. */
+void mw__bvh_refit(mw_bvh *bvh, const mw_surface *surface, uint32_t triangle);
+/* Take a triangle out, which need not exist any more. The tree must not become empty. */
+void mw__bvh_drop(mw_bvh *bvh, uint32_t triangle);
 
 /* --- the frame --- */
 

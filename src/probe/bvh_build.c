@@ -324,6 +324,16 @@ static void building_box_triangles(void *work, uint64_t from, uint64_t to)
     }
 }
 
+/* Close up over the triangles that an editor has freed. Returns how many are left. */
+static uint32_t building_drop_freed(const bvh_building *b)
+{
+    uint32_t n = b->surface->tri_count, left = 0;
+    if (b->surface->freed_triangles == 0) return n;
+    for (uint32_t t = 0; t < n; t++)
+        if (!mw__surface_is_freed(b->surface, t)) b->items[left++] = b->items[t];
+    return left;
+}
+
 static void building_divide_group(void *work, uint64_t group, uint32_t member)
 {
     const bvh_building *b = work;
@@ -387,11 +397,11 @@ static void building_number(const bvh_building *b)
 
 static bool building_run(bvh_building *b, mw_job *job)
 {
-    uint32_t n = b->surface->tri_count;
     if (!b->items || !b->ranges) return false;
     mw__job_stage(job, "boxes of triangles", 0.1);
     mw__bvh_choose_frame(b->bvh, b->surface);
-    if (!mw__job_ranges(job, n, building_box_triangles, b)) return false;
+    if (!mw__job_ranges(job, b->surface->tri_count, building_box_triangles, b)) return false;
+    uint32_t n = building_drop_freed(b);
     b->ranges[0] = (build_range){.first = 0, .count = n};
     b->range_count = 1;
     double left = 0.9;
@@ -407,7 +417,7 @@ static bool building_run(bvh_building *b, mw_job *job)
 
 bool mw__bvh_create(mw_bvh *bvh, const mw_surface *surface, mw_job *job)
 {
-    *bvh = (mw_bvh){.node_count = 0};
+    *bvh = (mw_bvh){.free_node = MW_NONE};
     bvh_building b = {.bvh = bvh, .surface = surface};
     b.items = mw__alloc_lines(surface->tri_count, sizeof *b.items);
     b.ranges = mw__alloc_lines(1, sizeof *b.ranges);
@@ -421,10 +431,14 @@ bool mw__bvh_create(mw_bvh *bvh, const mw_surface *surface, mw_job *job)
 void mw__bvh_release(mw_bvh *bvh)
 {
     free(bvh->node);
+    free(bvh->place);
+    free(bvh->parent);
     *bvh = (mw_bvh){0};
 }
 
 size_t mw__bvh_bytes(const mw_bvh *bvh)
 {
-    return bvh->node_count * sizeof *bvh->node;
+    size_t parents = bvh->parent ? bvh->node_room * sizeof *bvh->parent : 0,
+           places = bvh->place ? bvh->place_room * sizeof *bvh->place : 0;
+    return bvh->node_count * sizeof *bvh->node + parents + places;
 }

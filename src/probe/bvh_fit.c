@@ -121,8 +121,7 @@ mw_bvh_box mw__bvh_box_of(const mw_bvh *bvh, const mw_surface *surface, uint32_t
     return bvh_box_outwards(bvh, low, high);
 }
 
-/* The box of all children of a node. */
-static mw_bvh_box bvh_box_of_node(const mw_bvh_node *node)
+mw_bvh_box mw__bvh_box_of_node(const mw_bvh_node *node)
 {
     mw_bvh_box box;
     for (int k = 0; k < 3; k++) {
@@ -162,8 +161,7 @@ static MW_INLINE void bvh_prefetch(const mw_bvh *b, const mw_surface *surface, u
     }
 }
 
-/* Returns whether all triangles of the node are finite. */
-static bool bvh_fit_node(const mw_bvh *b, const mw_surface *surface, mw_bvh_node *node)
+bool mw__bvh_fit_node(const mw_bvh *b, const mw_surface *surface, mw_bvh_node *node)
 {
     bool finite = true;
     for (uint32_t i = 0; i < MW_BVH_WIDTH; i++) {
@@ -177,7 +175,7 @@ static bool bvh_fit_node(const mw_bvh *b, const mw_surface *surface, mw_bvh_node
             for (int k = 0; k < 3; k++) node->vertex[i][k] = v[k];
             finite = finite && !box_is_empty(&box);
         } else {
-            box = bvh_box_of_node(&b->node[child]);
+            box = mw__bvh_box_of_node(&b->node[child]);
         }
         for (int k = 0; k < 3; k++) {
             node->low[k][i] = box.low[k];
@@ -204,15 +202,31 @@ static void level_fit_chunk(void *work, uint64_t chunk, uint32_t member)
     end = end < begin + CHUNK ? end : begin + CHUNK;
     for (uint64_t i = begin; i < end; i++) {
         bvh_prefetch(b, f->surface, i, end);
-        finite = bvh_fit_node(b, f->surface, &b->node[i]) && finite;
+        finite = mw__bvh_fit_node(b, f->surface, &b->node[i]) && finite;
     }
     if (!finite) atomic_store_explicit(&f->gaps, true, memory_order_relaxed);
+}
+
+/* A tree that follows single triangles has its nodes in any order. It has at most MW_BVH_LEVELS
+ * levels. */
+static bool bvh_fit_below(const mw_bvh *bvh, const mw_surface *surface, uint32_t i)
+{
+    mw_bvh_node *node = &bvh->node[i];
+    bool finite = true;
+    for (uint32_t k = 0; k < MW_BVH_WIDTH; k++)
+        if (!(node->child[k] & MW_BVH_TRIANGLE))
+            finite = bvh_fit_below(bvh, surface, node->child[k]) && finite;
+    return mw__bvh_fit_node(bvh, surface, node) && finite;
 }
 
 bool mw__bvh_fit(mw_bvh *bvh, const mw_surface *surface, mw_job *job)
 {
     level_fitting fitting = {.bvh = bvh, .surface = surface};
     mw__bvh_choose_frame(bvh, surface);
+    if (bvh->parent) {
+        bvh->finite = bvh_fit_below(bvh, surface, 0);
+        return true;
+    }
     for (uint32_t level = bvh->level_count; level-- > 0;) {
         uint64_t nodes = bvh->first[level + 1] - bvh->first[level],
                  chunks = (nodes + CHUNK - 1) / CHUNK;

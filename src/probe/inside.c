@@ -104,7 +104,8 @@ bool mw__surface_is_closed(const mw_surface *surface)
 {
     for (uint32_t t = 0; t < surface->tri_count; t++)
         for (uint32_t k = 0; k < 3; k++)
-            if (surface->tri[t].link[k] == MW_NONE) return false;
+            if (surface->tri[t].link[k] == MW_NONE && !mw__surface_is_freed(surface, t))
+                return false;
     return true;
 }
 

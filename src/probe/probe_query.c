@@ -115,15 +115,30 @@ static bool probe_beats_sample(const mw_prober *prober, uint32_t t, const double
     return (x * x + y * y + z * z) * samples < 4 * prober->variance;
 }
 
-/* Does the search start at the triangle touched last? */
-static bool probe_is_coherent(const mw_prober *prober, const mw_probe_cursor *cursor,
-                              const double q[3])
+/* The triangle touched last, or one that took its place in edits; MW_NONE: none is known. */
+static uint32_t probe_last(const mw_prober *prober, const mw_probe_cursor *cursor)
+{
+    enum { HEIRS = 16 };
+    const mw_surface *surface = prober->surface;
+    uint32_t t = cursor->prober == prober ? cursor->last : MW_NONE;
+    for (int i = 0; i < HEIRS && t < surface->tri_count; i++) {
+        if (MW_LIKELY(!mw__surface_is_freed(surface, t))) return t;
+        t = surface->tri[t].user & MW_USER_MASK;
+    }
+    return MW_NONE;
+}
+
+/* Where the search starts: the triangle touched last, or MW_NONE. */
+static uint32_t probe_coherent(const mw_prober *prober, const mw_probe_cursor *cursor,
+                               const double q[3])
 {
     mw_probe_start start = cursor->options.start;
-    if (cursor->prober != prober || cursor->last >= prober->surface->tri_count) return false;
-    return start == MW_PROBE_START_LAST ||
-           (start == MW_PROBE_START_AUTO &&
-            probe_beats_sample(prober, cursor->last, q, cursor->options.samples));
+    uint32_t last = probe_last(prober, cursor);
+    bool starts =
+        last != MW_NONE && (start == MW_PROBE_START_LAST ||
+                            (start == MW_PROBE_START_AUTO &&
+                             probe_beats_sample(prober, last, q, cursor->options.samples)));
+    return starts ? last : MW_NONE;
 }
 
 static mw_probe_search probe_plan(const mw_prober *prober, mw_probe_cursor *cursor,
@@ -134,7 +149,7 @@ static mw_probe_search probe_plan(const mw_prober *prober, mw_probe_cursor *curs
         .surface = prober->surface,
         .line = {{q[0], q[1], q[2]}, {m[0], m[1], m[2]}, {0}},
         .reach = options->max_distance > 0 ? options->max_distance : INFINITY,
-        .last = probe_is_coherent(prober, cursor, q) ? cursor->last : MW_NONE,
+        .last = probe_coherent(prober, cursor, q),
         .samples = options->samples,
         .nearest = options->start != MW_PROBE_START_RANDOM,
         .iterations = options->iterations,
@@ -169,10 +184,8 @@ static void probe_guess(mw_ray_search *search, const mw_probe_cursor *cursor, mw
     const mw_prober *prober = search->prober;
     const mw_ray_query *ray = search->ray;
     bool walks = ray->extent == MW_PROBE_LINE && ray->faces == MW_PROBE_FRONT && ray->least == 0;
-    uint32_t last = cursor->prober == prober && cursor->last < prober->surface->tri_count &&
-                            cursor->options.start <= MW_PROBE_START_LAST
-                        ? cursor->last
-                        : MW_NONE;
+    uint32_t last =
+        cursor->options.start <= MW_PROBE_START_LAST ? probe_last(prober, cursor) : MW_NONE;
     if (walks && walk->last != MW_NONE && mw__probe_faces(walk, walk->last, work)) {
         walk->steps = SEED_STEPS < walk->steps ? SEED_STEPS : walk->steps;
         last = mw__probe_search_from(walk, 0, walk->last, NULL, work, trace);
@@ -308,8 +321,8 @@ static mw_touch_state probe_search(const mw_prober *prober, mw_probe_cursor *cur
     if (mw__prober_is_current(prober)) {
         mw_ray_search search;
         mw__ray_search_begin(&search, prober, &ray, found, self);
-        if (!finish && cursor->prober == prober && cursor->last < prober->surface->tri_count)
-            mw__ray_search_guess(&search, cursor->last);
+        uint32_t last = finish ? MW_NONE : probe_last(prober, cursor);
+        if (last != MW_NONE) mw__ray_search_guess(&search, last);
         mw__ray_search_run(prober, &search, 1);
         mw__ray_search_count(&search, &work);
         state = search.hits ? MW_TOUCH_HIT : MW_TOUCH_NONE;

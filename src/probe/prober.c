@@ -37,6 +37,19 @@ static mw_status prober_make_boxes(mw_prober *prober, mw_job *job, mw_error *err
     return done ? MW_OK : mw__fail_memory(error);
 }
 
+bool mw__prober_rebuild(mw_prober *prober, mw_job *job)
+{
+    mw_bvh former = prober->bvh;
+    bool done = prober_make_boxes(prober, job, NULL) == MW_OK &&
+                (!former.parent || mw__bvh_follow(&prober->bvh, prober->surface));
+    mw_bvh gone = done ? former : prober->bvh;
+    if (!done) prober->bvh = former;
+    mw__bvh_release(&gone);
+    if (done) prober->closed = mw__surface_is_closed(prober->surface);
+    if (done) prober->edit_count = prober->surface->edit_count;
+    return done;
+}
+
 /* The variance of a sample of corners. It is only a guide: overflow, or a growing surface, makes
  * choices worse, but not answers. */
 static double prober_sample_variance(const mw_surface *surface)
@@ -75,6 +88,7 @@ mw_status mw_prober_create(const mw_surface *surface, const mw_prober_options *o
     if (!prober) return mw__fail_memory(error);
     prober->surface = surface;
     prober->version = surface->version;
+    prober->edit_count = surface->edit_count;
     prober->has_bvh = options->boxes != 0;
     prober->variance = prober_sample_variance(surface);
     if (prober->has_bvh) {
@@ -101,8 +115,10 @@ void mw_prober_update(mw_prober *prober, double moved, uint32_t threads)
     /* if a version is missing, its movement is not known */
     bool known = moved >= 0 && isfinite(moved) && prober->surface->version - prober->version <= 1;
     mw_job job = mw__job(threads, NULL);
+    bool reshaped = prober->has_bvh && prober->edit_count != prober->surface->edit_count;
+    if (reshaped && !mw__prober_rebuild(prober, &job)) return; /* it stays out of date */
     prober->version = prober->surface->version;
-    if (!prober->has_bvh) return;
+    if (!prober->has_bvh || reshaped) return;
     if (known && moved > 0) {
         prober->slack = nextafter(prober->slack + moved, INFINITY);
         prober->joined = prober->surface->coincident == NULL;

@@ -21,12 +21,19 @@ struct mw_prober {
     bool closed, joined;
     /* About the mean squared distance of the vertices from their mean, when created. */
     double variance;
-    uint64_t version;   /* version of the surface that the BVH is valid for */
-    double slack;       /* boxes are widened by this */
-    double slack_limit; /* beyond this they are fitted again */
+    uint64_t version;    /* version of the surface that the BVH is valid for */
+    uint64_t edit_count; /* of the surface whose triangles the BVH holds */
+    double slack;        /* boxes are widened by this */
+    double slack_limit;  /* beyond this they are fitted again */
     uint64_t fits;
     double fit_seconds;
 };
+
+/* --- prober.c --- */
+
+/* Divide the triangles anew and fit the boxes. The tree goes on following single triangles if it
+ * did. False when out of memory; then nothing has changed. */
+bool mw__prober_rebuild(mw_prober *prober, mw_job *job);
 
 /* --- probe_touch.c --- */
 

@@ -73,12 +73,14 @@ struct mw_star {
     double centre[3];
     double reach; /* about the largest coordinate relative to the centre */
     uint32_t tri_count, point_count;
-    uint32_t area_count; /* facets of the user with an area */
-    uint32_t front;      /* the facet at phi = 0, theta = pi/2 */
-    uint32_t fuel;       /* step limit of walks that may not end */
-    uint64_t version;    /* version of the surface that all this is valid for */
-    uint64_t shape;      /* and its shape */
-    bool ready;          /* the last check found it star-shaped */
+    uint32_t area_count;  /* facets of the user with an area */
+    uint32_t freed_count; /* numbers of facets that an editor has freed */
+    uint32_t front;       /* the facet at phi = 0, theta = pi/2 */
+    uint32_t fuel;        /* step limit of walks that may not end */
+    uint64_t version;     /* version of the surface that all this is valid for */
+    uint64_t shape;       /* and its shape */
+    bool ready;           /* the last check found it star-shaped */
+    bool angles;          /* `angle` is wanted */
 };
 
 /* Corner k of a facet with vertices v. */

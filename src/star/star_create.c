@@ -76,6 +76,7 @@ static mw_status star_decide(mw_star *star, mw_job *job, mw_error *error)
 {
     mw_defects defects = {0};
     star->coincident = star->surface->coincident;
+    star->freed_count = star->surface->freed_triangles;
     memcpy(star->tri, star->surface->tri, star->tri_count * sizeof *star->tri);
     mw_job_span outer = mw__job_part(job, 0.5);
     mw_status status = mw__star_kernel_check(star, job, &defects) ? MW_OK : mw__fail_memory(error);
@@ -143,8 +144,24 @@ static float star_near(uint32_t facets)
     return (float)fmin(NEAR_FACETS * sqrt(12.6 / facets), 0.5);
 }
 
+static void star_release_arrays(mw_star *star)
+{
+    free(star->facet);
+    free(star->owner);
+    free(star->guide);
+    free(star->angle);
+    star->facet = NULL;
+    star->owner = star->guide = NULL;
+    star->angle = NULL;
+}
+
+/* What depends on how many facets and vertices the surface has. */
 static bool star_allocate(mw_star *star, bool angles)
 {
+    star->tri_count = star->surface->tri_count;
+    star->point_count = star->surface->point_count;
+    star->fuel = star_fuel(star->tri_count);
+    star->near = star_near(star->tri_count);
     star->facet = mw__alloc_lines(star->tri_count, sizeof *star->facet);
     star->owner = mw__alloc(star->point_count, sizeof *star->owner);
     star->guide_bits = mw__star_guide_bits(star->tri_count);
@@ -168,11 +185,8 @@ mw_status mw_star_create(const mw_surface *surface, const mw_star_options *optio
     mw_star *star = mw__calloc(1, sizeof *star);
     if (!star) return mw__fail_memory(error);
     star->surface = surface;
-    star->tri_count = surface->tri_count;
-    star->point_count = surface->point_count;
-    star->fuel = star_fuel(surface->tri_count);
-    star->near = star_near(surface->tri_count);
     star->curve = mw__hilbert((const double[2]){-1, -1}, (const double[2]){1, 1});
+    star->angles = options->angles != 0;
     memcpy(star->centre, options->centre, sizeof star->centre);
     mw_job job = mw__job(options->threads, options->progress);
     status = star_allocate(star, options->angles) ? star_prepare(star, &job, error)
@@ -183,6 +197,23 @@ mw_status mw_star_create(const mw_surface *surface, const mw_star_options *optio
     else
         *out = star;
     return status;
+}
+
+/* An editor may have made triangles and vertices. False when out of memory; a later call tries
+ * again. */
+static bool star_follow_counts(mw_star *star)
+{
+    const mw_surface *surface = star->surface;
+    if (star->facet && star->tri_count == surface->tri_count &&
+        star->point_count == surface->point_count)
+        return true;
+    star->ready = false;
+    star_release_arrays(star);
+    free(star->own_coincident);
+    star->own_coincident = NULL;
+    if (star_allocate(star, star->angles)) return true;
+    star_release_arrays(star);
+    return false;
 }
 
 /* Can the facets round the vertices that moved be decided alone? */
@@ -200,10 +231,11 @@ mw_status mw_star_update(mw_star *star, const mw_star_update_options *options, m
     mw_status status = MW_RESERVED_CHECK(mw_star_update_options, options, error);
     if (status) return status;
     for (size_t i = 0; options->moved && i < options->moved_count; i++)
-        if (options->moved[i] >= star->point_count)
+        if (options->moved[i] >= star->surface->point_count)
             return mw__fail(error, MW_ERROR_ARGUMENT,
                             "moved vertex %" PRIu32 " is not a vertex; there are %" PRIu32,
-                            options->moved[i], star->point_count);
+                            options->moved[i], star->surface->point_count);
+    if (!star_follow_counts(star)) return mw__fail_memory(error);
     if (options->moved && star_can_follow(star) &&
         mw__star_follow(star, options->moved, options->moved_count)) {
         star_finish(star);
@@ -216,13 +248,10 @@ mw_status mw_star_update(mw_star *star, const mw_star_update_options *options, m
 void mw_star_destroy(mw_star *star)
 {
     if (!star) return;
-    free(star->facet);
-    free(star->guide);
+    star_release_arrays(star);
     mw__star_hubs_release(&star->hubs);
     free(star->own_coincident);
-    free(star->owner);
     free(star->place);
-    free(star->angle);
     free(star);
 }
 
@@ -238,7 +267,7 @@ void mw_star_describe(const mw_star *star, mw_star_info *info)
         .bytes = sizeof *star + facets + owners + places + guide + angles + coincident +
                  mw__star_hubs_bytes(&star->hubs),
         .angle_bytes = angles,
-        .flat_facets = star->tri_count - star->area_count,
+        .flat_facets = star->tri_count - star->area_count - star->freed_count,
         .centre = {star->centre[0], star->centre[1], star->centre[2]},
     };
 }

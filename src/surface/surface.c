@@ -159,11 +159,13 @@ size_t mw_surface_bytes(const mw_surface *surface)
 void mw_surface_begin_update(mw_surface *surface)
 {
     if (surface->rwlock) mw__rwlock_write_lock(surface->rwlock);
+    surface->updating = true;
     surface->version++;
 }
 
 void mw_surface_end_update(mw_surface *surface)
 {
+    surface->updating = false;
     if (surface->rwlock) mw__rwlock_write_unlock(surface->rwlock);
 }
 

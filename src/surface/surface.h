@@ -15,12 +15,26 @@ struct mw_surface {
     /* Of a welded surface: the representative of each vertex (coincident.h); else NULL. */
     uint32_t *coincident;
     uint32_t point_count, tri_count;
-    uint64_t version;  /* each update adds one */
-    uint64_t shape;    /* each change of its triangles adds one */
-    mw_rwlock *rwlock; /* NULL: the caller must not run queries during updates */
-    bool borrowed;     /* the points belong to the caller */
+    /* Of these numbers, how many an editor has freed. */
+    uint32_t freed_points, freed_triangles;
+    uint64_t version;    /* each update adds one */
+    uint64_t edit_count; /* each edit of an editor adds one */
+    uint64_t shape;      /* each change of its triangles adds one */
+    mw_rwlock *rwlock;   /* NULL: the caller must not run queries during updates */
+    bool borrowed;       /* the points belong to the caller */
     bool tolerant;
+    bool updating; /* between begin and end of an update; only the updating thread looks */
+    bool edited;   /* it has an editor */
 };
+
+/* A triangle that an editor has freed: it names one vertex three times and has no links. `user`
+ * then holds this bit, and a triangle that took its place, or MW_USER_MASK. */
+#define MW_SURFACE_FREED MW_GHOST
+
+static MW_INLINE bool mw__surface_is_freed(const mw_surface *surface, uint32_t triangle)
+{
+    return (surface->tri[triangle].user & MW_SURFACE_FREED) != 0;
+}
 
 static MW_INLINE const double *mw__surface_point(const mw_surface *surface, uint32_t vertex)
 {

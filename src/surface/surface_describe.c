@@ -64,6 +64,7 @@ static bool surface_count(const mw_surface *surface, mw_surface_info *info)
         return false;
     for (uint32_t v = 0; v < surface->point_count; v++)
         info->vertices += mw__representative(surface->coincident, v) == v;
+    info->vertices -= surface->freed_points;
     info->unused_vertices = info->vertices - used;
     /* Triangles without edges were counted as a loop each. */
     info->border_loops -= surface->tri_count - faces;
@@ -97,6 +98,7 @@ static void surface_measure(const mw_surface *surface, mw_surface_info *info)
 {
     mw_sum area = {0}, volume = {0};
     for (uint32_t t = 0; t < surface->tri_count; t++) {
+        if (mw__surface_is_freed(surface, t)) continue;
         const double *corner[3], *apex = mw__surface_corner(surface, 0, 0);
         double normal[3];
         for (uint32_t k = 0; k < 3; k++) {
@@ -120,9 +122,9 @@ mw_status mw_surface_describe(const mw_surface *surface, mw_surface_info *info, 
     if (!surface || !info)
         return mw__fail(error, MW_ERROR_ARGUMENT,
                         "the surface or the pointer to its description is NULL");
-    *info = (mw_surface_info){
-        .triangles = surface->tri_count, .low = {NAN, NAN, NAN}, .high = {NAN, NAN, NAN}};
+    *info = (mw_surface_info){.low = {NAN, NAN, NAN}, .high = {NAN, NAN, NAN}};
     mw__surface_read_lock(surface);
+    info->triangles = surface->tri_count - surface->freed_triangles;
     bool done = surface_count(surface, info);
     if (done) surface_measure(surface, info);
     mw__surface_read_unlock(surface);

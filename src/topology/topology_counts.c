@@ -20,7 +20,7 @@ bool mw__count_components(const mw_triangle *tri, uint32_t n, uint32_t vertex_co
     for (uint32_t v = 0; v < vertex_count; v++) parent[v] = MW_NONE;
     *used = *components = 0;
     for (uint32_t t = 0; t < n; t++)
-        for (int k = 0; k < 3; k++) {
+        for (int k = 0; k < 3 && !(tri[t].user & MW_GHOST); k++) {
             uint32_t v = mw__representative(coincident, tri[t].v[k]);
             if (parent[v] == MW_NONE) {
                 parent[v] = v;

@@ -19,7 +19,8 @@ static MW_INLINE bool mw__has_three_representatives(const mw_triangle *t,
 }
 
 /* Count the vertices, below vertex_count, that triangles use, and the connected components:
- * triangles that share a vertex are connected. Returns false when out of memory. */
+ * triangles that share a vertex are connected. Those marked MW_GHOST do not count. Returns false
+ * when out of memory. */
 bool mw__count_components(const mw_triangle *tri, uint32_t n, uint32_t vertex_count,
                           const uint32_t *coincident, uint32_t *used, uint32_t *components);
 

@@ -113,15 +113,25 @@ static double middle_x(const arrays *a, uint32_t t)
     return sum / 3;
 }
 
-static int stripe(const arrays *a, uint32_t t, int stripes)
+/* The extent of the points along x. */
+typedef struct extent {
+    double low, high;
+} extent;
+
+static extent extent_of(const arrays *a)
 {
-    double low = a->points[0], high = a->points[0];
+    extent e = {a->points[0], a->points[0]};
     for (uint32_t v = 0; v < a->point_count; v++) {
         const double x = a->points[2 * (size_t)v];
-        if (x < low) low = x;
-        if (x > high) high = x;
+        if (x < e.low) e.low = x;
+        if (x > e.high) e.high = x;
     }
-    const int s = (int)((middle_x(a, t) - low) / (high - low) * stripes);
+    return e;
+}
+
+static int stripe(const arrays *a, extent e, uint32_t t, int stripes)
+{
+    const int s = (int)((middle_x(a, t) - e.low) / (e.high - e.low) * stripes);
     return s < stripes ? s : stripes - 1;
 }
 
@@ -132,14 +142,15 @@ int *mpi_cut(int i, const arrays *a, int ranks, uint64_t seed, const char **name
                                                 "second half"};
     int *rank_of = malloc((a->triangle_count + 1) * sizeof *rank_of);
     uint64_t random = seed;
+    const extent e = extent_of(a);
     *name = names[i];
     for (uint32_t t = 0; t < a->triangle_count; t++) {
         const int drawn = (int)(mw__random(&random) % (uint64_t)ranks);
         switch (i) {
-        case 0: rank_of[t] = stripe(a, t, ranks); break;
+        case 0: rank_of[t] = stripe(a, e, t, ranks); break;
         case 1: rank_of[t] = drawn; break;
         case 2: rank_of[t] = (int)((uint64_t)t * (uint64_t)ranks / a->triangle_count); break;
-        case 3: rank_of[t] = stripe(a, t, 3 * ranks) % ranks; break;
+        case 3: rank_of[t] = stripe(a, e, t, 3 * ranks) % ranks; break;
         case 4: rank_of[t] = ranks - 1; break;
         case 5: rank_of[t] = t < (uint32_t)ranks ? (int)t : 0; break;
         default: rank_of[t] = ranks / 2 + drawn / 2 < ranks ? ranks / 2 + drawn / 2 : 0; break;

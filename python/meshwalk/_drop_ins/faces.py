@@ -51,7 +51,7 @@ class CutFaces(NamedTuple):
         return out
 
 
-def _turn(a: NDArray[Any], b: NDArray[Any], c: NDArray[Any]) -> NDArray[Any]:
+def turn(a: NDArray[Any], b: NDArray[Any], c: NDArray[Any]) -> NDArray[Any]:
     """Twice the areas of triangles, positive if counter-clockwise."""
     u, v = b - a, c - a
     area: NDArray[Any] = u[..., 0] * v[..., 1] - u[..., 1] * v[..., 0]
@@ -66,9 +66,9 @@ def _wachspress(corners: NDArray[Any], points: NDArray[Any]) -> NDArray[np.float
     """
     n = corners.shape[1]
     before, after = np.roll(corners, 1, axis=1), np.roll(corners, -1, axis=1)
-    spanned = _turn(before, corners, after)
+    spanned = turn(before, corners, after)
     whole = spanned.sum(axis=1, keepdims=True)
-    areas = _turn(corners, after, points[:, None]) / whole
+    areas = turn(corners, after, points[:, None]) / whole
     areas = np.maximum(areas, 0)
     weights = spanned / whole
     for k in range(n):
@@ -146,7 +146,7 @@ def _best_fans(
 
 def _cut(points: NDArray[Any], faces: NDArray[np.intp]) -> NDArray[np.intp]:
     """Cut faces of the plane of n corners each into n - 2 triangles."""
-    chosen, best = _best_fans(points, faces, _turn)
+    chosen, best = _best_fans(points, faces, turn)
     for k in np.flatnonzero(best < 0):  # no fan: not star-shaped about a corner
         chosen[k] = _cut_one(points, faces[k])
     return chosen

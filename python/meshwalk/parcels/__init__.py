@@ -16,10 +16,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from meshwalk._drop_ins.faces import cut_faces, cut_facets
+from meshwalk._drop_ins.faces import cut_faces, cut_facets, turn
 from meshwalk._drop_ins.sphere import SphereLocator
 from meshwalk._errors import InputError
 from meshwalk._locator import Locator
+from meshwalk._where import Where
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -29,8 +30,8 @@ __all__ = ["SpatialHash", "use"]
 _NOT_FOUND = -3
 """Parcels' GRID_SEARCH_ERROR."""
 _TOLERANCE = 1e-6
-"""How far outside of a flat grid a particle may be, as a part of the largest side: positions are
-floats by default. Parcels takes as much, of the weights."""
+"""How negative the weights of a particle outside of a flat grid may be, as Parcels has it: floats
+hold positions by default."""
 
 _OWN = ("_grid", "_plane", "_sphere", "_turned", "_cell", "_hints", "_original")
 
@@ -169,8 +170,23 @@ class SpatialHash:
         if hints is not None and len(hints) != len(place):
             hints = None
         found = self._plane.locate(place, tolerance=self._tolerance, hints=hints)
-        self._hints = found.triangle.astype(np.intp)
-        return self._hints, found.weights
+        triangle, weights = found.triangle.astype(np.intp), found.weights
+        near = np.flatnonzero(found.where == Where.NEAR)
+        if len(near):
+            weights = weights.copy()
+            weights[near] = self._weights_outside(place[near], triangle[near])
+            triangle[near[weights[near].min(axis=1) < -_TOLERANCE]] = -1
+        self._hints = triangle
+        return triangle, weights
+
+    def _weights_outside(
+        self, place: NDArray[np.float64], triangle: NDArray[np.intp]
+    ) -> NDArray[np.float64]:
+        """Weights of points outside of triangles: negative ones tell how far."""
+        mesh = self._plane.mesh
+        a, b, c = np.moveaxis(mesh.points[mesh.triangles[triangle]], 1, 0)
+        spanned = np.stack([turn(b, c, place), turn(c, a, place), turn(a, b, place)], axis=1)
+        return np.asarray(spanned / turn(a, b, c)[:, None])
 
 
 def _cells_of(

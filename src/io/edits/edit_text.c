@@ -3,12 +3,11 @@
 #include "io/edits/edit_text.h"
 #include "base/options.h"
 #include "base/posix.h"
-#include "io/text/delimited.h"
+#include "io/edits/edit_words.h"
 #include "io/text/number_text.h"
 
 #include <inttypes.h>
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -54,96 +53,10 @@ const char *mw_edit_name(mw_edit_kind kind)
 
 /* A line, and how far it has been read. */
 typedef struct edit_scan {
-    const char *p;
+    mw_edit_words words;
     const edit_form *form;
     const mw_edit_text_options *options;
-    mw_error *error;
 } edit_scan;
-
-static mw_status edit_fail(const edit_scan *s, const char *format, ...)
-    __attribute__((format(printf, 2, 3)));
-static mw_status edit_fail(const edit_scan *s, const char *format, ...)
-{
-    char text[256];
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(text, sizeof text, format, arguments);
-    va_end(arguments);
-    mw__message_clean(text);
-    return s->form ? mw__fail(s->error, MW_ERROR_INPUT, "%s: %s", s->form->word, text)
-                   : mw__fail(s->error, MW_ERROR_INPUT, "%s", text);
-}
-
-static MW_INLINE bool edit_ends_word(char c)
-{
-    return c == 0 || c == ',' || mw__is_blank(c);
-}
-
-/* The next word, and the separator after it. An empty cell is a word of length 0; NULL after the
- * last word. */
-static bool edit_next_word(edit_scan *s, mw_text_cell *word)
-{
-    const char *p = mw__skip_blanks(s->p), *begin = p;
-    if (!*p || *p == '#') return false;
-    const char *quote = *p == '"' ? strchr(p + 1, '"') : NULL;
-    if (quote && edit_ends_word(quote[1])) {
-        *word = (mw_text_cell){begin + 1, (size_t)(quote - begin - 1)};
-        p = quote + 1;
-    } else {
-        while (!edit_ends_word(*p) && *p != '#') p++;
-        *word = (mw_text_cell){begin, (size_t)(p - begin)};
-    }
-    p = mw__skip_blanks(p);
-    s->p = p + (*p == ',');
-    return true;
-}
-
-/* A word that is not empty. */
-static mw_status edit_wanted_word(edit_scan *s, const char *what, mw_text_cell *word)
-{
-    if (edit_next_word(s, word) && word->length > 0) return MW_OK;
-    return edit_fail(s, "the %s is missing", what);
-}
-
-static mw_status edit_no_number(const edit_scan *s, const char *what, mw_text_cell word)
-{
-    return edit_fail(s, "%s: '%s' is not a number", what,
-                     mw__excerpt_of(word.text, word.length).text);
-}
-
-static mw_status edit_read_double(edit_scan *s, const char *what, double *value)
-{
-    mw_text_cell word;
-    mw_status status = edit_wanted_word(s, what, &word);
-    if (status) return status;
-    return mw__read_double(word.text, value) == word.text + word.length
-               ? MW_OK
-               : edit_no_number(s, what, word);
-}
-
-/* Some tables write 17.0 for 17. */
-static bool word_is_whole_number(mw_text_cell word, int64_t *number)
-{
-    double value;
-    if (mw__read_integer(word.text, number) == word.text + word.length) return true;
-    if (mw__read_double(word.text, &value) != word.text + word.length) return false;
-    if (!(value >= 0 && value <= UINT32_MAX && value == floor(value))) return false;
-    *number = (int64_t)value;
-    return true;
-}
-
-static mw_status edit_read_vertex(edit_scan *s, const char *what, uint32_t *vertex)
-{
-    mw_text_cell word;
-    int64_t number;
-    mw_status status = edit_wanted_word(s, what, &word);
-    if (status) return status;
-    if (!word_is_whole_number(word, &number) || number < 0 || number > MW_MAX_VERTICES)
-        return edit_fail(s, "%s: '%s' is not a vertex number", what,
-                         mw__excerpt_of(word.text, word.length).text);
-    *vertex = (uint32_t)number;
-    return MW_OK;
-}
 
 static bool is_digits(const char *text, size_t length)
 {
@@ -173,10 +86,11 @@ static mw_status edit_read_field(edit_scan *s, uint32_t *field)
 {
     mw_text_cell word;
     const mw_edit_text_options *options = s->options;
-    if (!edit_next_word(s, &word) || word.length == 0) {
+    if (!mw__edit_next_word(&s->words, &word) || word.length == 0) {
         *field = edit_usual_field(options);
-        return *field != MW_NONE ? MW_OK
-                                 : edit_fail(s, "the mesh has no z; name a field after the value");
+        return *field != MW_NONE
+                   ? MW_OK
+                   : mw__edit_fail(&s->words, "the mesh has no z; name a field after the value");
     }
     int64_t number = -1;
     size_t count = options->fields ? options->field_count : MW_NONE;
@@ -185,7 +99,8 @@ static mw_status edit_read_field(edit_scan *s, uint32_t *field)
     else if (options->fields)
         number = (int64_t)edit_find_field(options, word.text, word.length);
     if (number < 0 || (uint64_t)number >= count)
-        return edit_fail(s, "there is no field '%s'", mw__excerpt_of(word.text, word.length).text);
+        return mw__edit_fail(&s->words, "there is no field '%s'",
+                             mw__excerpt_of(word.text, word.length).text);
     *field = (uint32_t)number;
     return MW_OK;
 }
@@ -197,15 +112,15 @@ static mw_status edit_read_value(edit_scan *s, bool optional, mw_edit *edit)
     edit_scan ahead = *s;
     edit->value = NAN;
     edit->field = 0;
-    if (optional && (!edit_next_word(&ahead, &word) || word.length == 0)) return MW_OK;
-    mw_status status = edit_read_double(s, "value", &edit->value);
+    if (optional && (!mw__edit_next_word(&ahead.words, &word) || word.length == 0)) return MW_OK;
+    mw_status status = mw__edit_read_double(&s->words, "value", &edit->value);
     return status ? status : edit_read_field(s, &edit->field);
 }
 
 static mw_status edit_read_point(edit_scan *s, mw_edit *edit)
 {
-    mw_status status = edit_read_double(s, "x", &edit->x);
-    return status ? status : edit_read_double(s, "y", &edit->y);
+    mw_status status = mw__edit_read_double(&s->words, "x", &edit->x);
+    return status ? status : mw__edit_read_double(&s->words, "y", &edit->y);
 }
 
 static mw_status edit_read_argument(edit_scan *s, char argument, mw_edit *edit)
@@ -213,21 +128,12 @@ static mw_status edit_read_argument(edit_scan *s, char argument, mw_edit *edit)
     bool two = strcmp(s->form->arguments, "vw") == 0;
     switch (argument) {
     case 'p': return edit_read_point(s, edit);
-    case 'v': return edit_read_vertex(s, two ? "first vertex" : "vertex", &edit->vertex);
-    case 'w': return edit_read_vertex(s, "second vertex", &edit->other);
+    case 'v':
+        return mw__edit_read_number(&s->words, two ? "first vertex" : "vertex", "vertex",
+                                    &edit->vertex);
+    case 'w': return mw__edit_read_number(&s->words, "second vertex", "vertex", &edit->other);
     default: return edit_read_value(s, argument == 'o', edit);
     }
-}
-
-/* Only empty cells may follow. */
-static mw_status edit_expect_end(edit_scan *s)
-{
-    mw_text_cell word;
-    while (edit_next_word(s, &word))
-        if (word.length > 0)
-            return edit_fail(s, "'%s' is one word too many",
-                             mw__excerpt_of(word.text, word.length).text);
-    return MW_OK;
 }
 
 static mw_status edit_unknown_word(const edit_scan *s, mw_text_cell word)
@@ -237,27 +143,29 @@ static mw_status edit_unknown_word(const edit_scan *s, mw_text_cell word)
     for (size_t i = 0; i < FORM_COUNT; i++)
         used += (size_t)snprintf(known + used, sizeof known - used, "%s%s", i ? ", " : "",
                                  forms[i].word);
-    return edit_fail(s, "unknown edit '%s'; there are %s",
-                     mw__excerpt_of(word.text, word.length).text, known);
+    return mw__edit_fail(&s->words, "unknown edit '%s'; there are %s",
+                         mw__excerpt_of(word.text, word.length).text, known);
 }
 
 static mw_status edit_parse(const char *text, const mw_edit_text_options *options,
                             mw_edit_line *line, mw_error *error)
 {
-    edit_scan s = {.p = text, .options = options, .error = error};
+    edit_scan s = {.words = {.p = text, .error = error}, .options = options};
     mw_text_cell word;
-    if (!edit_next_word(&s, &word)) return MW_OK;
-    if (word.length == 0) return edit_expect_end(&s); /* a row of a table without anything in it */
+    if (!mw__edit_next_word(&s.words, &word)) return MW_OK;
+    if (word.length == 0)
+        return mw__edit_expect_end(&s.words); /* a row of a table without anything in it */
     for (size_t i = 0; i < FORM_COUNT && !s.form; i++)
         if (strlen(forms[i].word) == word.length &&
             strncasecmp(forms[i].word, word.text, word.length) == 0)
             s.form = &forms[i];
     if (!s.form) return edit_unknown_word(&s, word);
+    s.words.first = s.form->word;
     line->edit.kind = s.form->edit;
     mw_status status = MW_OK;
     for (const char *a = s.form->arguments; *a && !status; a++)
         status = edit_read_argument(&s, *a, &line->edit);
-    if (!status) status = edit_expect_end(&s);
+    if (!status) status = mw__edit_expect_end(&s.words);
     if (!status) line->kind = s.form->line;
     return status;
 }
@@ -282,7 +190,7 @@ static bool field_name_is_word(const mw_edit_text_options *options, uint32_t fie
     *quotes = false;
     for (const char *c = name; *c; c++) {
         if ((unsigned char)*c < 0x20 || *c == 0x7f || *c == '"' || *c == '#') return false;
-        *quotes |= edit_ends_word(*c);
+        *quotes |= mw__edit_ends_word(*c);
     }
     return length > 0 && length <= NAME_LIMIT && !is_digits(name, length) &&
            edit_find_field(options, name, length) == field;

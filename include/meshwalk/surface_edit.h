@@ -1,0 +1,434 @@
+/**
+ * @file surface_edit.h
+ * A surface whose topology changes between two queries.
+ *
+ * An editor changes a surface in place: it splits, flips and collapses edges, adds and removes
+ * triangles and vertices, cuts the surface along a path of edges, and sews borders. The cost of an
+ * edit depends on the triangles that it touches, not on the size of the surface. Boxes of a prober
+ * follow each edit, so that certain probes are right at once.
+ *
+ * Numbers of vertices and triangles are handles. An edit renumbers only what it touches. Freed
+ * numbers are not used again before mw_surface_editor_compact().
+ *
+ * An edit is refused if an edge would get a third triangle, or if its two triangles would have
+ * opposite orientation that did not before. A refused edit leaves the surface as it was.
+ *
+ * Threads: one thread edits a surface. On a surface with mw_surface_options.shared other threads
+ * may query meanwhile: an edit waits for running queries, and new queries wait for its end.
+ */
+#ifndef MESHWALK_SURFACE_EDIT_H
+#define MESHWALK_SURFACE_EDIT_H
+
+#include <meshwalk/edit.h>
+#include <meshwalk/probe.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** What changes a surface. Opaque. */
+typedef struct mw_surface_editor mw_surface_editor;
+
+/** Options of an editor of a surface. Zero-initialised options select the defaults. */
+typedef struct mw_surface_editor_options {
+    /** NULL, or a prober of the surface whose boxes follow each edit. It must outlive the editor.
+     * Other probers of the surface, and its stars, are out of date after an edit, until
+     * mw_prober_update() or mw_star_update(). */
+    mw_prober *prober;
+    /** How many edits can be undone; each takes 40 bytes for each triangle that it touches.
+     * SIZE_MAX: all. */
+    size_t undo;
+    uint32_t reserved[6]; /**< must be zero */
+} mw_surface_editor_options;
+
+/**
+ * Create an editor of a surface.
+ *
+ * Until the editor is destroyed, the surface changes by the editor only, except for
+ * mw_surface_points() and mw_prober_update(). The address that mw_surface_points() returned may
+ * change with each edit.
+ *
+ * @param surface  the surface, which must outlive the editor
+ * @param options  NULL selects the defaults
+ * @param out      receives the editor, owned by the caller; NULL on failure
+ * @param error    NULL, or receives the message of a failure
+ * @return MW_OK; MW_ERROR_INPUT if a triangle of a tolerant surface names a vertex twice, or an
+ *         edge has more than two triangles (the error names a triangle); MW_ERROR_ARGUMENT for
+ *         NULL, a surface that was welded, borrows its points or has an editor already, or a prober
+ *         of another surface; MW_ERROR_MEMORY.
+ *
+ * Belongs to the updating thread. O(n) time; 24 bytes a triangle and 8 a vertex, and room for half
+ * as many of both more.
+ */
+MW_API mw_status mw_surface_editor_create(mw_surface *surface,
+                                          const mw_surface_editor_options *options,
+                                          mw_surface_editor **out, mw_error *error);
+
+/** Destroy an editor. The surface and the prober stay as they are, but freed vertices count as
+ * vertices of no triangle from now on. NULL is allowed. */
+MW_API void mw_surface_editor_destroy(mw_surface_editor *editor);
+
+/* --- edits ------------------------------------------------------------------------------------ */
+
+/** The kinds of edits. mw_surface_edit_add_vertex() and the functions after it explain each. */
+typedef enum mw_surface_edit_kind {
+    MW_SURFACE_ADD_VERTEX = 0,  /**< add a vertex at `point` */
+    MW_SURFACE_REMOVE_VERTEX,   /**< remove vertex[0] and its triangles */
+    MW_SURFACE_MOVE_VERTEX,     /**< move vertex[0] to `point` */
+    MW_SURFACE_ADD_TRIANGLE,    /**< add the triangle of vertex[0], [1], [2] */
+    MW_SURFACE_REMOVE_TRIANGLE, /**< remove `triangle` */
+    MW_SURFACE_SPLIT_EDGE,      /**< split the edge from vertex[0] to vertex[1] at `point` */
+    MW_SURFACE_SPLIT_TRIANGLE,  /**< split `triangle` at `point` */
+    MW_SURFACE_FLIP,            /**< flip the edge from vertex[0] to vertex[1] */
+    MW_SURFACE_COLLAPSE,        /**< merge vertex[0] into vertex[1], which joins an edge to it */
+    MW_SURFACE_CUT,             /**< cut along the edges of `path` */
+    MW_SURFACE_SEW,             /**< sew the border edges along `other` to those along `path` */
+    MW_SURFACE_EDIT_KIND_COUNT
+} mw_surface_edit_kind;
+
+/** The word of a kind in a stream of edits, as "split-edge"; NULL for any other number. */
+MW_API const char *mw_surface_edit_name(mw_surface_edit_kind kind);
+
+/** One edit. Members that its kind does not name are ignored. */
+typedef struct mw_surface_edit {
+    mw_surface_edit_kind kind;
+    uint32_t triangle;
+    uint32_t vertex[3];
+    /** x, y, z, in mesh units. For MW_SURFACE_SPLIT_EDGE, MW_SURFACE_SPLIT_TRIANGLE and
+     * MW_SURFACE_COLLAPSE a NaN as the first selects the usual place. */
+    double point[3];
+    const uint32_t *path;  /**< MW_SURFACE_CUT, MW_SURFACE_SEW: vertices, in their order */
+    const uint32_t *other; /**< MW_SURFACE_SEW: as many vertices */
+    size_t path_count;     /**< number of vertices in `path`, and in `other` */
+} mw_surface_edit;
+
+/** A vertex that an edit made, freed or moved. */
+typedef struct mw_changed_vertex {
+    uint32_t vertex;
+    /** Of a vertex made by a cut: the vertex that it is a copy of. Of a vertex freed by a collapse
+     * or a seam: the vertex that took its place. Otherwise MW_NONE. */
+    uint32_t other;
+} mw_changed_vertex;
+
+/** What an edit changed. The arrays are owned by the editor, and valid until its next edit. */
+typedef struct mw_surface_change {
+    /** First the made triangles, then the reused ones, which got other vertices or another order of
+     * vertices, then the freed ones; each in ascending order. */
+    const mw_changed_triangle *triangle;
+    size_t made, reused, freed; /**< how many of each kind `triangle` holds */
+    /** First the made vertices, then the freed ones, each in ascending order, then the moved one.
+     */
+    const mw_changed_vertex *vertex;
+    size_t vertices_made, vertices_freed, vertices_moved;
+    uint32_t reserved[8];
+} mw_surface_change;
+
+/**
+ * Apply one edit. Equivalent to the function of its kind below.
+ *
+ * Between mw_surface_begin_update() and mw_surface_end_update() an edit is a part of that update:
+ * call mw_prober_update() before its end, with a distance of 0 if only edits moved vertices.
+ * Elsewhere an edit is an update by itself, after which the editor's prober is up to date if it
+ * was before.
+ *
+ * @param editor  the editor
+ * @param edit    the edit
+ * @param change  NULL, or receives what the edit changed
+ * @param error   NULL, or receives the message of a failure, with the vertex or triangle concerned
+ * @return MW_OK, or the error of the kind; on failure the surface is unchanged. All kinds:
+ *         MW_ERROR_ARGUMENT if a pointer is NULL or the kind is unknown; MW_ERROR_INPUT if a vertex
+ *         or triangle does not exist, a coordinate is not finite, or no triangle would be left;
+ *         MW_ERROR_LIMIT if all numbers are used (mw_surface_editor_compact() frees some);
+ *         MW_ERROR_MEMORY.
+ *
+ * Not thread-safe, except for queries of a shared surface. Time: proportional to the triangles that
+ * the edit touches, and to those round the less busy end of an edge that it names; memory grows now
+ * and then, in O(n).
+ */
+MW_API mw_status mw_surface_edit_apply(mw_surface_editor *editor, const mw_surface_edit *edit,
+                                       mw_surface_change *change, mw_error *error);
+
+/**
+ * Add a vertex of no triangle. change->vertex names it.
+ *
+ * @param editor  the editor
+ * @param point   x, y, z, finite, in mesh units
+ * @param change  NULL, or receives what the edit changed
+ * @param error   NULL, or receives the message of a failure
+ * @return as mw_surface_edit_apply(). Not thread-safe. O(1).
+ */
+MW_API mw_status mw_surface_edit_add_vertex(mw_surface_editor *editor, const double point[3],
+                                            mw_surface_change *change, mw_error *error);
+
+/**
+ * Remove a vertex, and all triangles round it, which leaves a hole.
+ *
+ * @param editor  the editor
+ * @param vertex  the vertex
+ * @param change  NULL, or receives what the edit changed
+ * @param error   NULL, or receives the message of a failure
+ * @return as mw_surface_edit_apply(). Not thread-safe. O(degree).
+ */
+MW_API mw_status mw_surface_edit_remove_vertex(mw_surface_editor *editor, uint32_t vertex,
+                                               mw_surface_change *change, mw_error *error);
+
+/**
+ * Move a vertex. Its triangles stay as they are, whatever shape they get.
+ *
+ * @param editor  the editor
+ * @param vertex  the vertex
+ * @param point   x, y, z, finite, in mesh units
+ * @param change  NULL, or receives what the edit changed
+ * @param error   NULL, or receives the message of a failure
+ * @return as mw_surface_edit_apply(). Not thread-safe. O(degree).
+ */
+MW_API mw_status mw_surface_edit_move_vertex(mw_surface_editor *editor, uint32_t vertex,
+                                             const double point[3], mw_surface_change *change,
+                                             mw_error *error);
+
+/**
+ * Add a triangle of three vertices, and link it to the triangles at its edges.
+ *
+ * @param editor    the editor
+ * @param vertices  its vertices, counter-clockwise as seen from its front
+ * @param change    NULL, or receives what the edit changed
+ * @param error     NULL, or receives the message of a failure
+ * @return as mw_surface_edit_apply(); also MW_ERROR_INPUT if a vertex is named twice, an edge has
+ *         two triangles, or its triangle has the opposite orientation.
+ *
+ * Not thread-safe. O(degree).
+ */
+MW_API mw_status mw_surface_edit_add_triangle(mw_surface_editor *editor, const uint32_t vertices[3],
+                                              mw_surface_change *change, mw_error *error);
+
+/**
+ * Remove a triangle. Its vertices stay, perhaps with no triangle.
+ *
+ * @param editor    the editor
+ * @param triangle  the triangle
+ * @param change    NULL, or receives what the edit changed
+ * @param error     NULL, or receives the message of a failure
+ * @return as mw_surface_edit_apply(). Not thread-safe. O(1).
+ */
+MW_API mw_status mw_surface_edit_remove_triangle(mw_surface_editor *editor, uint32_t triangle,
+                                                 mw_surface_change *change, mw_error *error);
+
+/**
+ * Split an edge by a new vertex, and with it the one or two triangles at the edge.
+ *
+ * A triangle keeps its number for the part at the lower end of the edge.
+ *
+ * @param editor  the editor
+ * @param a, b    the ends of the edge
+ * @param point   NULL: the middle of the edge; or x, y, z, finite
+ * @param change  NULL, or receives what the edit changed
+ * @param error   NULL, or receives the message of a failure
+ * @return as mw_surface_edit_apply(); also MW_ERROR_INPUT if no edge joins the vertices, or both
+ *         its triangles have the same vertices. Not thread-safe.
+ */
+MW_API mw_status mw_surface_edit_split_edge(mw_surface_editor *editor, uint32_t a, uint32_t b,
+                                            const double point[3], mw_surface_change *change,
+                                            mw_error *error);
+
+/**
+ * Split a triangle in three by a new vertex. One part keeps the number.
+ *
+ * @param editor    the editor
+ * @param triangle  the triangle
+ * @param point     NULL: its centre of gravity; or x, y, z, finite
+ * @param change    NULL, or receives what the edit changed
+ * @param error     NULL, or receives the message of a failure
+ * @return as mw_surface_edit_apply(). Not thread-safe. O(1).
+ */
+MW_API mw_status mw_surface_edit_split_triangle(mw_surface_editor *editor, uint32_t triangle,
+                                                const double point[3], mw_surface_change *change,
+                                                mw_error *error);
+
+/**
+ * Flip the edge between two vertices, as mw_surface_flip() does. Both triangles keep their numbers.
+ *
+ * @param editor  the editor
+ * @param a, b    the ends of the edge
+ * @param change  NULL, or receives what the edit changed
+ * @param error   NULL, or receives the message of a failure
+ * @return as mw_surface_edit_apply(); also MW_ERROR_INPUT if no edge joins the vertices, it has one
+ *         triangle only, its triangles have opposite orientation, or an edge joins the two opposite
+ *         vertices already. Not thread-safe.
+ */
+MW_API mw_status mw_surface_edit_flip(mw_surface_editor *editor, uint32_t a, uint32_t b,
+                                      mw_surface_change *change, mw_error *error);
+
+/**
+ * Collapse the edge between two vertices: `gone` merges into `kept`, and the triangles at the edge
+ * go.
+ *
+ * The link condition [Dey, Edelsbrunner, Guha, Nekhayev 1999] is checked, so that the surface
+ * stays what it was: the two vertices may have no other common neighbours than the corners
+ * opposite to the edge, no edge opposite to both in two triangles, may not both lie on a border
+ * unless the edge does, and may not both be pinched.
+ *
+ * @param editor      the editor
+ * @param gone, kept  the ends of the edge
+ * @param point       NULL: `kept` stays where it is; or its new place, finite
+ * @param change      NULL, or receives what the edit changed
+ * @param error       NULL, or receives the message of a failure
+ * @return as mw_surface_edit_apply(); also MW_ERROR_INPUT if no edge joins the vertices, or the
+ *         link condition fails.
+ *
+ * Not thread-safe. O(d log d) for the sum d of both degrees.
+ */
+MW_API mw_status mw_surface_edit_collapse(mw_surface_editor *editor, uint32_t gone, uint32_t kept,
+                                          const double point[3], mw_surface_change *change,
+                                          mw_error *error);
+
+/**
+ * Cut the surface along a path of edges, as a scalpel does: the edges become borders.
+ *
+ * Where the path goes through a vertex, or begins or ends on a border, the vertex is divided: the
+ * lowest triangle round it keeps the vertex, the other sides get copies. A path may be closed and
+ * may cross itself.
+ *
+ * @param editor  the editor
+ * @param path    at least two vertices; each two in succession are joined by an edge
+ * @param count   number of vertices
+ * @param change  NULL, or receives what the edit changed
+ * @param error   NULL, or receives the message of a failure
+ * @return as mw_surface_edit_apply(); also MW_ERROR_INPUT if no edge joins two successive vertices,
+ *         an edge is a border already or comes twice, or both sides of an edge would keep the same
+ *         ends: a cut that ends inside of the surface needs at least two edges. MW_ERROR_ARGUMENT
+ *         for fewer than two vertices.
+ *
+ * Not thread-safe. O(d log d) for the sum d of the degrees along the path.
+ */
+MW_API mw_status mw_surface_edit_cut(mw_surface_editor *editor, const uint32_t *path, size_t count,
+                                     mw_surface_change *change, mw_error *error);
+
+/**
+ * Sew a chain of border edges to another one. Each vertex of `other` merges into that of `path`,
+ * whose place it takes.
+ *
+ * Other border edges that get the same ends thereby become one edge, too. The chains may share
+ * vertices, such as the end of a cut.
+ *
+ * @param editor  the editor
+ * @param path    at least two vertices; each two in succession are joined by a border edge
+ * @param other   as many, likewise
+ * @param count   number of vertices in each
+ * @param change  NULL, or receives what the edit changed
+ * @param error   NULL, or receives the message of a failure
+ * @return as mw_surface_edit_apply(); also MW_ERROR_INPUT if a chain is none, a vertex would merge
+ *         into two, a triangle would have a vertex twice, an edge three triangles, or its two
+ *         triangles opposite orientation. MW_ERROR_ARGUMENT for fewer than two vertices.
+ *
+ * Not thread-safe. O(d log d) for the sum d of the degrees along both chains.
+ */
+MW_API mw_status mw_surface_edit_sew(mw_surface_editor *editor, const uint32_t *path,
+                                     const uint32_t *other, size_t count, mw_surface_change *change,
+                                     mw_error *error);
+
+/**
+ * Undo the latest edit that has not been undone. Restores the surface and all numbers.
+ *
+ * Vertices that were overwritten in mw_surface_points() stay where they are, except for those that
+ * the edit moved.
+ *
+ * @param editor  the editor
+ * @param change  NULL, or receives what undoing changed
+ * @param error   NULL, or receives the message of a failure
+ * @return MW_OK; MW_ERROR_INPUT if there is no edit to undo, or it was not kept
+ *         (mw_surface_editor_options.undo); MW_ERROR_MEMORY, and nothing has changed.
+ *
+ * Time: as the edit. Not thread-safe.
+ */
+MW_API mw_status mw_surface_edit_undo(mw_surface_editor *editor, mw_surface_change *change,
+                                      mw_error *error);
+
+/**
+ * Renumber vertices and triangles without gaps, in the same order. Undo starts again.
+ *
+ * The boxes of the editor's prober are made anew.
+ *
+ * @param editor     the editor
+ * @param triangles  NULL, or an array of mw_surface_triangle_count() numbers: receives the new
+ *                   number of each triangle, MW_NONE for freed ones
+ * @param vertices   the same for vertices, mw_surface_vertex_count() numbers
+ * @param error      NULL, or receives the message of a failure
+ * @return MW_OK; MW_ERROR_MEMORY, and nothing has changed.
+ *
+ * Time: O(n), O(n log n) with boxes. Not thread-safe.
+ */
+MW_API mw_status mw_surface_editor_compact(mw_surface_editor *editor, uint32_t *triangles,
+                                           uint32_t *vertices, mw_error *error);
+
+/* --- the present surface ---------------------------------------------------------------------- */
+
+/** Sizes and counts of an editor. */
+typedef struct mw_surface_editor_info {
+    uint32_t vertices, triangles; /**< existing ones */
+    /** All numbers are below these: mw_surface_vertex_count() and mw_surface_triangle_count(). */
+    uint32_t vertex_range, triangle_range;
+    uint32_t border_edges; /**< edges of one triangle */
+    size_t undoable;       /**< edits that can be undone */
+    /** Memory of the editor, with the room in the surface that edits will use, without the prober.
+     */
+    size_t bytes;
+    size_t undo_bytes; /**< of these, for undo */
+    uint64_t edits;    /**< edits applied since the editor was created, undone ones included */
+    uint32_t reserved[8];
+} mw_surface_editor_info;
+
+/** Fill `info` with sizes and counts of the editor. O(1). */
+MW_API void mw_surface_editor_describe(const mw_surface_editor *editor,
+                                       mw_surface_editor_info *info);
+
+/**
+ * The vertices of a triangle, as mw_surface_triangle() gives them.
+ *
+ * @param editor    the editor
+ * @param triangle  any number
+ * @param vertices  receives three vertices; unchanged if there is no such triangle
+ * @return 1, or 0 if no triangle has that number. O(1).
+ */
+MW_API int mw_surface_editor_triangle(const mw_surface_editor *editor, uint32_t triangle,
+                                      uint32_t vertices[3]);
+
+/**
+ * The coordinates of a vertex.
+ *
+ * @param editor  the editor
+ * @param vertex  any number
+ * @param point   receives x, y, z; unchanged if there is no such vertex
+ * @return 1, or 0 if no vertex has that number. O(1).
+ */
+MW_API int mw_surface_editor_vertex(const mw_surface_editor *editor, uint32_t vertex,
+                                    double point[3]);
+
+/**
+ * The triangles round a vertex, in ascending order.
+ *
+ * @param editor     the editor
+ * @param vertex     any number
+ * @param triangles  receives at most `capacity` triangles, the lowest; may be NULL if `capacity` is
+ *                   0
+ * @param capacity   room in `triangles`
+ * @return how many there are, also if `capacity` is less. O(d^2) for the degree d, at most d times
+ *         `capacity`.
+ */
+MW_API size_t mw_surface_editor_triangles_of(const mw_surface_editor *editor, uint32_t vertex,
+                                             uint32_t *triangles, size_t capacity);
+
+/**
+ * The triangles at the edge between two vertices, given by any two numbers.
+ *
+ * @param editor     the editor
+ * @param a, b       the ends of the edge
+ * @param triangles  receives the triangles, the lower one first; MW_NONE where there is none
+ * @return how many there are: 0, 1 or 2. Time: the degree of the less busy end.
+ */
+MW_API unsigned mw_surface_editor_edge(const mw_surface_editor *editor, uint32_t a, uint32_t b,
+                                       uint32_t triangles[2]);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
