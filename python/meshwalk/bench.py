@@ -313,6 +313,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print(f"{sizes[1]} random queries in {sizes[0]} random vertices, {given.workers} processes")
         _print_times(streams.times, sizes[1], "ns a query")
         print("the same sums" if len(set(streams.sums)) == 1 else f"other sums: {streams.sums}")
+        each = [f"{1e9 * cpu / sizes[1]:.1f}" for cpu in streams.cpu]
+        print("processor time, ns a query:", *each)
         print("memory of a process at most, MB:", *(size >> 20 for size in streams.bytes))
         return 0
     if given.task == "particles":
