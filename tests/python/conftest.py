@@ -19,7 +19,17 @@ import meshwalk
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-HEAVY = ("geopandas", "meshio", "opendrift", "parcels", "pyvista", "shapely", "trimesh", "uxarray", "xugrid")
+HEAVY = (
+    "geopandas",
+    "meshio",
+    "opendrift",
+    "parcels",
+    "pyvista",
+    "shapely",
+    "trimesh",
+    "uxarray",
+    "xugrid",
+)
 """Drop-ins for packages that ./test leaves out."""
 NOT_HERE = "is not installed: ./test --python-all tests its drop-in"
 
