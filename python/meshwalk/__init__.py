@@ -64,7 +64,14 @@ if TYPE_CHECKING:
     from meshwalk._plot import explain, plot
     from meshwalk._polygons import PolygonHits, Polygons
     from meshwalk._prepared import map
-    from meshwalk._prober import NearestPoints, Prober, SurfaceSide, Touches, TouchState
+    from meshwalk._prober import (
+        NearestPoints,
+        Prober,
+        SurfaceSide,
+        Touches,
+        TouchLists,
+        TouchState,
+    )
     from meshwalk._segments import Segments
     from meshwalk._sight import Sights, SightState, visible
     from meshwalk._star import Star, StarInfo, direction_to_lonlat, lonlat_to_direction
@@ -119,7 +126,14 @@ _MODULES = {
     "_plot": ("explain", "plot"),
     "_polygons": ("PolygonHits", "Polygons"),
     "_prepared": ("map",),
-    "_prober": ("NearestPoints", "Prober", "SurfaceSide", "Touches", "TouchState"),
+    "_prober": (
+        "NearestPoints",
+        "Prober",
+        "SurfaceSide",
+        "TouchLists",
+        "TouchState",
+        "Touches",
+    ),
     "_segments": ("Segments",),
     "_sight": ("SightState", "Sights", "visible"),
     "_star": ("Star", "StarInfo", "direction_to_lonlat", "lonlat_to_direction"),
@@ -183,6 +197,7 @@ __all__ = [
     "SurfaceSide",
     "TileLocations",
     "Tiles",
+    "TouchLists",
     "TouchState",
     "Touches",
     "VolumeInfo",

@@ -250,6 +250,30 @@ class Prober:
         max_distance: float,
         /,
     ) -> memoryview: ...
+    def _any(
+        self,
+        queries: Buffer,
+        out: Buffer,
+        extent: str,
+        faces: str,
+        min_distance: float,
+        max_distance: float,
+        threads: int,
+        progress: Progress | None,
+        /,
+    ) -> None: ...
+    def _lists(
+        self,
+        queries: Buffer,
+        one_per_place: bool,
+        extent: str,
+        faces: str,
+        min_distance: float,
+        max_distance: float,
+        threads: int,
+        progress: Progress | None,
+        /,
+    ) -> tuple[memoryview, memoryview]: ...
     def _inside(self, points: Buffer, out: Buffer, threads: int, /) -> None: ...
 
 _RawChange: TypeAlias = tuple[int, int, int, int, int, int, int, int, bytes | None]
