@@ -41,7 +41,7 @@ _meshwalk_options() {
         convert) echo "--format --crs $common" ;;
         prepare) echo "--border --fields --crs $common" ;;
         view) echo "--points --columns --as --centre --lonlat --weld $common" ;;
-        bench) echo "--queries --sizes --enclose --data --engines --tasks --rounds --walk --seeds --no-times --format --plot $common" ;;
+        bench) echo "--queries --sizes --enclose --data --engines --tasks --rounds --ranks --walk --seeds --no-times --format --plot $common" ;;
     esac
 }
 

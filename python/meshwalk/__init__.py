@@ -70,6 +70,7 @@ if TYPE_CHECKING:
         Prober,
         SurfaceSide,
         Touches,
+        TouchLists,
         TouchState,
     )
     from meshwalk._segments import Segments
@@ -132,7 +133,15 @@ _MODULES = {
     "_plot": ("explain", "plot"),
     "_polygons": ("PolygonHits", "Polygons"),
     "_prepared": ("map",),
-    "_prober": ("Deviation", "NearestPoints", "Prober", "SurfaceSide", "Touches", "TouchState"),
+    "_prober": (
+        "Deviation",
+        "NearestPoints",
+        "Prober",
+        "SurfaceSide",
+        "TouchLists",
+        "TouchState",
+        "Touches",
+    ),
     "_segments": ("Segments",),
     "_sight": ("SightState", "Sights", "visible"),
     "_star": ("Remeshed", "Star", "StarInfo", "direction_to_lonlat", "lonlat_to_direction"),
@@ -198,6 +207,7 @@ __all__ = [
     "SurfaceSide",
     "TileLocations",
     "Tiles",
+    "TouchLists",
     "TouchState",
     "Touches",
     "VolumeInfo",

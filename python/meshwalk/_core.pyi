@@ -91,6 +91,7 @@ class Locator:
     def _nearest_border(
         self, x: float, y: float, /
     ) -> tuple[int, int, float, tuple[float, float], tuple[float, float, float]]: ...
+    def _holes(self) -> memoryview: ...
     def _describe(self) -> dict[str, Any]: ...
 
 class Operator:
@@ -275,6 +276,30 @@ class Prober:
         max_distance: float,
         /,
     ) -> memoryview: ...
+    def _any(
+        self,
+        queries: Buffer,
+        out: Buffer,
+        extent: str,
+        faces: str,
+        min_distance: float,
+        max_distance: float,
+        threads: int,
+        progress: Progress | None,
+        /,
+    ) -> None: ...
+    def _lists(
+        self,
+        queries: Buffer,
+        one_per_place: bool,
+        extent: str,
+        faces: str,
+        min_distance: float,
+        max_distance: float,
+        threads: int,
+        progress: Progress | None,
+        /,
+    ) -> tuple[memoryview, memoryview]: ...
     def _inside(self, points: Buffer, out: Buffer, threads: int, /) -> None: ...
 
 _RawChange: TypeAlias = tuple[int, int, int, int, int, int, int, int, bytes | None]

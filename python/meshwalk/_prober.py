@@ -207,6 +207,37 @@ class Touches(Found):
         return f"<Touches: {self.records.size} probes{'; ' if kinds else ''}{kinds}>"
 
 
+class TouchLists(Touches):
+    """All that many probes touch: the answer of `Prober.probe_each`.
+
+    The touches of a probe stand one after the other, in their order along its motion.
+
+    Attributes
+    ----------
+    offsets : ndarray of int64, shape (n + 1,)
+        Probe i has the touches from ``offsets[i]`` up to ``offsets[i + 1]``, which is not its.
+    """
+
+    __slots__ = ("offsets",)
+
+    def __init__(self, surface: Surface, records: NDArray[Any], offsets: NDArray[np.int64]) -> None:
+        super().__init__(surface, records)
+        self.offsets = offsets
+
+    @property
+    def count(self) -> NDArray[np.int64]:
+        """How many touches each probe has: a new array each time."""
+        return np.diff(self.offsets)
+
+    @property
+    def probe(self) -> NDArray[np.int64]:
+        """The probe of each touch: a new array each time."""
+        return np.repeat(np.arange(len(self.offsets) - 1), self.count)
+
+    def __repr__(self) -> str:
+        return f"<TouchLists: {len(self.offsets) - 1} probes, {len(self.records)} touches>"
+
+
 class NearestPoints(Found):
     """The points of a surface that are nearest: the answer of `Prober.nearest`.
 
@@ -224,6 +255,18 @@ class NearestPoints(Found):
     def __repr__(self) -> str:
         found = int((self.triangle >= 0).sum())
         return f"<NearestPoints: {found} of {self.records.size}>"
+
+
+def _queries(points: ArrayLike, motions: ArrayLike) -> tuple[NDArray[np.float64], tuple[int, ...]]:
+    """Points beside motions, six doubles a row, and the shape of the points."""
+    rows, shape = _arrays.queries(points, "points", 3)
+    ways, way_shape = _arrays.queries(motions, "motions", 3)
+    if way_shape not in ((), shape):
+        raise ValueError(f"motions must have the shape of points, {shape}, not {way_shape}")
+    queries = np.empty((len(rows), 6))
+    queries[:, :3] = rows
+    queries[:, 3:] = ways
+    return queries, shape
 
 
 class Prober(_core.Prober):
@@ -336,14 +379,8 @@ class Prober(_core.Prober):
         -------
         Touches
         """
-        rows, shape = _arrays.queries(points, "points", 3)
-        ways, way_shape = _arrays.queries(motions, "motions", 3)
-        if way_shape not in ((), shape):
-            raise ValueError(f"motions must have the shape of points, {shape}, not {way_shape}")
-        queries = np.empty((len(rows), 6))
-        queries[:, :3] = rows
-        queries[:, 3:] = ways
-        records = np.empty(len(rows), TOUCH)
+        queries, shape = _queries(points, motions)
+        records = np.empty(len(queries), TOUCH)
         self._probe(
             queries,
             records,
@@ -405,6 +442,114 @@ class Prober(_core.Prober):
         x, y, z, a, b, c = (float(v) for v in (*rows[0], *ways[0]))
         found = self._all((x, y, z, a, b, c), extent, faces, min_distance, max_distance)
         return Touches(self.surface, np.frombuffer(found, TOUCH))
+
+    def probe_each(
+        self,
+        points: ArrayLike,
+        motions: ArrayLike,
+        max_distance: float = 0,
+        *,
+        extent: Literal["line", "ray", "segment"] = "line",
+        faces: Literal["front", "back", "both"] = "both",
+        min_distance: float = 0,
+        one_per_place: bool = False,
+        threads: int = 0,
+        progress: Progress | None = None,
+    ) -> TouchLists:
+        """Find all triangles that each of many lines touches, in their order along it.
+
+        Parameters
+        ----------
+        points, motions : array_like, shape (..., 3)
+            As of `probe`.
+        max_distance, extent, faces, min_distance
+            As of `probe_all`.
+        one_per_place : bool, optional
+            Of several triangles that a line touches at one place, exactly, give only the lowest: a
+            line through an edge touches once there.
+        threads : int, optional
+            How many threads answer; 0 lets the library choose. The answers are the same.
+        progress : callable, optional
+            As of `Locator.locate`.
+
+        Returns
+        -------
+        TouchLists
+            In the order of the points' ``ravel``. A point or motion that is not finite, or a motion
+            of zero, touches nothing.
+
+        Raises
+        ------
+        ValueError
+            The prober has no boxes.
+
+        Examples
+        --------
+        >>> import meshwalk
+        >>> floor = meshwalk.Surface([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]])
+        >>> prober = meshwalk.Prober(floor, boxes=True)
+        >>> found = prober.probe_each([[1, 1, 5], [9, 9, 5], [1, 2, 3]], [0, 0, -1])
+        >>> found.probe
+        array([0, 2])
+        >>> found.distance
+        array([5., 3.])
+        """
+        queries, _ = _queries(points, motions)
+        offsets, touches = self._lists(
+            queries, one_per_place, extent, faces, min_distance, max_distance, threads, progress
+        )
+        return TouchLists(
+            self.surface, np.frombuffer(touches, TOUCH), np.frombuffer(offsets, np.int64)
+        )
+
+    def probe_any(
+        self,
+        points: ArrayLike,
+        motions: ArrayLike,
+        max_distance: float = 0,
+        *,
+        extent: Literal["line", "ray", "segment"] = "line",
+        faces: Literal["front", "back", "both"] = "both",
+        min_distance: float = 0,
+        threads: int = 0,
+        progress: Progress | None = None,
+    ) -> NDArray[np.bool_]:
+        """Tell which lines touch any triangle: faster than to find the nearest.
+
+        Parameters
+        ----------
+        points, motions : array_like, shape (..., 3)
+            As of `probe`.
+        max_distance, extent, faces, min_distance
+            As of `probe_all`.
+        threads : int, optional
+            How many threads answer; 0 lets the library choose.
+        progress : callable, optional
+            As of `Locator.locate`.
+
+        Returns
+        -------
+        ndarray of bool, shape (...)
+            False, too, where a point or motion is not finite or a motion is zero.
+
+        Raises
+        ------
+        ValueError
+            The prober has no boxes.
+
+        Examples
+        --------
+        >>> import meshwalk
+        >>> floor = meshwalk.Surface([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]])
+        >>> prober = meshwalk.Prober(floor, boxes=True)
+        >>> prober.probe_any([[1, 1, 5], [9, 9, 5]], [0, 0, -1], extent="ray")
+        array([ True, False])
+        """
+        queries, shape = _queries(points, motions)
+        states = np.empty(len(queries), np.uint8)
+        self._any(queries, states, extent, faces, min_distance, max_distance, threads, progress)
+        touched: NDArray[np.bool_] = states == TouchState.HIT
+        return touched.reshape(shape)
 
     def inside(self, points: ArrayLike, *, threads: int = 0) -> NDArray[np.uint8]:
         """Decide which points are inside of the surface, exactly.

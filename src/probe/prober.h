@@ -90,7 +90,15 @@ bool mw__surface_is_closed(const mw_surface *surface);
 /* Are vertices that were welded at the same place? O(n) if the surface was welded. */
 bool mw__surface_is_joined(const mw_surface *surface);
 
+/* --- probe_counters.c --- */
+
+/* Add the work of one probe. */
+void mw__probe_count(mw_probe_counters *sum, mw_probe_counters *work, bool hit);
+
 /* --- probe_query.c --- */
+
+/* Are there boxes, which are up to date? */
+bool mw__prober_is_current(const mw_prober *prober);
 
 /* Answer n certain probes, at most 8, as mw_probe one after the other. */
 void mw__probe_certain_group(const mw_prober *prober, mw_probe_cursor *cursor,
