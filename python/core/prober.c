@@ -239,6 +239,32 @@ static PyObject *prober_nearest(PyObject *self, PyObject *args)
     Py_RETURN_NONE;
 }
 
+/* _deviation(surface, threads, progress): a dictionary of the members of mw_deviation */
+static PyObject *prober_deviation(PyObject *self, PyObject *args)
+{
+    prober_object *object = (prober_object *)self;
+    PyObject *surface, *function;
+    mw_progress progress;
+    mw_remesh_options options = {0};
+    mw_deviation d;
+    mw_error error;
+    mw_status status;
+    if (!PyArg_ParseTuple(args, "O!O&O", object->state->surface_type, &surface, option_uint32,
+                          &options.threads, &function))
+        return NULL;
+    options.progress = progress_begin(object->state, function, &progress);
+    Py_BEGIN_ALLOW_THREADS
+    status = mw_surface_deviation(((surface_object *)surface)->surface, object->prober, &options,
+                                  &d, &error);
+    Py_END_ALLOW_THREADS
+    if (status) return errors_raise(object->state, &error);
+    return Py_BuildValue("{s:d,s:d,s:d,s:(ddd),s:(ddd),s:I,s:I,s:K,s:d}", "largest", d.largest,
+                         "at_most", d.at_most, "mean", d.mean, "point", d.point[0], d.point[1],
+                         d.point[2], "nearest", d.nearest[0], d.nearest[1], d.nearest[2],
+                         "triangle", d.triangle, "nearest_triangle", d.nearest_triangle, "samples",
+                         (unsigned long long)d.samples, "area", d.area);
+}
+
 /* All touches of a probe, to be released by free(). */
 typedef struct prober_touches {
     mw_touch *touches;
@@ -320,6 +346,7 @@ static PyObject *prober_surface(PyObject *self, void *unused)
 static PyMethodDef prober_methods[] = {
     {"_probe", prober_probe, METH_VARARGS, NULL},
     {"_nearest", prober_nearest, METH_VARARGS, NULL},
+    {"_deviation", prober_deviation, METH_VARARGS, NULL},
     {"_all", prober_all, METH_VARARGS, NULL},
     {"_any", prober_any, METH_VARARGS, NULL},
     {"_lists", prober_lists, METH_VARARGS, NULL},

@@ -65,6 +65,7 @@ if TYPE_CHECKING:
     from meshwalk._polygons import PolygonHits, Polygons
     from meshwalk._prepared import map
     from meshwalk._prober import (
+        Deviation,
         NearestPoints,
         Prober,
         SurfaceSide,
@@ -74,7 +75,13 @@ if TYPE_CHECKING:
     )
     from meshwalk._segments import Segments
     from meshwalk._sight import Sights, SightState, visible
-    from meshwalk._star import Star, StarInfo, direction_to_lonlat, lonlat_to_direction
+    from meshwalk._star import (
+        Remeshed,
+        Star,
+        StarInfo,
+        direction_to_lonlat,
+        lonlat_to_direction,
+    )
     from meshwalk._surface import Surface, SurfaceInfo
     from meshwalk._tiles import TileLocations, Tiles
     from meshwalk._tiling import prepare_tiles
@@ -127,6 +134,7 @@ _MODULES = {
     "_polygons": ("PolygonHits", "Polygons"),
     "_prepared": ("map",),
     "_prober": (
+        "Deviation",
         "NearestPoints",
         "Prober",
         "SurfaceSide",
@@ -136,7 +144,7 @@ _MODULES = {
     ),
     "_segments": ("Segments",),
     "_sight": ("SightState", "Sights", "visible"),
-    "_star": ("Star", "StarInfo", "direction_to_lonlat", "lonlat_to_direction"),
+    "_star": ("Remeshed", "Star", "StarInfo", "direction_to_lonlat", "lonlat_to_direction"),
     "_surface": ("Surface", "SurfaceInfo"),
     "_tiles": ("TileLocations", "Tiles"),
     "_tiling": ("prepare_tiles",),
@@ -157,6 +165,7 @@ __all__ = [
     "Constraints",
     "Cursor",
     "Defect",
+    "Deviation",
     "DuplicateWarning",
     "EdgeKind",
     "Edit",
@@ -184,6 +193,7 @@ __all__ = [
     "Polygons",
     "Prober",
     "Remap",
+    "Remeshed",
     "Reordered",
     "Segments",
     "SightState",

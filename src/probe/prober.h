@@ -77,6 +77,12 @@ bool mw__touch_surely_inside(const mw_surface *surface, const mw_line *line, uin
 uint32_t mw__probe_certain(const mw_prober *prober, const mw_line *line, double max_distance,
                            uint32_t seed, mw_probe_counters *counters);
 
+/* --- nearest_on_surface.c --- */
+
+/* The distance of q from a triangle that has an area and finite corners, rounded as that of
+ * mw_nearest_on_surface. q is finite. */
+double mw__distance_to_triangle(const mw_surface *surface, uint32_t triangle, const double q[3]);
+
 /* --- inside.c --- */
 
 /* Does every edge have a neighbour? O(n) */
