@@ -65,7 +65,11 @@ static int cells_read_mesh(remap_cells *c, const char *path, const char *crs,
     if (end == 0 && (mw_mesh_create(&arrays, &options, &c->mesh, &error) != MW_OK ||
                      mw_locator_create(c->mesh, &fill, &c->locator, &error) != MW_OK)) {
         end = fail_mesh(path, &error);
-        if (end == END_INPUT)
+        if (end == END_INPUT && c->cut)
+            complain("%s: goes round the globe. Its triangles are counted as they were cut at the "
+                     "meridian of %g degrees; edges are straight in longitude and latitude",
+                     path, c->west);
+        else if (end == END_INPUT)
             complain("'meshwalk check %s' lists every defect, 'meshwalk view' shows it", path);
     }
     c->face = file.faces;

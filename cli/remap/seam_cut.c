@@ -7,9 +7,10 @@
 
 enum { MOST_CORNERS = 8 }; /* of a quadrilateral that two meridians cut */
 
-/* A corner of a piece. `vertex` is the file's, or MW_NONE of one that is new. */
+/* A corner of a piece. `vertex` is the file's, or MW_NONE of one that is new. `own` is its
+ * longitude without turns, as the file has it; NaN where the seam cuts an edge. */
 typedef struct seam_corner {
-    double lon, lat;
+    double lon, lat, own;
     uint32_t vertex;
 } seam_corner;
 
@@ -129,7 +130,8 @@ static seam_polygon cutter_clip(const seam_cutter *c, const seam_polygon *p, dou
         const double from = side * (a->lon - seam), to = side * (b->lon - seam);
         if (from >= 0) out.corner[out.count++] = *a;
         if ((from > 0 && to < 0) || (from < 0 && to > 0))
-            out.corner[out.count++] = (seam_corner){seam, cutter_latitude(c, a, b, seam), MW_NONE};
+            out.corner[out.count++] =
+                (seam_corner){seam, cutter_latitude(c, a, b, seam), NAN, MW_NONE};
     }
     return out;
 }
@@ -142,11 +144,7 @@ static bool cutter_place(seam_cutter *c, const seam_polygon *polygon)
         for (uint32_t i = 0; i < p.count; i++) {
             seam_corner *corner = &p.corner[i];
             corner->lon += 360 * turn;
-            /* In the strip, a longitude is that of the file. */
-            const double own = corner->vertex == MW_NONE
-                                   ? corner->lon
-                                   : c->file->points[3 * (size_t)corner->vertex];
-            if (fabs(corner->lon - own) < 90) corner->lon = own;
+            if (fabs(corner->lon - corner->own) < 90) corner->lon = corner->own; /* not rounded */
         }
         p = cutter_clip(c, &p, c->west, 1);
         if (p.count > 2) p = cutter_clip(c, &p, c->east, -1);
@@ -159,7 +157,8 @@ static bool cutter_place(seam_cutter *c, const seam_polygon *polygon)
 static bool cutter_place_below_pole(seam_cutter *c, const seam_corner *a, const seam_corner *b,
                                     double pole)
 {
-    const seam_polygon p = {{*a, *b, {b->lon, pole, MW_NONE}, {a->lon, pole, MW_NONE}}, 4};
+    const seam_polygon p = {
+        {*a, *b, {b->lon, pole, b->own, MW_NONE}, {a->lon, pole, a->own, MW_NONE}}, 4};
     return cutter_place(c, &p);
 }
 
@@ -174,7 +173,7 @@ static seam_corner seam_corner_of(const seam_cutter *c, size_t triangle, int k)
 {
     const uint32_t v = c->file->triangles[3 * triangle + (size_t)k % 3];
     const double *p = c->file->points + 3 * (size_t)v;
-    return (seam_corner){p[0], p[1], v};
+    return (seam_corner){p[0], p[1], p[0], v};
 }
 
 /* The corners of a triangle, and the first again, with longitudes that go on from one to the next.

@@ -1,9 +1,13 @@
-"""What the tests share: meshes, and an oracle in exact fractions."""
+"""What the tests share: meshes, an oracle in exact fractions, the examples of pages."""
 
 from __future__ import annotations
 
+import contextlib
+import io
 import os
+import re
 from fractions import Fraction
+from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -15,7 +19,33 @@ import meshwalk
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+HEAVY = (
+    "geopandas",
+    "meshio",
+    "opendrift",
+    "parcels",
+    "pyvista",
+    "shapely",
+    "trimesh",
+    "uxarray",
+    "xugrid",
+)
+"""Drop-ins for packages that ./test leaves out."""
+NOT_HERE = "is not installed: ./test --python-all tests its drop-in"
+
+PAGES = Path(os.environ.get("MW_SOURCE", ".")) / "docs" / "drop-ins"
+"""The pages of the drop-ins."""
+
 SEED = int(os.environ.get("MW_TEST_SEED", "20261123"))
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Skip the examples of drop-ins whose originals are not installed."""
+    for item in items:
+        _, _, module = getattr(getattr(item, "dtest", None), "name", "").partition("meshwalk.")
+        name = module.partition(".")[0]
+        if name in HEAVY and find_spec(name) is None:
+            item.add_marker(pytest.mark.skip(reason=f"{name} {NOT_HERE}"))
 
 
 @pytest.fixture
@@ -52,7 +82,21 @@ def scattered(random: np.random.Generator) -> meshwalk.Mesh:
     return meshwalk.delaunay(points)
 
 
-def _turn(a: Any, b: Any, p: Any) -> Fraction:
+def run_page(page: Path) -> None:
+    """Run the Python examples of a page, each alone; an `output` block is what it prints."""
+    pattern = r"^```python\n(.*?)^```(?:\n+```output\n(.*?)^```)?"
+    blocks = re.findall(pattern, page.read_text(), re.S | re.M)
+    assert blocks
+    for block, expected in blocks:
+        printed = io.StringIO()
+        with contextlib.redirect_stdout(printed):
+            exec(compile(block, page, "exec"), {})
+        if expected:
+            assert printed.getvalue() == expected
+
+
+def turn(a: Any, b: Any, p: Any) -> Fraction:
+    """Twice the area of a triangle, positive if counter-clockwise."""
     ax, ay, bx, by, px, py = (Fraction(float(v)) for v in (*a, *b, *p))
     return (bx - ax) * (py - ay) - (by - ay) * (px - ax)
 
@@ -62,8 +106,8 @@ def oracle(mesh: meshwalk.Mesh, point: Any) -> int:
     points, triangles = mesh.points, mesh.triangles
     for number, corners in enumerate(triangles):
         a, b, c = (points[v] for v in corners)
-        turns = (_turn(a, b, point), _turn(b, c, point), _turn(c, a, point))
-        if _turn(a, b, c) == 0:
+        turns = (turn(a, b, point), turn(b, c, point), turn(c, a, point))
+        if turn(a, b, c) == 0:
             continue
         if all(t >= 0 for t in turns) or all(t <= 0 for t in turns):
             return number

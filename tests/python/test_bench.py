@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -47,6 +51,27 @@ def test_streams_have_the_same_sums() -> None:
     assert [time.name for time in streams.times] == ["plain processes", "Dask"]
 
 
+def test_the_model_of_scaling(data: Path, tmp_path: Path, program: str) -> None:
+    routing = tmp_path / "routing.tsv"
+    options = ["--ranks", "1,8", "--sizes", "1000", "--queries", "2000", "--format", "tsv"]
+    subprocess.run([program, "bench", "scale", *options, "-q", "-o", routing], check=True)
+    script = data.parent / "bench" / "programs" / "bench_scaling.py"
+    sizes = ["--sizes", "500", "--points", "1000", "--mesh", "1e9", "--queries", "1e9"]
+    ran = subprocess.run(
+        [sys.executable, script, *sizes, "--routing", routing],
+        check=True,
+        capture_output=True,
+        text=True,
+    )
+    constants, names, *rows = ran.stdout.splitlines()
+    assert constants.startswith("vertices: 500  bytes a vertex: ")
+    assert names.split("\t")[:3] == ["queries", "ranks", "memory_MB"]
+    figures = {tuple(row.split("\t")[:2]): row.split("\t")[2:] for row in rows}
+    assert len(figures) == 6
+    assert figures["uniform", "1"][3:] == ["0", "0"]  # nothing travels to another rank
+    assert float(figures["uniform", "1"][0]) > 7 * float(figures["uniform", "8"][0])
+
+
 def test_particles_go_the_same_way() -> None:
     random = np.random.default_rng(4)
     locator = meshwalk.Locator(meshwalk.delaunay(random.uniform(size=(300, 2))))
@@ -55,3 +80,15 @@ def test_particles_go_the_same_way() -> None:
     np.testing.assert_array_equal(by_cursor, meshwalk.bench._drift(locator.locate, place, 30))
     radius = np.hypot(*(by_cursor - 0.5).T)
     np.testing.assert_allclose(radius, np.hypot(*(place - 0.5).T), rtol=0.01)
+
+
+def test_drop_ins_agree_with_their_originals(capsys: pytest.CaptureFixture[str]) -> None:
+    options = ["--task", "drop-ins", "--vertices", "300", "--queries", "200", "--rounds", "1"]
+    assert meshwalk.bench.main([*options, "--peers", "matplotlib,scipy"]) == 0
+    rows = [line.split() for line in capsys.readouterr().out.splitlines()[2:]]
+    assert [row[0] for row in rows] == [
+        *("matplotlib", "meshwalk.matplotlib", "scipy", "meshwalk.scipy")
+    ]
+    assert all(float(row[-1]) == 1 for row in rows)
+    with pytest.raises(SystemExit):
+        meshwalk.bench.main([*options, "--peers", "shapely"])

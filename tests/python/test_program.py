@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import contextlib
-import io
-import re
 import subprocess
 import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
+from conftest import run_page
 
 import meshwalk
 
@@ -44,16 +42,8 @@ def test_the_terrain(data: Path, program: str, tmp_path: Path, random: np.random
 
 @pytest.mark.parametrize("page", ["README.md", "python/README.md"])
 def test_pages(page: str, data: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    text = (data.parent / page).read_text()
-    blocks = re.findall(r"^```python\n(.*?)^```(?:\n+```output\n(.*?)^```)?", text, re.S | re.M)
-    assert blocks
     monkeypatch.chdir(data.parent)
-    for block, expected in blocks:
-        printed = io.StringIO()
-        with contextlib.redirect_stdout(printed):
-            exec(compile(block, page, "exec"), {})
-        if expected:
-            assert printed.getvalue() == expected
+    run_page(data.parent / page)
 
 
 def test_import_is_quick() -> None:
