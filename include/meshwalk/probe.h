@@ -176,7 +176,10 @@ typedef struct mw_probe_options {
     double min_distance;
     mw_probe_faces faces;
     mw_probe_extent extent;
-    uint32_t reserved[2]; /**< must be zero */
+    /** 1: of several triangles that a probe touches at one place, exactly, only the lowest counts:
+     * a line through an edge touches once there. mw_probe_all_batch() only. */
+    uint32_t one_per_place;
+    uint32_t reserved[1]; /**< must be zero */
 } mw_probe_options;
 
 /** What probes did, summed over queries. A race counts all its walks; that depends on the run. */
@@ -299,6 +302,61 @@ MW_API size_t mw_probe_all(const mw_prober *prober, mw_probe_cursor *cursor, con
 MW_API mw_status mw_probe_batch(const mw_prober *prober, const double *queries, size_t n,
                                 size_t stride, const mw_probe_options *options, mw_touch *touches,
                                 mw_probe_counters *counters, mw_error *error);
+
+/**
+ * Do n probes touch anything? Faster than mw_probe_batch(), since the first touch found is enough.
+ *
+ * @param prober    a prober with boxes
+ * @param queries   as for mw_probe_batch()
+ * @param n         number of queries
+ * @param stride    doubles from one query to the next; 0 means 6
+ * @param options   NULL selects the defaults; `certain` must be 1 for a ray or a segment
+ * @param states    receives n answers of mw_touch_state, as of mw_probe_any(); equal for every
+ *                  number of threads, unspecified on failure
+ * @param counters  NULL, or receives the sums over the batch (if enabled by the options)
+ * @param error     NULL, or receives the message of a failure
+ * @return MW_OK; MW_ERROR_ARGUMENT as mw_probe_batch(), and for a prober without boxes;
+ *         MW_CANCELLED.
+ *
+ * Thread-safe. O(log n) a probe typically.
+ */
+MW_API mw_status mw_probe_any_batch(const mw_prober *prober, const double *queries, size_t n,
+                                    size_t stride, const mw_probe_options *options, uint8_t *states,
+                                    mw_probe_counters *counters, mw_error *error);
+
+/** All touches of many probes. Release with mw_touch_lists_release(). */
+typedef struct mw_touch_lists {
+    size_t *offset;     /**< probe i has the touches offset[i] up to offset[i + 1] - 1 */
+    mw_touch *touch;    /**< all touches, in the order of the probes */
+    size_t probe_count; /**< offset has one more */
+    size_t touch_count;
+    size_t bad_count; /**< probes that mw_probe_all() calls MW_TOUCH_BAD; they have no touches */
+} mw_touch_lists;
+
+/**
+ * All triangles that n probes touch, those of each probe in their order along its motion.
+ *
+ * @param prober    a prober with boxes
+ * @param queries   as for mw_probe_batch()
+ * @param n         number of queries
+ * @param stride    doubles from one query to the next; 0 means 6
+ * @param options   NULL selects the defaults; `certain` must be 1 for a ray or a segment
+ * @param lists     receives the touches, as of mw_probe_all(), equal for every number of threads;
+ *                  empty on failure
+ * @param counters  NULL, or receives the sums over the batch (if enabled by the options)
+ * @param error     NULL, or receives the message of a failure
+ * @return MW_OK, also if a probe is bad (bad_count); MW_ERROR_ARGUMENT as mw_probe_any_batch();
+ *         MW_ERROR_MEMORY, MW_CANCELLED.
+ *
+ * Thread-safe. O(k log k) for the k touches of a probe, besides the search. Memory: 40 bytes a
+ * touch, twice at the end, and 8 bytes a probe.
+ */
+MW_API mw_status mw_probe_all_batch(const mw_prober *prober, const double *queries, size_t n,
+                                    size_t stride, const mw_probe_options *options,
+                                    mw_touch_lists *lists, mw_probe_counters *counters,
+                                    mw_error *error);
+/** Release the touches of probes. Zero-initialised lists are allowed. */
+MW_API void mw_touch_lists_release(mw_touch_lists *lists);
 
 /**
  * The triangles that the walks of one probe visit, in order. The query runs without a race.

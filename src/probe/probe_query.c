@@ -38,18 +38,6 @@ const char *mw_probe_extent_name(mw_probe_extent extent)
     return (unsigned)extent < MW_PROBE_EXTENT_COUNT ? names[extent] : NULL;
 }
 
-/* --- counters --- */
-
-static void probe_count(mw_probe_counters *sum, mw_probe_counters *work, bool hit)
-{
-    work->queries = 1;
-    work->hits = hit;
-    work->triangles_max = work->triangles;
-    work->tests_max = work->tests;
-    work->iterations_max = work->iterations;
-    mw_probe_counters_add(sum, work);
-}
-
 /* --- the cursor --- */
 
 /* k of Alg. 1, but at most the number of triangles: a query must end soon. The roots are rounded
@@ -205,7 +193,7 @@ static void probe_guess(mw_ray_search *search, const mw_probe_cursor *cursor, mw
     if (last != MW_NONE) mw__ray_search_guess(search, last);
 }
 
-static bool prober_is_current(const mw_prober *prober)
+bool mw__prober_is_current(const mw_prober *prober)
 {
     return prober->has_bvh && prober->version == prober->surface->version;
 }
@@ -222,10 +210,8 @@ static mw_touch probe_answer_certain(const mw_prober *prober, mw_probe_cursor *c
     return mw__ray_touch_found(&search);
 }
 
-/* The line, ray or segment of a query. Returns false if a coordinate is not finite, or it has no
- * direction. */
-static bool probe_ray(const mw_probe_options *options, const double q[3], const double m[3],
-                      mw_ray_query *ray)
+bool mw__probe_ray(const mw_probe_options *options, const double q[3], const double m[3],
+                   mw_ray_query *ray)
 {
     if (!mw__is_finite3(q) || !mw__is_finite3(m)) return false;
     *ray = (mw_ray_query){.line = {{q[0], q[1], q[2]}, {m[0], m[1], m[2]}, {0}},
@@ -247,7 +233,7 @@ static mw_touch probe_conclude(const mw_prober *prober, mw_probe_cursor *cursor,
         cursor->prober = prober;
         cursor->last = touch.triangle;
     }
-    if (cursor->options.counters) probe_count(&cursor->counters, work, hit);
+    if (cursor->options.counters) mw__probe_count(&cursor->counters, work, hit);
     return touch;
 }
 
@@ -260,13 +246,13 @@ static mw_touch probe_answer(const mw_prober *prober, mw_probe_cursor *cursor, c
     mw_probe_counters work = {0};
     mw_touch touch = mw__touch_none(MW_TOUCH_BAD);
     mw_ray_query ray;
-    if (probe_ray(&cursor->options, q, m, &ray)) {
+    if (mw__probe_ray(&cursor->options, q, m, &ray)) {
         mw__surface_read_lock(prober->surface);
         mw_probe_search search = probe_plan(prober, cursor, q, m);
         mw_probe_counters *to = counted ? &work : NULL;
         if (!cursor->options.certain)
             touch = probe_answer_published(&search, to, trace);
-        else if (prober_is_current(prober))
+        else if (mw__prober_is_current(prober))
             touch = probe_answer_certain(prober, cursor, &ray, &search, to, trace);
         mw__surface_read_unlock(prober->surface);
     }
@@ -289,7 +275,7 @@ static void probe_group_run(probe_group *g, const mw_prober *prober, mw_probe_cu
         const double *q = queries + i * stride;
         g->search[i].stack.count = 0;
         g->search[i].prober = NULL;
-        if (!probe_ray(&cursor->options, q, q + 3, &g->ray[i])) continue;
+        if (!mw__probe_ray(&cursor->options, q, q + 3, &g->ray[i])) continue;
         mw_probe_search walk = probe_plan(prober, cursor, q, q + 3);
         mw__ray_search_begin(&g->search[i], prober, &g->ray[i], mw__ray_found_nearest, NULL);
         probe_guess(&g->search[i], cursor, &walk, cursor->options.counters ? &g->work[i] : NULL,
@@ -307,7 +293,7 @@ void mw__probe_certain_group(const mw_prober *prober, mw_probe_cursor *cursor,
         touches[i] = mw__touch_none(MW_TOUCH_BAD);
     }
     mw__surface_read_lock(prober->surface);
-    if (prober_is_current(prober)) {
+    if (mw__prober_is_current(prober)) {
         probe_group_run(&g, prober, cursor, queries, stride, n);
         for (uint32_t i = 0; i < n; i++) {
             if (!g.search[i].prober) continue;
@@ -321,13 +307,6 @@ void mw__probe_certain_group(const mw_prober *prober, mw_probe_cursor *cursor,
 
 /* --- any, and all --- */
 
-static bool ray_found_any(mw_ray_search *search, uint32_t triangle, mw_ray_side side)
-{
-    search->nearest = triangle;
-    search->side = side;
-    return false;
-}
-
 /* Run a search of all that a query meets. Returns its state. */
 static mw_touch_state probe_search(const mw_prober *prober, mw_probe_cursor *cursor,
                                    const double q[3], const double m[3], mw_ray_found *found,
@@ -337,9 +316,9 @@ static mw_touch_state probe_search(const mw_prober *prober, mw_probe_cursor *cur
     mw_probe_counters work = {0};
     mw_ray_query ray;
     if (!cursor->prober) mw_probe_cursor_init(prober, NULL, cursor, NULL); /* was all zero */
-    if (!probe_ray(&cursor->options, q, m, &ray)) return state;
+    if (!mw__probe_ray(&cursor->options, q, m, &ray)) return state;
     mw__surface_read_lock(prober->surface);
-    if (prober_is_current(prober)) {
+    if (mw__prober_is_current(prober)) {
         mw_ray_search search;
         mw__ray_search_begin(&search, prober, &ray, found, self);
         uint32_t last = finish ? MW_NONE : probe_last(prober, cursor);
@@ -351,14 +330,20 @@ static mw_touch_state probe_search(const mw_prober *prober, mw_probe_cursor *cur
         if (search.nearest != MW_NONE) cursor->last = search.nearest;
     }
     mw__surface_read_unlock(prober->surface);
-    if (cursor->options.counters) probe_count(&cursor->counters, &work, state == MW_TOUCH_HIT);
+    if (cursor->options.counters) mw__probe_count(&cursor->counters, &work, state == MW_TOUCH_HIT);
     return state;
 }
 
 mw_touch_state mw_probe_any(const mw_prober *prober, mw_probe_cursor *cursor, const double point[3],
                             const double motion[3])
 {
-    return probe_search(prober, cursor, point, motion, ray_found_any, NULL, NULL);
+    return probe_search(prober, cursor, point, motion, mw__ray_found_any, NULL, NULL);
+}
+
+static void hit_list_finish(const mw_ray_search *search)
+{
+    mw__hit_list_sort(search);
+    mw__hit_list_complete(search);
 }
 
 size_t mw_probe_all(const mw_prober *prober, mw_probe_cursor *cursor, const double point[3],
@@ -367,7 +352,7 @@ size_t mw_probe_all(const mw_prober *prober, mw_probe_cursor *cursor, const doub
 {
     mw_hit_list list = {.touches = touches, .capacity = touches ? capacity : 0};
     mw_touch_state found =
-        probe_search(prober, cursor, point, motion, mw__hit_list_found, &list, mw__hit_list_finish);
+        probe_search(prober, cursor, point, motion, mw__hit_list_found, &list, hit_list_finish);
     if (state) *state = found;
     return list.count;
 }

@@ -825,6 +825,33 @@ static mw_status run_probe_batch(const call_inputs *in, const call_setting *how,
     return status;
 }
 
+static mw_status run_probe_any(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                               mw_error *error)
+{
+    size_t n = in->ball.points / 4;
+    uint8_t *states = malloc(n);
+    mw_probe_options options = {.certain = 1, .threads = how->threads, .progress = how->progress};
+    mw_status status =
+        mw_probe_any_batch(in->prober, in->ball.point, n, 6, &options, states, NULL, error);
+    for (size_t i = 0; i < n && !status; i++) sum_add(sum, states[i]);
+    free(states);
+    return status;
+}
+
+static mw_status run_probe_all(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                               mw_error *error)
+{
+    size_t n = in->ball.points / 4;
+    mw_touch_lists lists;
+    mw_probe_options options = {.certain = 1, .threads = how->threads, .progress = how->progress};
+    mw_status status =
+        mw_probe_all_batch(in->prober, in->ball.point, n, 6, &options, &lists, NULL, error);
+    expect(!status || (!lists.offset && !lists.touch), "there are no touches");
+    for (size_t i = 0; i < lists.touch_count; i++) sum_add(sum, lists.touch[i].triangle);
+    mw_touch_lists_release(&lists);
+    return status;
+}
+
 /* --- files ------------------------------------------------------------------------------------ */
 
 static mw_status run_read(const call_inputs *in, const call_setting *how, uint64_t *sum,
@@ -958,6 +985,8 @@ const long_call long_calls[] = {
     {"mw_surface_deviation", run_deviation},
     {"mw_prober_create", run_prober},
     {"mw_probe_batch", run_probe_batch},
+    {"mw_probe_any_batch", run_probe_any},
+    {"mw_probe_all_batch", run_probe_all},
     {"mw_read_mesh", run_read},
     {"mw_read_constraints", run_read_lines},
     {"mw_write_mesh", run_write},
