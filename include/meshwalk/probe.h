@@ -34,7 +34,10 @@ typedef struct mw_prober_options {
     int boxes;
     uint32_t threads;            /**< threads that build the boxes; 0: one per processor */
     const mw_progress *progress; /**< progress and cancelling, see base.h; NULL: none */
-    uint32_t reserved[4];        /**< must be zero */
+    /** 1: make a guide, a coarse grid that leads walks to their first triangle (2 bytes a
+     * triangle). It is made once, and stays good while the surface changes its shape little. */
+    int guide;
+    uint32_t reserved[3]; /**< must be zero */
 } mw_prober_options;
 
 /**
@@ -47,7 +50,7 @@ typedef struct mw_prober_options {
  * @return MW_OK; MW_ERROR_ARGUMENT for NULL; MW_ERROR_INPUT if the surface has no triangle;
  *         MW_ERROR_MEMORY, MW_CANCELLED.
  *
- * Thread-safe. O(1) without boxes, O(n log n) with boxes.
+ * Thread-safe. O(1) without boxes and guide, O(n) with a guide, O(n log n) with boxes.
  */
 MW_API mw_status mw_prober_create(const mw_surface *surface, const mw_prober_options *options,
                                   mw_prober **out, mw_error *error);
@@ -76,6 +79,7 @@ MW_API void mw_prober_update(mw_prober *prober, double moved, uint32_t threads);
 typedef struct mw_prober_info {
     size_t bytes;       /**< memory in bytes, without the surface */
     size_t box_bytes;   /**< of these, for the boxes */
+    size_t guide_bytes; /**< and for the guide */
     uint64_t fits;      /**< how often the boxes were fitted */
     double fit_seconds; /**< how long the last fit took */
 } mw_prober_info;
@@ -115,8 +119,9 @@ typedef struct mw_touch {
 
 /** How the first triangle of a walk is chosen. */
 typedef enum mw_probe_start {
-    /** LAST if that triangle is probably nearer to q than the best triangle of a sample; else
-     * SAMPLE. */
+    /** LAST if that triangle is near q. Otherwise the first walk starts at the triangle to which
+     * the prober's guide leads, if m points at its front; without a guide, and in further
+     * iterations, SAMPLE. */
     MW_PROBE_START_AUTO = 0,
     /** The triangle that this cursor touched last, if m points at its front. Otherwise, and in
      * further iterations, SAMPLE. */

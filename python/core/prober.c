@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* prober_from_surface(cls, surface, boxes, threads, progress) */
+/* prober_from_surface(cls, surface, boxes, guide, threads, progress) */
 static PyObject *prober_from_surface(PyObject *module, PyObject *args)
 {
     core_state *state = PyModule_GetState(module);
@@ -15,8 +15,8 @@ static PyObject *prober_from_surface(PyObject *module, PyObject *args)
     mw_prober *prober;
     mw_error error;
     mw_status status;
-    if (!PyArg_ParseTuple(args, "OO!pO&O", &class, state->surface_type, &surface, &options.boxes,
-                          option_uint32, &options.threads, &function))
+    if (!PyArg_ParseTuple(args, "OO!ppO&O", &class, state->surface_type, &surface, &options.boxes,
+                          &options.guide, option_uint32, &options.threads, &function))
         return NULL;
     options.progress = progress_begin(state, function, &progress);
     Py_BEGIN_ALLOW_THREADS

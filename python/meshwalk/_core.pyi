@@ -381,6 +381,7 @@ def prober_from_surface(
     cls: type[_Prober],
     surface: Surface,
     boxes: bool,
+    guide: bool,
     threads: int,
     progress: Progress | None,
     /,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import enum
+import functools
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
@@ -278,6 +279,9 @@ class Prober(_core.Prober):
         Any surface: open or closed, in pieces.
     boxes : bool, optional
         Build boxes over the triangles, for ``certain=True`` and `nearest`.
+    guide : bool, optional
+        Make a coarse grid that leads the walks of probes that are not certain to their first
+        triangle; for many probes in any order.
     threads : int, optional
         How many threads build them; 0 lets the library choose.
     progress : callable, optional
@@ -307,8 +311,9 @@ class Prober(_core.Prober):
     array([1., 0., 0.])
     """
 
-    __slots__ = ("__weakref__", "_boxes")
+    __slots__ = ("__weakref__", "_boxes", "_guide")
     _boxes: bool
+    _guide: bool
     if TYPE_CHECKING:
         surface: Surface
 
@@ -317,14 +322,16 @@ class Prober(_core.Prober):
         surface: Surface,
         boxes: bool = False,
         *,
+        guide: bool = False,
         threads: int = 0,
         progress: Progress | None = None,
     ) -> Self:
         if not isinstance(surface, Surface):
             raise TypeError(f"surface must be a meshwalk.Surface, not {type(surface).__name__}")
         with surface._lock:
-            prober = _core.prober_from_surface(cls, surface, boxes, threads, progress)
+            prober = _core.prober_from_surface(cls, surface, boxes, guide, threads, progress)
             prober._boxes = boxes
+            prober._guide = guide
             surface._kept.add(prober)
         return prober
 
@@ -662,4 +669,5 @@ class Prober(_core.Prober):
         return f"<Prober of {self.surface!r}{', with boxes' if self._boxes else ''}>"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return type(self), (self.surface, self._boxes)
+        make = functools.partial(type(self), guide=self._guide)
+        return make, (self.surface, self._boxes)

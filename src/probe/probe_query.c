@@ -105,14 +105,15 @@ mw_status mw_probe_cursor_init(const mw_prober *prober, const mw_probe_options *
 
 /* --- one probe --- */
 
-/* Is triangle t probably nearer to q than the nearest of a sample? If k points are spread over a
- * ball of radius r, the nearest has an expected distance of about 2 r / sqrt(k). */
-static bool probe_beats_sample(const mw_prober *prober, uint32_t t, const double q[3],
-                               uint32_t samples)
+/* Is triangle t near q: nearer than what another start would probably find? */
+static bool probe_is_near(const mw_prober *prober, uint32_t t, const double q[3], uint32_t samples)
 {
     const double *p = mw__surface_corner(prober->surface, t, 0);
-    double x = p[0] - q[0], y = p[1] - q[1], z = p[2] - q[2];
-    return (x * x + y * y + z * z) * samples < 4 * prober->variance;
+    double x = p[0] - q[0], y = p[1] - q[1], z = p[2] - q[2], square = x * x + y * y + z * z;
+    if (prober->guide.cell) return square < prober->guide.near2;
+    /* of k points that are spread over a ball of radius r, the nearest to q has an expected
+     * distance of about 2 r / sqrt(k) */
+    return square * samples < 4 * prober->variance;
 }
 
 /* The triangle touched last, or one that took its place in edits; MW_NONE: none is known. */
@@ -135,10 +136,24 @@ static uint32_t probe_coherent(const mw_prober *prober, const mw_probe_cursor *c
     mw_probe_start start = cursor->options.start;
     uint32_t last = probe_last(prober, cursor);
     bool starts =
-        last != MW_NONE && (start == MW_PROBE_START_LAST ||
-                            (start == MW_PROBE_START_AUTO &&
-                             probe_beats_sample(prober, last, q, cursor->options.samples)));
+        last != MW_NONE &&
+        (start == MW_PROBE_START_LAST ||
+         (start == MW_PROBE_START_AUTO && probe_is_near(prober, last, q, cursor->options.samples)));
     return starts ? last : MW_NONE;
+}
+
+/* Where the first walk starts, if m points at the front of that triangle; MW_NONE: at the best of a
+ * sample. Certain probes need no guide: their boxes are one. */
+static uint32_t probe_first(const mw_prober *prober, const mw_probe_cursor *cursor,
+                            const double q[3])
+{
+    uint32_t last = probe_coherent(prober, cursor, q);
+    if (last != MW_NONE || !prober->guide.cell || cursor->options.certain ||
+        cursor->options.start != MW_PROBE_START_AUTO)
+        return last;
+    uint32_t t = mw__probe_guide_triangle(&prober->guide, q);
+    return t < prober->surface->tri_count && !mw__surface_is_freed(prober->surface, t) ? t
+                                                                                       : MW_NONE;
 }
 
 static mw_probe_search probe_plan(const mw_prober *prober, mw_probe_cursor *cursor,
@@ -149,7 +164,7 @@ static mw_probe_search probe_plan(const mw_prober *prober, mw_probe_cursor *curs
         .surface = prober->surface,
         .line = {{q[0], q[1], q[2]}, {m[0], m[1], m[2]}, {0}},
         .reach = options->max_distance > 0 ? options->max_distance : INFINITY,
-        .last = probe_coherent(prober, cursor, q),
+        .first = probe_first(prober, cursor, q),
         .samples = options->samples,
         .nearest = options->start != MW_PROBE_START_RANDOM,
         .iterations = options->iterations,
@@ -167,8 +182,8 @@ static mw_touch probe_answer_published(const mw_probe_search *search, mw_probe_c
 {
     mw_touch again;
     bool stays =
-        search->last != MW_NONE && mw__touch_surely_inside(search->surface, &search->line,
-                                                           search->last, search->reach, &again);
+        search->first != MW_NONE && mw__touch_surely_inside(search->surface, &search->line,
+                                                            search->first, search->reach, &again);
     if (stays && !work) return again;
     uint32_t t = mw__probe_search_all(search, work, trace);
     if (stays) return again;
@@ -186,9 +201,9 @@ static void probe_guess(mw_ray_search *search, const mw_probe_cursor *cursor, mw
     bool walks = ray->extent == MW_PROBE_LINE && ray->faces == MW_PROBE_FRONT && ray->least == 0;
     uint32_t last =
         cursor->options.start <= MW_PROBE_START_LAST ? probe_last(prober, cursor) : MW_NONE;
-    if (walks && walk->last != MW_NONE && mw__probe_faces(walk, walk->last, work)) {
+    if (walks && walk->first != MW_NONE && mw__probe_faces(walk, walk->first, work)) {
         walk->steps = SEED_STEPS < walk->steps ? SEED_STEPS : walk->steps;
-        last = mw__probe_search_from(walk, 0, walk->last, NULL, work, trace);
+        last = mw__probe_search_from(walk, 0, walk->first, NULL, work, trace);
     }
     if (last != MW_NONE) mw__ray_search_guess(search, last);
 }

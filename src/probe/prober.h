@@ -8,12 +8,14 @@
 #include "surface/surface.h"
 #include "predicates/line.h"
 #include "probe/bvh.h"
+#include "probe/probe_guide.h"
 
 #include <meshwalk/probe.h>
 
 struct mw_prober {
     const mw_surface *surface;
     mw_bvh bvh;
+    mw_probe_guide guide;
     bool has_bvh;
     bool portable; /* no vector instructions: for tests */
     /* For mw_inside_surface: all edges have neighbours, which do not change; and vertices that were

@@ -802,12 +802,13 @@ static mw_status run_prober(const call_inputs *in, const call_setting *how, uint
 {
     mw_prober *prober;
     mw_prober_info info;
-    mw_prober_options options = {.boxes = 1, .threads = how->threads, .progress = how->progress};
+    mw_prober_options options = {
+        .boxes = 1, .threads = how->threads, .progress = how->progress, .guide = 1};
     mw_status status = mw_prober_create(in->surface, &options, &prober, error);
     expect(!status == (prober != NULL), "there is a prober");
     if (status) return status;
     mw_prober_describe(prober, &info);
-    sum_add(sum, info.box_bytes);
+    sum_add(sum, info.bytes);
     mw_prober_destroy(prober);
     return MW_OK;
 }
