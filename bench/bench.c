@@ -7,6 +7,7 @@
 #include "bench/paper/bench_paper.h"
 #include "bench/peers/bench_peers.h"
 #include "bench/peers/engine_list.h"
+#include "bench/ranks/bench_ranks.h"
 #include "bench/segments/bench_segments.h"
 #include "bench/space/bench_space.h"
 #include "bench/terrain/bench_terrain.h"
@@ -79,6 +80,11 @@ const option bench_options[] = {
      "(default: stochastic, as "
      "printed)",
      NULL},
+    {"ranks", 0, OPTION_TEXT, offsetof(bench_settings, ranks), "LIST",
+     "of scale: replay the routing of queries on so many ranks of MPI, as in 10,1e3,1e5; nothing "
+     "is "
+     "timed",
+     NULL},
     {"seeds", 0, OPTION_COUNT, offsetof(bench_settings, seeds), "N",
      "of paper: N runs with seeds one after the other from --seed; prints means and the spread of "
      "one (default: 0, one "
@@ -104,8 +110,13 @@ static int run_measurement(size_t i, const bench_settings *s, const char *table)
         complain("bench %s: --seeds and --walk are for 'bench paper'", measurements[i].name);
         return END_USAGE;
     }
+    if (s->ranks && measurements[i].run != bench_scale) {
+        complain("bench %s: --ranks is for 'bench scale'", measurements[i].name);
+        return END_USAGE;
+    }
     int end = options_limit("seeds", s->seeds, 1000, NULL);
-    return end ? end : measurements[i].run(s, table);
+    if (end) return end;
+    return s->ranks ? bench_ranks(s, table) : measurements[i].run(s, table);
 }
 
 int bench_run(const bench_settings *s, const char *measurement, const char *table)

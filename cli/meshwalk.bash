@@ -12,7 +12,7 @@ _meshwalk_options() {
         check) echo "--fix --tolerance --numbers --format --as --centre --lonlat --weld --json $common" ;;
         triangulate) echo "--constraints --boundary --keep --split --strict --max-edge --from --tolerance --band --kind --weight --hidden --limit --format --columns --class --layer --where --crs --points-crs --constraints-crs --json $common" ;;
         locate) echo "--details --base --polygons --attribute --polygon-layer $query $stream $common" ;;
-        sample) echo "--field --outside --missing --nodata --status --time --values --time-column --wide --recover $query $stream $common" ;;
+        sample) echo "--field --outside --missing --nodata --status --as --centre --lonlat --time --values --time-column --wide --recover $query $stream $common" ;;
         weights) echo "$query --method --values --norm --strict --stats --json --layer --where $common" ;;
         apply) echo "--field --missing --strict --stats --json $common" ;;
         contours) echo "--interval --levels --base --polygons --field --nodata --crs $common" ;;
@@ -31,15 +31,17 @@ _meshwalk_options() {
             echo "--as --answers --heights --changes --numbers --log --constraints --undo --delaunay --skip --strict --walk"
             echo "--start --cells --layers --descent --format --stats --json $common"
             ;;
-        star) echo "--centre --lonlat --walk --start --finish --sample --cells --levels --columns $stream $common" ;;
-        probe)
-            echo "--max-distance --certain --extent --faces --min-distance --inside --start --samples --iterations --race --weld --any --columns $stream $common"
+        star)
+            echo "--centre --lonlat --remesh --onto --deviation --format --nodata --walk --start --finish --sample --cells --levels --columns $stream $common"
             ;;
-        walk) echo "--from --to --walk --animate --max-distance --samples --iterations --as --centre --lonlat --weld $common" ;;
+        probe)
+            echo "--max-distance --certain --extent --faces --min-distance --inside --start --guide --samples --iterations --race --weld --any --columns $stream $common"
+            ;;
+        walk) echo "--from --to --walk --animate --plane --grid --cells --max-distance --samples --iterations --as --centre --lonlat --weld $common" ;;
         convert) echo "--format --crs $common" ;;
         prepare) echo "--border --fields --crs $common" ;;
         view) echo "--points --columns --as --centre --lonlat --weld $common" ;;
-        bench) echo "--queries --sizes --enclose --data --engines --tasks --rounds --walk --seeds --no-times --format --plot $common" ;;
+        bench) echo "--queries --sizes --enclose --data --engines --tasks --rounds --ranks --walk --seeds --no-times --format --plot $common" ;;
     esac
 }
 
@@ -65,7 +67,14 @@ _meshwalk_names() {
             ;;
         --help | -h) echo all ;;
         --fix) echo 'weld orient drop split all' ;;
-        --as) [[ $1 == edit ]] && echo 'plane surface' || echo 'plane surface star' ;;
+        --grid) echo 'none uniform nonuniform' ;;
+        --as)
+            case $1 in
+                sample) echo 'plane star' ;;
+                edit) echo 'plane surface' ;;
+                *) echo 'plane surface star' ;;
+            esac
+            ;;
         --walk)
             [[ $1 == star ]] && echo 'auto stochastic forgetful barycentric orthogonal straight' &&
                 return

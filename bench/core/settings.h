@@ -10,6 +10,7 @@ enum { FORMAT_TABLE, FORMAT_TSV, FORMAT_JSON };
 typedef struct bench_settings {
     common_settings common;
     const char *sizes, *data, *plot, *engines, *tasks; /* lists and a file; NULL: not given */
+    const char *ranks; /* of scale: a list of numbers; NULL: not given */
     /* of paper E1: a walk, or "all"; NULL: the printed one */
     const char *walk;
     uint32_t queries, rounds; /* 0: the default of the measurement */

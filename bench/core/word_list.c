@@ -64,20 +64,28 @@ int word_list_names(const char *list, const choices *names, uint32_t *set)
 /* At least 10: four points may be corners. */
 #define LEAST_SIZE 10
 #define MOST_SIZE 500000000
+#define MOST_RANKS 1000000
+
+typedef struct size_limits {
+    const char *option;
+    int least, most;
+    size_list *list;
+} size_limits;
 
 static int size_list_take(const char *word, void *self)
 {
-    size_list *list = self;
+    const size_limits *limits = self;
+    size_list *list = limits->list;
     char *rest;
     double size = strtod(word, &rest);
     bool plain = *word && strspn(word, "0123456789e") == strlen(word) && !*rest;
-    if (!plain || !(size >= LEAST_SIZE && size <= MOST_SIZE) || size != floor(size)) {
-        complain("option '--sizes' must be numbers from %d to %d separated by commas, not '%s'",
-                 LEAST_SIZE, MOST_SIZE, word);
+    if (!plain || !(size >= limits->least && size <= limits->most) || size != floor(size)) {
+        complain("option '%s' must be numbers from %d to %d separated by commas, not '%s'",
+                 limits->option, limits->least, limits->most, word);
         return END_USAGE;
     }
     if (list->count == MOST_SIZES) {
-        complain("option '--sizes' takes at most %d numbers", MOST_SIZES);
+        complain("option '%s' takes at most %d numbers", limits->option, MOST_SIZES);
         return END_USAGE;
     }
     list->size[list->count++] = (size_t)size;
@@ -86,6 +94,14 @@ static int size_list_take(const char *word, void *self)
 
 int word_list_sizes(const char *list, size_list *sizes)
 {
+    size_limits limits = {"--sizes", LEAST_SIZE, MOST_SIZE, sizes};
     *sizes = (size_list){0};
-    return word_list_each(list, size_list_take, sizes);
+    return word_list_each(list, size_list_take, &limits);
+}
+
+int word_list_ranks(const char *list, size_list *ranks)
+{
+    size_limits limits = {"--ranks", 1, MOST_RANKS, ranks};
+    *ranks = (size_list){0};
+    return word_list_each(list, size_list_take, &limits);
 }

@@ -25,5 +25,7 @@ typedef struct size_list {
 /* The words are numbers of vertices, those of --sizes. Complains about other words. Returns 0 or an
  * exit code. */
 int word_list_sizes(const char *list, size_list *sizes);
+/* As word_list_sizes: numbers of ranks, those of --ranks. */
+int word_list_ranks(const char *list, size_list *ranks);
 
 #endif

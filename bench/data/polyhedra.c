@@ -11,6 +11,8 @@
 const char *polyhedron_name(int kind)
 {
     static const char *const names[POLYHEDRON_KINDS] = {
+        [POLYHEDRON_TETRAHEDRON] = "tetrahedron",
+        [POLYHEDRON_OCTAHEDRON] = "octahedron",
         [POLYHEDRON_ICOSAHEDRON] = "icosahedron",
         [POLYHEDRON_STAR] = "star",
         [POLYHEDRON_BUMPS] = "bumps",
@@ -55,42 +57,89 @@ static bool polyhedron_allocate(polyhedron *p, size_t points, size_t triangles)
     return p->points && p->triangles;
 }
 
-/* --- subdivided icosahedron */
+/* --- subdivided regular polyhedra */
 
-static size_t level_vertices(unsigned level)
+typedef struct regular_solid {
+    size_t vertices, facets;
+    double corner[12][3];
+    uint32_t facet[20][3];
+} regular_solid;
+
+#define G 1.6180339887498949 /* the golden section */
+
+static const regular_solid solids[] = {
+    [POLYHEDRON_TETRAHEDRON] = {.vertices = 4,
+                                .facets = 4,
+                                .corner = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}},
+                                .facet = {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}}},
+    [POLYHEDRON_OCTAHEDRON] =
+        {.vertices = 6,
+         .facets = 8,
+         .corner = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}},
+         .facet = {{0, 2, 4},
+                   {2, 1, 4},
+                   {1, 3, 4},
+                   {3, 0, 4},
+                   {2, 0, 5},
+                   {1, 2, 5},
+                   {3, 1, 5},
+                   {0, 3, 5}}},
+    [POLYHEDRON_ICOSAHEDRON] = {.vertices = 12,
+                                .facets = 20,
+                                .corner = {{-1, G, 0},
+                                           {1, G, 0},
+                                           {-1, -G, 0},
+                                           {1, -G, 0},
+                                           {0, -1, G},
+                                           {0, 1, G},
+                                           {0, -1, -G},
+                                           {0, 1, -G},
+                                           {G, 0, -1},
+                                           {G, 0, 1},
+                                           {-G, 0, -1},
+                                           {-G, 0, 1}},
+                                .facet = {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10},
+                                          {0, 10, 11}, {1, 5, 9},  {5, 11, 4}, {11, 10, 2},
+                                          {10, 7, 6},  {7, 1, 8},  {3, 9, 4},  {3, 4, 2},
+                                          {3, 2, 6},   {3, 6, 8},  {3, 8, 9},  {4, 9, 5},
+                                          {2, 4, 11},  {6, 2, 10}, {8, 6, 7},  {9, 8, 1}}},
+};
+#define SOLIDS (sizeof solids / sizeof *solids)
+
+static size_t level_facets(polyhedron_kind kind, unsigned level)
 {
-    return ((size_t)10 << 2 * level) + 2;
+    return solids[kind].facets << 2 * level;
 }
 
-static unsigned level_below(size_t n)
+/* By Euler's formula. */
+static size_t level_vertices(polyhedron_kind kind, unsigned level)
+{
+    return level_facets(kind, level) / 2 + 2;
+}
+
+static unsigned level_below(polyhedron_kind kind, size_t n)
 {
     unsigned level = 0;
-    while (level_vertices(level + 1) <= n) level++;
+    while (level_vertices(kind, level + 1) <= n) level++;
     return level;
 }
 
-int polyhedron_is_icosahedron(size_t n)
+polyhedron_kind polyhedron_subdivided(size_t n, polyhedron_kind other)
 {
-    return level_vertices(level_below(n)) == n;
+    for (size_t i = 0; i < SOLIDS; i++) {
+        const polyhedron_kind kind = (polyhedron_kind)i;
+        if (level_vertices(kind, level_below(kind, n)) == n) return kind;
+    }
+    return other;
 }
 
-static void polyhedron_begin_icosahedron(polyhedron *p)
+static void polyhedron_begin_solid(polyhedron *p, const regular_solid *s)
 {
-    static const double g = 1.6180339887498949; /* the golden section */
-    static const double corners[12][3] = {
-        {-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
-        {0, -1, -g}, {0, 1, -g}, {g, 0, -1},  {g, 0, 1},  {-g, 0, -1}, {-g, 0, 1},
-    };
-    static const uint32_t facets[20][3] = {
-        {0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
-        {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
-        {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1},
-    };
-    memcpy(p->points, corners, sizeof corners);
-    memcpy(p->triangles, facets, sizeof facets);
-    p->point_count = 12;
-    p->triangle_count = 20;
-    for (size_t i = 0; i < 12; i++) vector_normalise(p->points + 3 * i);
+    memcpy(p->points, s->corner, s->vertices * sizeof *s->corner);
+    memcpy(p->triangles, s->facet, s->facets * sizeof *s->facet);
+    p->point_count = s->vertices;
+    p->triangle_count = s->facets;
+    for (size_t i = 0; i < s->vertices; i++) vector_normalise(p->points + 3 * i);
 }
 
 /* The middles of edges, by the lower-numbered end of an edge, which at most six meet. */
@@ -129,11 +178,12 @@ static void polyhedron_cut_in_four(polyhedron *p, edge_middles *known)
     p->triangle_count *= 4;
 }
 
-static bool polyhedron_make_icosahedron(polyhedron *p, unsigned level)
+static bool polyhedron_make_solid(polyhedron *p, polyhedron_kind kind, unsigned level)
 {
-    edge_middles *known = malloc(level_vertices(level) * sizeof *known);
-    bool room = polyhedron_allocate(p, level_vertices(level), (size_t)20 << 2 * level) && known;
-    if (room) polyhedron_begin_icosahedron(p);
+    const size_t vertices = level_vertices(kind, level);
+    edge_middles *known = malloc(vertices * sizeof *known);
+    bool room = polyhedron_allocate(p, vertices, level_facets(kind, level)) && known;
+    if (room) polyhedron_begin_solid(p, &solids[kind]);
     for (unsigned i = 0; i < level && room; i++) {
         memset(known, 0, p->point_count * sizeof *known);
         polyhedron_cut_in_four(p, known);
@@ -296,8 +346,8 @@ mw_status polyhedron_make(polyhedron *p, polyhedron_kind kind, size_t n, uint64_
     mw_status status = MW_ERROR_MEMORY;
     *p = (polyhedron){0};
     *error = (mw_error){.status = status, .message = "out of memory"};
-    if (kind == POLYHEDRON_ICOSAHEDRON) {
-        if (polyhedron_make_icosahedron(p, level_below(n))) status = MW_OK;
+    if (kind < (polyhedron_kind)SOLIDS) {
+        if (polyhedron_make_solid(p, kind, level_below(kind, n))) status = MW_OK;
     } else if (kind == POLYHEDRON_KNOT) {
         if (polyhedron_make_knot(p, n)) status = MW_OK;
     } else {

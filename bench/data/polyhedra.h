@@ -10,7 +10,9 @@ extern "C" {
 
 typedef enum polyhedron_kind {
     /* each facet cut in four, again and again, and its vertices moved to the unit sphere:
-     * 10 * 4^level + 2 of them */
+     * 2 * 4^level + 2, 4 * 4^level + 2 or 10 * 4^level + 2 of them */
+    POLYHEDRON_TETRAHEDRON,
+    POLYHEDRON_OCTAHEDRON,
     POLYHEDRON_ICOSAHEDRON,
     /* the hull of points uniform on the unit sphere, each then moved in or out by a random factor
      * from 0.8 to 1.2: star-shaped about the origin */
@@ -23,7 +25,7 @@ typedef enum polyhedron_kind {
     POLYHEDRON_KINDS
 } polyhedron_kind;
 
-/* "icosahedron", "star", "bumps", "knot"; NULL for another number. */
+/* "tetrahedron", "octahedron", "icosahedron", "star", "bumps", "knot"; NULL for another number. */
 const char *polyhedron_name(int kind);
 
 /* Facets are counter-clockwise seen from outside. */
@@ -34,7 +36,7 @@ typedef struct polyhedron {
     size_t triangle_count;
 } polyhedron;
 
-/* Make one of n vertices, at least 10; the same for the same seed. An icosahedron has the level
+/* Make one of n vertices, at least 10; the same for the same seed. A subdivided one has the level
  * that comes nearest to n from below, a knot about n. MW_ERROR_MEMORY, or what the triangulation
  * says; then it is empty. */
 mw_status polyhedron_make(polyhedron *p, polyhedron_kind kind, size_t n, uint64_t seed,
@@ -43,8 +45,9 @@ void polyhedron_release(polyhedron *p);
 
 mw_arrays polyhedron_arrays(const polyhedron *p);
 
-/* Has some level of the icosahedron so many vertices? */
-int polyhedron_is_icosahedron(size_t n);
+/* The tetrahedron, octahedron or icosahedron of which some level has so many vertices: no two have
+ * the same; `other` if there is none. */
+polyhedron_kind polyhedron_subdivided(size_t n, polyhedron_kind other);
 
 /* A direction uniform on the unit sphere; *random goes on from call to call. */
 void polyhedron_direction(double direction[3], uint64_t *random);

@@ -3,6 +3,7 @@
 #include "bench/core/word_list.h"
 #include "bench/data/dataset_file.h"
 #include "bench/paper/paper_domains.h"
+#include "bench/paper/paper_models.h"
 #include "bench/paper/paper_plot.h"
 #include "bench/paper/paper_polyhedra.h"
 #include "bench/paper/paper_print.h"
@@ -136,10 +137,14 @@ static int paper_run_point_file(paper *p, const char *path)
 static int paper_run_file(const char *path, void *self)
 {
     paper *p = self;
+    paper_file file;
+    int end = paper_file_parse(p->table, path, &file);
+    if (end) return end;
     switch (p->table->subject) {
     case PAPER_DOMAINS: return paper_domains_file(p, path, paper_base_name(path));
     case PAPER_STARS:
-    case PAPER_SURFACES: return paper_polyhedra_file(p, path, paper_base_name(path));
+    case PAPER_SURFACES:
+        return paper_polyhedra_file(p, file.path, paper_base_name(file.path), file.model);
     default: return paper_run_point_file(p, path);
     }
 }
@@ -151,8 +156,10 @@ static int paper_check_file(const char *path, void *self)
         complain("option '--data' must be files separated by commas, not '%s'", p->settings->data);
         return END_USAGE;
     }
-    int end = files_check_output(p->settings->common.output, &path, 1);
-    return end || !p->settings->plot ? end : files_check_output(p->settings->plot, &path, 1);
+    paper_file file;
+    int end = paper_file_parse(p->table, path, &file);
+    if (end == 0) end = files_check_output(p->settings->common.output, &file.path, 1);
+    return end || !p->settings->plot ? end : files_check_output(p->settings->plot, &file.path, 1);
 }
 
 /* All sets, once for each seed. */

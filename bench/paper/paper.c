@@ -9,7 +9,8 @@
 
 double paper_published_of(const paper *p, const paper_result *r, const algorithm *a, quantity q)
 {
-    if (r->model) return published_value(p->table->name, r->model, r->model_vertices, a->name, q);
+    if (r->model[0])
+        return published_value(p->table->name, r->model, r->model_vertices, a->name, q);
     return r->users_file
                ? NAN
                : published_value(p->table->name, r->dataset, r->outcome.vertices, a->name, q);

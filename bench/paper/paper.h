@@ -8,9 +8,10 @@
 /* One set of points; or a mesh, and one way to draw queries and to begin. */
 typedef struct paper_result {
     char dataset[256];
-    bool users_file;   /* nothing is published for it, but if it is a model of the thesis: */
-    const char *model; /* NULL, or that one's name, */
+    bool users_file; /* nothing is published for it, but if it is a model of the thesis: */
+    char model[40];  /* empty, or that one's name, */
     size_t model_vertices;
+    bool stands_in;    /* the user says so */
     bool walks, whole; /* the parts of the outcome that it has */
     walk_outcome outcome;
     walk_outcome deviation; /* standard deviations over the seeds, where there are several */

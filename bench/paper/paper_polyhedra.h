@@ -7,7 +7,8 @@
 /* Those that are made, of the sizes, which a 0 ends. Return 0 or an exit code. */
 int paper_polyhedra_stars(paper *p, const size_t *sizes);
 int paper_polyhedra_surfaces(paper *p, const size_t *sizes);
-/* The one of a file, as the table wants it. Returns 0 or an exit code. */
-int paper_polyhedra_file(paper *p, const char *path, const char *name);
+/* The one of a file, as the table wants it; `model` is the one that it stands in for, or empty.
+ * Returns 0 or an exit code. */
+int paper_polyhedra_file(paper *p, const char *path, const char *name, const char *model);
 
 #endif

@@ -290,7 +290,9 @@ static void paper_print_table(text *t, const paper *p)
         const paper_result *r = &p->results[i];
         text_printf(t, "\n%s, %zu vertices", r->dataset, r->outcome.vertices);
         if (paper_is_stand_in(r)) text_string(t, "; a made set in the place of the thesis' own");
-        if (r->model) text_printf(t, "; published: the thesis' %s", r->model);
+        if (r->model[0])
+            text_printf(t, "; published: the thesis' %s%s", r->model,
+                        r->stands_in ? ", for which it stands in" : "");
         text_string(t, "\n\n");
         text_printf(t, "  %-31s %-21s %10s", "algorithm", "quantity", "ours");
         if (paper_has_deviation(p)) text_printf(t, " %10s", "spread");

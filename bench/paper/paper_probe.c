@@ -11,6 +11,7 @@
 #include "bench/core/query_rounds.h"
 #include "bench/data/dataset.h"
 #include "bench/data/polyhedra.h"
+#include "bench/paper/paper_models.h"
 #include "cli/frame/message.h"
 #include "cli/frame/progress.h"
 #include "cli/frame/monotonic_clock.h"
@@ -18,7 +19,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 #define BLOCK ((size_t)1 << 16) /* queries in memory at a time */
 
@@ -304,37 +304,13 @@ static int probe_measurement_time(probe_measurement *s, walk_outcome *o)
 
 /* --- surfaces */
 
-/* The models of the thesis. The vertices are not printed, but follow from the triangles where a
- * surface is closed, in one piece and without handles. */
-static const struct {
-    const char *name;
-    uint32_t triangles;
-} models[] = {
-    {"pawn", 304},    {"triceratops", 5660}, {"cow", 5804},        {"fandisk", 12946},
-    {"blob", 16068},  {"gargoyle", 20000},   {"venusbody", 22720}, {"dinosaur", 28136},
-    {"horse", 39698}, {"skull", 40000},      {"bunny", 71888},     {"brain", 588032},
-};
-#define VERSION 0.05 /* of the triangles, may be more or fewer in another version of a model */
-
-/* A file that bears the name of a model, and has about as many triangles. */
-static void published_find_model(paper_result *r, double triangles)
-{
-    for (size_t i = 0; i < sizeof models / sizeof *models && r->users_file; i++) {
-        double wanted = models[i].triangles;
-        bool named = strncasecmp(r->dataset, models[i].name, strlen(models[i].name)) == 0;
-        if (!named || fabs(triangles - wanted) > VERSION * wanted) continue;
-        r->model = models[i].name;
-        r->model_vertices = models[i].triangles / 2 + 2;
-    }
-}
-
-int paper_probe(paper *p, const mw_arrays *arrays, const char *name, bool users_file)
+int paper_probe(paper *p, const mw_arrays *arrays, const char *name, const char *model)
 {
     mw_error error;
     mw_surface *surface = NULL;
     mw_surface_info info;
     mw_surface_options options = {.weld = 1};
-    paper_result *r = paper_add(p, name, users_file);
+    paper_result *r = paper_add(p, name, model != NULL);
     if (!r) return fail_memory();
     if (mw_surface_create(arrays, &options, &surface, &error) != MW_OK ||
         mw_surface_describe(surface, &info, &error) != MW_OK) {
@@ -346,7 +322,7 @@ int paper_probe(paper *p, const mw_arrays *arrays, const char *name, bool users_
     r->walks = r->whole = true;
     r->outcome.vertices = info.vertices - info.unused_vertices;
     r->outcome.whole[MESH_TRIANGLES] = info.triangles;
-    published_find_model(r, info.triangles);
+    if (model) paper_models_match(p->table, model, "", info.triangles, r);
     int end = probe_measurement_prepare(&s, &info);
     if (end == 0) end = probe_measurement_count(&s, &r->outcome);
     if (end == 0 && !p->settings->no_times) end = probe_measurement_time(&s, &r->outcome);

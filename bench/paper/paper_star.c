@@ -1,12 +1,14 @@
 /* paper_star.c - thesis, App. F, Tables 1 and 2: walks on star-shaped polyhedra.
  *
  * All walks locate the same rays, uniform over the sphere; what they find is compared. The
- * polyhedra are the subdivided icosahedron, which is the authors' own, and hulls of random points.
+ * polyhedra are the subdivided tetrahedron, octahedron and icosahedron, as the authors had, and
+ * hulls of random points moved in and out.
  * Table 2 has the same queries begin by indexes of 128, 512 and 2048 elements, each a data set of
  * its own. */
 #include "bench/paper/paper_star.h"
 #include "bench/core/query_rounds.h"
 #include "bench/data/polyhedra.h"
+#include "bench/paper/paper_models.h"
 #include "cli/frame/message.h"
 #include "cli/frame/progress.h"
 #include "cli/frame/monotonic_clock.h"
@@ -210,14 +212,16 @@ static int star_measurement_time(star_measurement *s, walk_outcome *o)
 
 /* With an index of so many elements; 0: without one. */
 static int paper_measure_star(paper *p, const mw_surface *surface, const mw_star *star,
-                              const char *set, bool users_file, uint32_t elements)
+                              const char *set, const char *model, uint32_t elements)
 {
-    char name[256];
+    char name[256], suffix[16] = "";
     mw_star_info info;
     star_measurement s = {.paper = p, .name = name, .star = star};
-    snprintf(name, sizeof name, elements ? "%.230s-%u" : "%.230s", set, elements);
-    paper_result *r = paper_add(p, name, users_file);
+    if (elements) snprintf(suffix, sizeof suffix, "-%u", elements);
+    snprintf(name, sizeof name, "%.230s%s", set, suffix);
+    paper_result *r = paper_add(p, name, model != NULL);
     if (!r) return fail_memory();
+    if (model) paper_models_match(p->table, model, suffix, mw_surface_triangle_count(surface), r);
     r->walks = r->whole = true;
     r->outcome.vertices = mw_surface_vertex_count(surface);
     r->outcome.whole[MESH_TRIANGLES] = mw_surface_triangle_count(surface);
@@ -251,7 +255,7 @@ static mw_status star_make_checked(const mw_surface *surface, mw_star **star, mw
     return mw_star_create(surface, &options, star, error);
 }
 
-int paper_star(paper *p, const mw_arrays *arrays, const char *name, bool users_file)
+int paper_star(paper *p, const mw_arrays *arrays, const char *name, const char *model)
 {
     static const uint32_t elements[] = {128, 512, 2048};
     mw_error error;
@@ -263,10 +267,10 @@ int paper_star(paper *p, const mw_arrays *arrays, const char *name, bool users_f
         star_make_checked(surface, &star, &error) != MW_OK)
         end = fail_mesh(name, &error);
     else if (strcmp(p->table->start, "index") != 0)
-        end = paper_measure_star(p, surface, star, name, users_file, 0);
+        end = paper_measure_star(p, surface, star, name, model, 0);
     else
         for (size_t i = 0; i < sizeof elements / sizeof *elements && end == 0; i++)
-            end = paper_measure_star(p, surface, star, name, users_file, elements[i]);
+            end = paper_measure_star(p, surface, star, name, model, elements[i]);
     mw_star_destroy(star);
     mw_surface_destroy(surface);
     return end;

@@ -4,7 +4,8 @@
 
 #include "bench/paper/paper.h"
 
-/* `users_file`: it is a file of the user's. Returns 0 or an exit code. */
-int paper_star(paper *p, const mw_arrays *arrays, const char *name, bool users_file);
+/* `model`: NULL, or of a file of the user: the model that it stands in for, or empty. Returns 0 or
+ * an exit code. */
+int paper_star(paper *p, const mw_arrays *arrays, const char *name, const char *model);
 
 #endif

@@ -40,8 +40,8 @@ typedef struct space_engine {
 /* All that the program was built with, up to NULL. */
 extern const space_engine *const space_engines[];
 
-extern const space_engine space_engine_certain, space_engine_walk, space_engine_star,
-    space_engine_embree, space_engine_cgal, space_engine_trimesh;
+extern const space_engine space_engine_certain, space_engine_walk, space_engine_guided,
+    space_engine_star, space_engine_embree, space_engine_cgal, space_engine_trimesh;
 
 #ifdef __cplusplus
 }

@@ -4,7 +4,7 @@
 
 const space_engine *const space_engines[] = {
     &space_engine_certain, &space_engine_walk,
-    &space_engine_star,
+    &space_engine_guided,  &space_engine_star,
 #ifdef MW_SPACE_EMBREE
     &space_engine_embree,
 #endif

@@ -57,16 +57,15 @@ static void our_show(our_scene *o, const space_model *m)
 
 /* --- probes ----------------------------------------------------------------------------------- */
 
-static void *probes_build(const space_model *m, uint32_t threads, bool boxes, double *seconds,
+static void *probes_build(const space_model *m, mw_prober_options options, double *seconds,
                           size_t *bytes)
 {
     mw_error error;
     mw_prober_info info;
-    mw_prober_options options = {.boxes = boxes, .threads = threads};
     our_scene *o = our_begin(m);
     if (!o) return NULL;
     mw_status status = MW_OK;
-    for (int i = boxes ? 1 : 0; i >= 0 && status == MW_OK; i--) {
+    for (int i = options.boxes ? 1 : 0; i >= 0 && status == MW_OK; i--) {
         double begin = monotonic_seconds();
         status = mw_prober_create(o->surface, &options, &o->prober[i], &error);
         *seconds = monotonic_seconds() - begin;
@@ -83,12 +82,17 @@ static void *probes_build(const space_model *m, uint32_t threads, bool boxes, do
 
 static void *certain_build(const space_model *m, uint32_t threads, double *seconds, size_t *bytes)
 {
-    return probes_build(m, threads, true, seconds, bytes);
+    return probes_build(m, (mw_prober_options){.boxes = 1, .threads = threads}, seconds, bytes);
 }
 
 static void *walk_build(const space_model *m, uint32_t threads, double *seconds, size_t *bytes)
 {
-    return probes_build(m, threads, false, seconds, bytes);
+    return probes_build(m, (mw_prober_options){.threads = threads}, seconds, bytes);
+}
+
+static void *guided_build(const space_model *m, uint32_t threads, double *seconds, size_t *bytes)
+{
+    return probes_build(m, (mw_prober_options){.guide = 1, .threads = threads}, seconds, bytes);
 }
 
 static double probes_cast_single(const our_scene *o, const mw_probe_options *options,
@@ -194,6 +198,19 @@ const space_engine space_engine_walk = {
     .most_rays = 1000,
     .version = our_version,
     .build = walk_build,
+    .cast = walk_cast,
+    .follow = walk_follow,
+    .destroy = our_destroy,
+};
+
+const space_engine space_engine_guided = {
+    .name = "meshwalk-guide",
+    .casts = {"single"},
+    .follows = {"told"},
+    .is_first = true,
+    .most_rays = 1000,
+    .version = our_version,
+    .build = guided_build,
     .cast = walk_cast,
     .follow = walk_follow,
     .destroy = our_destroy,

@@ -13,6 +13,7 @@ typedef struct probe_settings {
     query_stream_settings stream;
     double max_distance, min_distance;
     uint32_t samples, iterations, race;
+    int guide;
     int start;         /* mw_probe_start */
     int extent, faces; /* mw_probe_extent, mw_probe_faces */
     bool certain, inside, weld, any;
@@ -88,6 +89,10 @@ static const option probe_options[] = {
      NULL},
     {"start", 0, OPTION_CHOICE, offsetof(probe_settings, start), "NAME",
      "how to choose the first triangle (default: auto):", &starts},
+    {"guide", 0, OPTION_FLAG, offsetof(probe_settings, guide), NULL,
+     "make a coarse grid first that leads to the first triangle of a walk: pays for some thousand "
+     "queries in any order",
+     NULL},
     {"samples", 0, OPTION_COUNT, offsetof(probe_settings, samples), "K",
      "look at K triangles for a first one (default: 0, twice the cube root of the number of "
      "vertices)",
@@ -161,6 +166,7 @@ static int probed_surface_prepare(probed_surface *p, const char *path, const mw_
     mw_surface_options surface = {
         .tolerant = s->any, .weld = s->weld, .progress = progress_of_call()};
     mw_prober_options prober = {.boxes = s->certain || s->inside,
+                                .guide = s->guide,
                                 .threads = s->stream.common.threads,
                                 .progress = progress_of_call()};
     progress_phase("preparing", path);

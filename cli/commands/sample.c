@@ -1,10 +1,13 @@
-/* sample - the value the mesh has at each point. */
+/* sample - the value the mesh has at each point, in the plane or on a star-shaped polyhedron. */
 #include "cli/commands/commands.h"
+#include "cli/frame/files.h"
 #include "cli/frame/message.h"
+#include "cli/gdal/gdal_point_layer.h"
 #include "cli/input/mesh_field.h"
 #include "cli/output/csv_row.h"
 #include "cli/series/series_sample.h"
 #include "cli/stream/point_query.h"
+#include "cli/stream/sample_on_star.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -12,12 +15,15 @@
 
 enum { OUTSIDE_EMPTY = 0, OUTSIDE_NEAREST, OUTSIDE_LINEAR };
 enum { MISSING_EMPTY = 0, MISSING_NEAREST };
+enum { SAMPLE_PLANE = 0, SAMPLE_STAR };
 
 typedef struct sample_settings {
     point_query_settings query;
     const char *field, *nodata;
     int outside, missing;
-    bool status;
+    bool status, lonlat;
+    int space;          /* SAMPLE_PLANE, SAMPLE_STAR */
+    coordinates centre; /* not given: the origin */
     series_settings series;
 } sample_settings;
 
@@ -41,6 +47,19 @@ static const char *missing_help(int i)
     return (const char *[]){"no value", "the value of the nearest of the other corners"}[i];
 }
 static const choices missing_choices = {"way of --missing", missing_name, missing_help};
+
+static const char *sample_space_name(int i)
+{
+    return (const char *[]){"plane", "star", NULL}[i];
+}
+static const char *sample_space_help(int i)
+{
+    return (const char *[]){"a mesh in the plane of x and y",
+                            "a closed polyhedron, star-shaped about a centre, as for star: POINTS "
+                            "are rays from the centre"}[i];
+}
+static const choices sample_space_choices = {"way to take a mesh", sample_space_name,
+                                             sample_space_help};
 
 static const option sample_options[] = {
     {"field", 0, OPTION_TEXT, offsetof(sample_settings, field), "NAME",
@@ -71,6 +90,14 @@ static const option sample_options[] = {
     {"recover", 0, OPTION_FLAG, offsetof(sample_settings, series.recover), NULL,
      "make values at triangles or faces continuous; at a vertex the mean of those around it, by "
      "area",
+     NULL},
+    {"as", 0, OPTION_CHOICE, offsetof(sample_settings, space), "NAME",
+     "what to take MESH as (default: plane):", &sample_space_choices},
+    {"centre", 0, OPTION_XYZ, offsetof(sample_settings, centre), "X,Y,Z",
+     "--as star: the centre, which is to see all facets from inside (default: 0,0,0)", NULL},
+    {"lonlat", 0, OPTION_FLAG, offsetof(sample_settings, lonlat), NULL,
+     "--as star: POINTS are longitudes and latitudes in degrees; and so are x and y of a MESH "
+     "without z, which then lies on the unit sphere",
      NULL},
     {0},
 };
@@ -212,10 +239,71 @@ static int sample_field(const sample_settings *s, const char *const *operands)
     return end;
 }
 
+/* The option that is given although a polyhedron does not know it; NULL: none is. */
+static const char *sample_option_of_plane(const sample_settings *s)
+{
+    const point_query_settings *q = &s->query;
+    const series_settings *over = &s->series;
+    return s->outside          ? "outside"
+           : over->time        ? "time"
+           : over->values      ? "values"
+           : over->time_column ? "time-column"
+           : over->wide        ? "wide"
+           : over->recover     ? "recover"
+           : q->crs            ? "crs"
+           : q->tolerance != 0 ? "tolerance"
+           : q->sample         ? "sample"
+           : q->steps          ? "steps"
+           : q->cells          ? "cells"
+           : q->layers         ? "layers"
+           : q->walk           ? "walk"
+           : q->start          ? "start"
+           : q->arithmetic     ? "arithmetic"
+           : q->finish         ? "finish"
+           : q->fill           ? "fill"
+           : q->descent        ? "descent"
+           : q->areas          ? "areas"
+           : q->any            ? "any"
+           : q->trust          ? "trust"
+                               : NULL;
+}
+
+static int sample_star(const sample_settings *s, const char *const *operands)
+{
+    const query_stream_settings *stream = &s->query.stream;
+    const char *unfit = sample_option_of_plane(s);
+    star_sample_settings sample = {
+        .stream = stream,
+        .centre = &s->centre,
+        .field = {.field = s->field, .quiet = stream->common.quiet},
+        .lonlat = s->lonlat,
+        .status = s->status,
+        .nearest = s->missing == MISSING_NEAREST,
+    };
+    if (unfit) {
+        complain("option '--%s' is not for --as star", unfit);
+        return END_USAGE;
+    }
+    if (!s->field) {
+        complain("sample: which value? --as star needs --field NAME");
+        return END_USAGE;
+    }
+    int end = nodata_parse("nodata", s->nodata, &sample.field.nodata);
+    if (end == 0) end = files_check_output(stream->common.output, operands, 2);
+    if (end == 0) end = point_layers_check(operands, 2);
+    if (end == 0) end = query_stream_check_output(stream);
+    return end ? end : star_sample_run(&sample, operands);
+}
+
 static int sample_run(const void *settings, const char *const *operands)
 {
     const sample_settings *s = settings;
     const series_settings *over = &s->series;
+    if (s->space == SAMPLE_STAR) return sample_star(s, operands);
+    if (s->lonlat || s->centre.count) {
+        complain("option '--%s' needs --as star", s->lonlat ? "lonlat" : "centre");
+        return END_USAGE;
+    }
     if (over->time || over->values || over->time_column) return sample_series(s, operands);
     if (over->wide) {
         complain("option '--wide' is for values over time: --time");
@@ -234,9 +322,11 @@ const command sample_command = {
     .summary = "interpolate heights or other values at points",
     .description = "Writes every row of POINTS unchanged, followed by the value, z. The value is "
                    "interpolated linearly in the triangle that contains the point, and empty if no "
-                   "triangle does. '-' is standard input.",
+                   "triangle does. With --as star MESH is a globe or another polyhedron, and the "
+                   "value is that where the ray through the point meets it. '-' is standard "
+                   "input.",
     .options = tables,
-    .essential = "columns field outside only-answers output",
+    .essential = "columns field outside as output",
     .settings_size = sizeof(sample_settings),
     .run = sample_run,
 };

@@ -3,6 +3,7 @@
 #include "cli/draw/animation.h"
 #include "cli/draw/drawing.h"
 #include "cli/draw/picture.h"
+#include "cli/draw/plane_picture.h"
 #include "cli/frame/files.h"
 #include "cli/frame/message.h"
 #include "cli/frame/progress.h"
@@ -21,10 +22,22 @@ typedef struct walk_settings {
     double max_distance;
     uint32_t samples, iterations;
     const char *animate;
+    bool plane;     /* in space: a picture in the plane of the walk */
+    int grid;       /* GRID_NONE, ... */
+    uint32_t cells; /* of the grid; 0: 32 */
     int walk; /* mw_walk_kind, or MW_WALK_COUNT for all; a polyhedron has the walk of that name */
 } walk_settings;
 
+enum { GRID_NONE = 0, GRID_UNIFORM, GRID_NONUNIFORM };
+
 /* --- options ---------------------------------------------------------------------------------- */
+
+static const char *walk_grid_name(int i)
+{
+    return (const char *[]){"none", "uniform", "nonuniform", NULL}[i];
+}
+
+static const choices walk_grid_choices = {"grid", walk_grid_name, NULL};
 
 /* The walks of the plane, and all of them. */
 static const char *walk_choice_name(int i)
@@ -58,6 +71,16 @@ static const option walk_options[] = {
      "written "
      "only with -o",
      NULL},
+    {"plane", 0, OPTION_FLAG, offsetof(walk_settings, plane), NULL,
+     "draw the picture in a plane: --as star, that of longitude and polar angle; --as surface, the "
+     "one through the line of motion along which the last walk goes",
+     NULL},
+    {"grid", 0, OPTION_CHOICE, offsetof(walk_settings, grid), "NAME",
+     "--as star --plane: begin the walk by a grid, and draw it, with the first facet of each cell; "
+     "then --from is not needed (default: none):",
+     &walk_grid_choices},
+    {"cells", 0, OPTION_COUNT, offsetof(walk_settings, cells), "N",
+     "--grid: about N cells (default: 0, which means 32)", NULL},
     {"max-distance", 0, OPTION_MAX_DISTANCE, offsetof(walk_settings, max_distance), "D",
      "--as surface: touch nothing that is farther than D from the point, either way; 0: only what "
      "lies at the point "
@@ -141,9 +164,24 @@ static int walk_check_animation(const walk_settings *s, const char *const *opera
     return end ? end : files_try_output(path, NULL);
 }
 
+static int walk_check_plane(const walk_settings *s)
+{
+    const bool drawn = walk_writes_picture(s) || s->animate;
+    if (s->plane && s->mesh.space == SPACE_PLANE)
+        return walk_option_needs("plane", "--as star or --as surface");
+    if (s->plane && !drawn)
+        return walk_option_needs("plane", "a picture: -o FILE.svg or --animate FILE.png");
+    if (s->grid && !(s->plane && s->mesh.space == SPACE_STAR))
+        return walk_option_needs("grid", "--as star --plane");
+    if (s->cells && !s->grid) return walk_option_needs("cells", "--grid");
+    return options_limit("cells", s->cells, 100000, "100000");
+}
+
 static int walk_check_options(const walk_settings *s, const char *const *operands)
 {
-    int end = walk_check_coordinates(s, "from", &s->from);
+    int end = walk_check_plane(s);
+    if (end == 0 && !(s->grid && s->from.count == 0))
+        end = walk_check_coordinates(s, "from", &s->from);
     if (end == 0) end = walk_check_coordinates(s, "to", &s->to);
     if (end == 0) end = walk_check_name(s);
     if (end == 0 && s->mesh.space != SPACE_SURFACE) {
@@ -168,7 +206,15 @@ typedef struct walk_record {
     size_t count, capacity;
     double *line; /* x, y, z of points on the line from FROM to TO, or that the walk follows */
     size_t line_count;
+    grid_cell *cells; /* of --grid */
+    size_t cell_count;
+    uint8_t *marks; /* per facet: is it the first one of a cell? */
 } walk_record;
+
+static uint32_t walk_grid_cells(const walk_record *w)
+{
+    return w->settings->cells ? w->settings->cells : 32;
+}
 
 static void walk_remark(const walk_record *w, const char *name, const char *what)
 {
@@ -380,23 +426,76 @@ static int walk_record_arc(walk_record *w, const mw_star *star, const mw_surface
     return 0;
 }
 
+/* Mark the facets at the middles of the cells of the grid. */
+static int walk_mark_first_facets(walk_record *w, const mw_star *star)
+{
+    const double *centre = w->settings->mesh.centre.at;
+    mw_star_cursor cursor;
+    mw_error error;
+    double reach = 1;
+    w->cells =
+        grid_cells_make(walk_grid_cells(w), w->settings->grid == GRID_UNIFORM, &w->cell_count);
+    w->marks = calloc(w->file->triangle_count, sizeof *w->marks);
+    if (!w->cells || !w->marks) return fail_memory();
+    if (mw_star_cursor_init(star, NULL, &cursor, &error) != MW_OK) return fail_query(&error);
+    for (int k = 0; k < 3; k++) reach = fmax(reach, fabs(centre[k]));
+    for (size_t i = 0; i < w->cell_count; i++) {
+        double d[3];
+        grid_cell_direction(&w->cells[i], d);
+        for (int k = 0; k < 3; k++) d[k] = centre[k] + reach * d[k];
+        const mw_location at = mw_star_locate(star, &cursor, d);
+        if (at.triangle != MW_NONE) w->marks[at.triangle] = 1;
+    }
+    return 0;
+}
+
+static int walk_make_index(const walk_record *w, const mw_star *star, mw_star_start_kind *start,
+                           mw_star_index **index)
+{
+    mw_error error;
+    const mw_star_index_options options = {.cells = walk_grid_cells(w),
+                                           .progress = progress_of_call()};
+    if (!w->settings->grid) return 0;
+    *start = w->settings->grid == GRID_UNIFORM ? MW_STAR_START_GRID : MW_STAR_START_NONUNIFORM_GRID;
+    return mw_star_index_create(star, *start, &options, index, &error) == MW_OK
+               ? 0
+               : fail_query(&error);
+}
+
+/* The middle of the first facet: where a walk by a grid begins. */
+static void walk_first_middle(const walk_record *w, double from[3])
+{
+    for (size_t k = 0; k < 3; k++) {
+        from[k] = 0;
+        for (size_t i = 0; i < 3 && w->count; i++)
+            from[k] += w->file->points[3 * w->file->triangles[3 * w->triangles[0] + i] + k] / 3;
+    }
+}
+
 static int walk_on_star(walk_record *w, const mw_star *star, const mw_surface *surface)
 {
     const walk_settings *s = w->settings;
     mw_error error;
     mw_star_cursor begin, cursor;
-    double from[3], to[3];
+    mw_star_index *index = NULL;
+    double from[3] = {0}, to[3];
     mw_star_query_options options = {.walk = mw_star_walk_by_name(walk_choice_name(s->walk)),
                                      .start = MW_STAR_START_LAST,
                                      .seed = s->mesh.common.seed};
-    int end = ray_point(s, "from", &s->from, from);
+    int end = s->grid ? walk_mark_first_facets(w, star) : ray_point(s, "from", &s->from, from);
     if (end == 0) end = ray_point(s, "to", &s->to, to);
-    if (end) return end;
-    if (mw_star_cursor_init(star, &options, &begin, &error) != MW_OK) return fail_query(&error);
-    mw_star_locate(star, &begin, from);
-    do cursor = begin;
-    while (walk_record_lacks_room(
-        w, mw_star_path(star, &cursor, to, w->triangles, w->capacity, NULL), &end));
+    if (end == 0) end = walk_make_index(w, star, &options.start, &index);
+    options.index = index;
+    if (end == 0 && mw_star_cursor_init(star, &options, &begin, &error) != MW_OK)
+        end = fail_query(&error);
+    if (end == 0 && !s->grid) mw_star_locate(star, &begin, from);
+    if (end == 0) {
+        do cursor = begin;
+        while (walk_record_lacks_room(
+            w, mw_star_path(star, &cursor, to, w->triangles, w->capacity, NULL), &end));
+    }
+    if (s->grid) walk_first_middle(w, from);
+    mw_star_index_destroy(index);
     return end ? end : walk_record_arc(w, star, surface, from, to);
 }
 
@@ -507,15 +606,43 @@ static drawing walk_drawing(const walk_record *w, char *caption)
                      .stage = plane ? w->stages : NULL,
                      .stage_names = stages,
                      .line = w->line,
-                     .line_count = w->line_count};
+                     .line_count = w->line_count,
+                     .line_name = plane                            ? "its line"
+                                  : s->mesh.space == SPACE_SURFACE ? "line of motion"
+                                                                   : "shortest way",
+                     .marks = w->marks,
+                     .mark_name = "first facet of a cell"};
+}
+
+/* The picture of the walk in its plane. */
+static int walk_take_plane(const walk_record *w, plane_picture *p, drawing *d, char *caption)
+{
+    const bool orthogonal = strcmp(walk_choice_name(w->settings->walk), "orthogonal") == 0;
+    const size_t length = strlen(caption);
+    size_t left_out = 0;
+    if (!w->settings->plane) return 0;
+    const bool room = d->view == VIEW_STAR ? plane_picture_of_star(p, d, orthogonal, w->cells,
+                                                                   w->cell_count, &left_out)
+                                           : plane_picture_of_probe(p, d);
+    const unsigned long walk = w->count ? w->iteration[w->count - 1] : 0;
+    if (walk) snprintf(caption + length, 160 - length, "; the plane of walk %lu", walk + 1);
+    if (left_out)
+        snprintf(caption + length, 160 - length, "; %zu at the seam or a pole not shown", left_out);
+    *d = p->drawing;
+    if (orthogonal) d->line_name = "its two legs";
+    return room ? 0 : fail_memory();
 }
 
 static int walk_write_picture(const walk_record *w)
 {
     char caption[160];
     drawing d = walk_drawing(w, caption);
+    plane_picture p = {0};
     progress_phase("drawing", w->settings->mesh.common.output);
-    return drawing_write(&d, w->settings->mesh.common.output);
+    int end = walk_take_plane(w, &p, &d, caption);
+    if (end == 0) end = drawing_write(&d, w->settings->mesh.common.output);
+    plane_picture_release(&p);
+    return end;
 }
 
 static int walk_write_animation(const walk_record *w)
@@ -523,9 +650,13 @@ static int walk_write_animation(const walk_record *w)
     enum { TRIANGLES = 4000 /* of the mesh, which each step shows again */ };
     char caption[160];
     drawing d = walk_drawing(w, caption);
-    d.most_triangles = TRIANGLES;
+    plane_picture p = {0};
     progress_phase("drawing", w->settings->animate);
-    return drawing_write_animation(&d, w->settings->animate);
+    int end = walk_take_plane(w, &p, &d, caption);
+    d.most_triangles = TRIANGLES;
+    if (end == 0) end = drawing_write_animation(&d, w->settings->animate);
+    plane_picture_release(&p);
+    return end;
 }
 
 static int walk_and_write(walk_record *w)
@@ -546,6 +677,8 @@ static void walk_record_release(walk_record *w)
     free(w->iteration);
     free(w->stages);
     free(w->line);
+    free(w->cells);
+    free(w->marks);
 }
 
 static int walk_write_all(const walk_settings *s, const drawing *d, size_t count)

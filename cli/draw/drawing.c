@@ -2,8 +2,8 @@
  *
  * Triangles of the walk are filled, from light to dark in their order. In space the mesh is drawn
  * nearly transparent: triangles of the walk that face away are painted first, so they are faintly
- * visible. Green and vermilion are those of [Okabe, Ito 2008], which colour-blind people can tell
- * apart. */
+ * visible. Green, vermilion and yellow are those of [Okabe, Ito 2008], which colour-blind people
+ * can tell apart. */
 #include "cli/draw/drawing.h"
 #include "cli/draw/animation.h"
 #include "cli/frame/message.h"
@@ -29,7 +29,8 @@
 
 /* --- colours ---------------------------------------------------------------------------------- */
 
-static const double green[3] = {0.00, 0.62, 0.45}, vermilion[3] = {0.84, 0.37, 0.00};
+static const double green[3] = {0.00, 0.62, 0.45}, vermilion[3] = {0.84, 0.37, 0.00},
+                    yellow[3] = {0.94, 0.89, 0.26};
 
 static void colour_mix(const double a[3], const double b[3], double part, double rgb[3])
 {
@@ -55,10 +56,18 @@ static uint32_t stage_hue(uint32_t stage)
     return hues[stage % HUES];
 }
 
+/* The walks of a probe are blue, purple, brown, and so on again. */
+#define WALK_HUES 3u
+
+static uint32_t walk_hue(uint32_t iteration)
+{
+    return iteration % WALK_HUES;
+}
+
 /* Each walk, or each stage of a walk, has a colour, which darkens along the way. */
 static void colour_of_visit(const scene *s, uint32_t visit, double rgb[3])
 {
-    uint32_t hue = s->d->stage ? stage_hue(s->d->stage[visit]) : s->d->iteration[visit] % 3;
+    uint32_t hue = s->d->stage ? stage_hue(s->d->stage[visit]) : walk_hue(s->d->iteration[visit]);
     colour_of_hue(hue, s->part[visit], rgb);
 }
 
@@ -134,13 +143,16 @@ static void triangle_trace(cairo_t *c, const scene *s, uint32_t triangle)
 
 static void triangle_paint(cairo_t *c, const scene *s, const painted_triangle *p, double width)
 {
-    bool walk = s->visit[p->triangle] < s->seen;
+    bool walk = s->visit[p->triangle] < s->seen, mark = s->d->marks && s->d->marks[p->triangle];
     double rgb[3];
     if (p->back && !walk) return; /* not seen yet */
     triangle_trace(c, s, p->triangle);
     if (walk) {
         colour_of_triangle(s, p, rgb);
         cairo_set_source_rgb(c, rgb[0], rgb[1], rgb[2]);
+        cairo_fill_preserve(c);
+    } else if (mark) {
+        cairo_set_source_rgb(c, yellow[0], yellow[1], yellow[2]);
         cairo_fill_preserve(c);
     } else if (s->d->view != VIEW_PLANE) {
         cairo_set_source_rgba(c, 1, 1, 1, 0.7);
@@ -165,6 +177,24 @@ static void triangle_ring(cairo_t *c, const scene *s, uint32_t triangle, const d
     cairo_set_source_rgb(c, rgb[0], rgb[1], rgb[2]);
     cairo_set_line_width(c, 2);
     cairo_stroke(c);
+}
+
+static void scene_paint_segments(cairo_t *c, const scene *s)
+{
+    static const double dash[] = {3, 2};
+    const drawing *d = s->d;
+    cairo_save(c);
+    cairo_set_source_rgb(c, 0.35, 0.35, 0.35);
+    cairo_set_line_width(c, 0.8);
+    if (d->dashed) cairo_set_dash(c, dash, 2, 0);
+    for (size_t i = 0; i < d->segment_count; i++) {
+        const page_point a = projection_at(&s->projection, d->segments + 6 * i),
+                         b = projection_at(&s->projection, d->segments + 6 * i + 3);
+        cairo_move_to(c, scene_page_x(s, a.x), scene_page_y(s, a.y));
+        cairo_line_to(c, scene_page_x(s, b.x), scene_page_y(s, b.y));
+        cairo_stroke(c);
+    }
+    cairo_restore(c);
 }
 
 static void scene_paint_line(cairo_t *c, const scene *s)
@@ -225,7 +255,6 @@ static bool stage_is_seen(const drawing *d, uint32_t stage)
     return false;
 }
 
-/* The legend: what the colours mean, of the stages that there are, and the line. */
 static double legend_paint_stages(cairo_t *c, const drawing *d, double x, double y)
 {
     double rgb[3];
@@ -234,30 +263,100 @@ static double legend_paint_stages(cairo_t *c, const drawing *d, double x, double
         colour_of_hue(stage_hue(stage), 0.6, rgb);
         x = legend_sample(c, x, y, rgb, d->stage_names[stage]);
     }
-    if (!d->stage || d->line_count < 2 || isnan(d->line[3])) return x;
-    cairo_set_source_rgb(c, 0, 0, 0);
-    cairo_set_line_width(c, 1.1);
+    return x;
+}
+
+/* The walks of a colour, counted from 1: "walk 2", "walks 2, 5", "walks 2, 5, 8 ...". Returns how
+ * many there are. */
+static uint32_t walks_of_hue(const drawing *d, uint32_t hue, char *words, size_t size)
+{
+    uint32_t count = 0, last = UINT32_MAX;
+    size_t used = (size_t)snprintf(words, size, "walks");
+    for (size_t i = 0; i < d->path_count; i++) {
+        const uint32_t walk = d->iteration[i];
+        if (walk_hue(walk) != hue || walk == last) continue;
+        last = walk;
+        if (++count > 4 || used >= size) continue;
+        used += (size_t)(count > 3 ? snprintf(words + used, size - used, " ...")
+                                   : snprintf(words + used, size - used, "%s%u",
+                                              count > 1 ? ", " : " ", walk + 1));
+    }
+    if (count == 1) snprintf(words, size, "walk %u", last + 1);
+    return count;
+}
+
+/* A walk darkens along its way. */
+static double legend_paint_walks(cairo_t *c, const drawing *d, double x, double y)
+{
+    double rgb[3];
+    char words[64];
+    const bool one = d->path_count && d->iteration[d->path_count - 1] == 0;
+    for (uint32_t hue = 0; hue < WALK_HUES && !d->stage; hue++) {
+        if (walks_of_hue(d, hue, words, sizeof words) == 0) continue;
+        colour_of_hue(hue, 0.6, rgb);
+        x = legend_sample(c, x, y, rgb, one ? "between, darker along the way" : words);
+    }
+    return x;
+}
+
+static double legend_line(cairo_t *c, double x, double y, double grey, bool dashed,
+                          const char *words)
+{
+    static const double dash[] = {3, 2};
+    cairo_save(c);
+    cairo_set_source_rgb(c, grey, grey, grey);
+    cairo_set_line_width(c, dashed || grey > 0 ? 0.8 : 1.1);
+    if (dashed) cairo_set_dash(c, dash, 2, 0);
     cairo_move_to(c, x, y - 3.5);
     cairo_line_to(c, x + 14, y - 3.5);
     cairo_stroke(c);
-    return legend_write_words(c, x + 18, y, "its line") + 14;
+    cairo_restore(c);
+    return legend_write_words(c, x + 18, y, words) + 14;
+}
+
+static bool drawing_has_line(const drawing *d)
+{
+    return d->line_name && d->line_count > 1 && !isnan(d->line[3]);
+}
+
+/* The legend: what each colour and each line means. */
+static double legend_paint(cairo_t *c, const drawing *d, double x, double y)
+{
+    x = legend_sample(c, x, y, green, "first");
+    x = legend_sample(c, x, y, vermilion, "last");
+    x = legend_paint_stages(c, d, x, y);
+    x = legend_paint_walks(c, d, x, y);
+    if (d->marks) x = legend_sample(c, x, y, yellow, d->mark_name);
+    if (drawing_has_line(d)) x = legend_line(c, x, y, 0, false, d->line_name);
+    if (d->segment_count) x = legend_line(c, x, y, 0.35, d->dashed, d->segment_name);
+    return x;
 }
 
 static void scene_paint_caption(cairo_t *c, const scene *s, double y)
 {
     cairo_select_font_face(c, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
     cairo_set_font_size(c, 11);
-    double x = MARGIN;
-    legend_write_words(c, x, y, s->caption);
-    if (!s->d->path_count) return;
-    x = legend_sample(c, x, y + LEGEND, green, "first");
-    x = legend_sample(c, x, y + LEGEND, vermilion, "last");
-    legend_paint_stages(c, s->d, x, y + LEGEND);
+    legend_write_words(c, MARGIN, y, s->caption);
+    if (s->d->path_count) legend_paint(c, s->d, MARGIN, y + LEGEND);
+}
+
+/* Room for the legend: its width on a page that is thrown away. */
+static double legend_width(const drawing *d)
+{
+    cairo_surface_t *page = cairo_recording_surface_create(CAIRO_CONTENT_COLOR, NULL);
+    cairo_t *c = cairo_create(page);
+    cairo_select_font_face(c, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
+    cairo_set_font_size(c, 11);
+    const double width = d->path_count ? legend_paint(c, d, 0, 0) : 0;
+    cairo_destroy(c);
+    cairo_surface_destroy(page);
+    return width;
 }
 
 static double scene_page_width(const scene *s)
 {
-    return 2 * MARGIN + fmax(PAGE_LEAST, (s->shown.high[0] - s->shown.low[0]) * scene_scale(s));
+    const double least = fmax(PAGE_LEAST, legend_width(s->d));
+    return 2 * MARGIN + fmax(least, (s->shown.high[0] - s->shown.low[0]) * scene_scale(s));
 }
 
 static double scene_page_height(const scene *s)
@@ -275,6 +374,7 @@ static void drawing_draw(cairo_t *c, const void *self)
     cairo_set_line_join(c, CAIRO_LINE_JOIN_ROUND);
     scene_paint_veil(c, s);
     for (size_t i = 0; i < s->count; i++) triangle_paint(c, s, &s->painted[i], width);
+    scene_paint_segments(c, s);
     scene_paint_line(c, s);
     if (s->d->path_count) {
         triangle_ring(c, s, s->d->path[0], green);

@@ -3,6 +3,7 @@
 #ifndef MW_CLI_DRAW_DRAWING_CONTENT_H
 #define MW_CLI_DRAW_DRAWING_CONTENT_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -35,6 +36,15 @@ typedef struct drawing {
      * between two parts them */
     const double *line;
     size_t line_count;
+    const char *line_name; /* for the legend */
+    /* VIEW_PLANE: thin straight lines, two points x, y, z each, and what they are; dashed or not */
+    const double *segments;
+    size_t segment_count;
+    const char *segment_name;
+    bool dashed;
+    /* NULL, or per triangle: 1 if it is painted yellow; and what that means */
+    const uint8_t *marks;
+    const char *mark_name;
 } drawing;
 
 #endif

@@ -83,13 +83,19 @@ static void scene_grow_to_end(scene *s, const double *point)
         box_grow(&s->shown, &at);
 }
 
-/* The walk and the ends of its line, with a margin; the whole mesh where that is not much more. */
+/* The walk and the ends of its line, with a margin, and the segments; the whole mesh where that is
+ * not much more. */
 static void scene_choose_box(scene *s)
 {
     const drawing *d = s->d;
     double sides = 0;
     s->all = s->shown = nothing;
     for (size_t i = 0; i < 3 * d->triangle_count; i++) box_grow(&s->all, &s->at[d->triangles[i]]);
+    for (size_t i = 0; i < 2 * d->segment_count; i++) {
+        const page_point at = projection_at(&s->projection, d->segments + 3 * i);
+        box_grow(&s->all, &at);
+        box_grow(&s->shown, &at);
+    }
     for (size_t i = 0; i < d->path_count; i++) {
         page_box b = scene_box(s, d->path[i]);
         sides += page_box_side(&b);

@@ -69,14 +69,21 @@ static int mesh_field_recover(mw_mesh *mesh, const char *path, const char *field
     return status == MW_OK ? 0 : fail_mesh(path, &error);
 }
 
-static int mesh_field_take_triangles(mw_mesh *mesh, const char *path,
-                                     const mesh_field_choice *choice, const double *values)
+/* The copy is for free(); NULL without memory. */
+static double *mesh_field_copy_triangles(const char *path, const mw_mesh_file *file, size_t field,
+                                         const mesh_field_choice *choice)
 {
     nodata_rule rule = choice->nodata;
     rule.place = "triangle";
     rule.places = "triangles";
-    double *copy = nodata_copy(values, 1, mw_mesh_triangle_count(mesh), &rule, path, choice->field,
-                               choice->quiet);
+    return nodata_copy(file->triangle_fields[field], 1, file->triangle_count, &rule, path,
+                       choice->field, choice->quiet);
+}
+
+static int mesh_field_take_triangles(mw_mesh *mesh, const char *path, const mw_mesh_file *file,
+                                     size_t field, const mesh_field_choice *choice)
+{
+    double *copy = mesh_field_copy_triangles(path, file, field, choice);
     if (!copy) return fail_memory();
     if (!choice->recover) {
         *choice->triangles = copy;
@@ -123,10 +130,21 @@ int mesh_field_load(mw_mesh *mesh, const char *path, const mw_mesh_file *file, c
     const bool of_vertices = mesh_field_of_vertices(file, field, &stride) != NULL;
     const size_t triangles = of_vertices ? SIZE_MAX : mesh_field_of_triangles(file, field);
     if (triangles != SIZE_MAX && (choice->recover || choice->triangles))
-        return mesh_field_take_triangles(mesh, path, choice, file->triangle_fields[triangles]);
+        return mesh_field_take_triangles(mesh, path, file, triangles, choice);
     int end = mesh_field_copy(path, file, choice, &copy);
     if (end) return end;
     mw_status status = mw_mesh_set_field(mesh, field, copy, 1, &error);
     free(copy);
     return status == MW_OK ? 0 : fail_mesh(path, &error);
+}
+
+int mesh_field_copy_either(const char *path, const mw_mesh_file *file,
+                           const mesh_field_choice *choice, double **values)
+{
+    size_t stride;
+    const bool of_vertices = mesh_field_of_vertices(file, choice->field, &stride) != NULL;
+    const size_t triangles = of_vertices ? SIZE_MAX : mesh_field_of_triangles(file, choice->field);
+    if (triangles == SIZE_MAX) return mesh_field_copy(path, file, choice, values);
+    *choice->triangles = mesh_field_copy_triangles(path, file, triangles, choice);
+    return *choice->triangles ? 0 : fail_memory();
 }

@@ -27,4 +27,9 @@ int mesh_field_load(mw_mesh *mesh, const char *path, const mw_mesh_file *file, c
 int mesh_field_copy(const char *path, const mw_mesh_file *file, const mesh_field_choice *choice,
                     double **values);
 
+/* The same for values of vertices, or else for those of triangles: *values stays NULL then, and
+ * *choice->triangles has them. */
+int mesh_field_copy_either(const char *path, const mw_mesh_file *file,
+                           const mesh_field_choice *choice, double **values);
+
 #endif

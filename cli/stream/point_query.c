@@ -385,6 +385,7 @@ int point_query_locate(const point_query *q, const query_block *block, mw_locati
 {
     const point_query_settings *settings = q->settings;
     mw_error error;
+    if (q->elsewhere) return q->elsewhere(q->elsewhere_self, block, answers);
     mw_query_options options = {
         .walk = (mw_walk_kind)settings->walk,
         .start = (mw_start_kind)settings->start,

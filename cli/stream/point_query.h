@@ -46,6 +46,10 @@ static inline double point_query_value(const point_query_values *v, const mw_loc
     return v->at_points[where - v->first];
 }
 
+/* Locate a block of points elsewhere. `self` is the caller's. Returns 0, or an exit code after a
+ * complaint. */
+typedef int point_query_elsewhere(void *self, const query_block *block, mw_location *answers);
+
 /* A mesh that is ready for queries. */
 typedef struct point_query {
     const point_query_settings *settings;
@@ -64,6 +68,8 @@ typedef struct point_query {
     double begin;          /* monotonic_seconds when the command began */
     point_query_count_rows *count_rows; /* NULL: tell how many points got which mw_where */
     point_query_values *values;         /* NULL: no values are asked for */
+    point_query_elsewhere *elsewhere;   /* NULL: points are located here, in the locator */
+    void *elsewhere_self;
 } point_query;
 
 /* Write the answer for one point, each cell behind a comma. Returns false if there is none. `self`

@@ -52,10 +52,18 @@ PICTURES = [
             "polyhedron.",
             "meshwalk walk --as star globe.off --walk straight --from 1,0.2,0.3 --to -0.2,1,-0.4 "
             "-o globe.svg"),
+    Picture("grid.svg", "Longitude and polar angle",
+            "The orthogonal walk goes along a parallel, then along a meridian. It begins in the "
+            "first facet of a cell of a grid; these facets are yellow.",
+            "meshwalk walk --as star --plane --grid nonuniform globe.off --walk orthogonal "
+            "--to -0.2,1,-0.4 -o grid.svg"),
     Picture("probe.svg", "A probe touches a surface",
             "The walk follows the surface along a plane, to the triangle that the line of motion "
             "goes through.",
             "meshwalk walk --as surface torus.off --from 3,0,4 --to 3,0,0 -o probe.svg"),
+    Picture("cut.svg", "The plane of a probe's walk",
+            "The same walk in its plane, with the triangles that the plane cuts.",
+            "meshwalk walk --as surface --plane torus.off --from 3,0,4 --to 3,0,0 -o cut.svg"),
     Picture("depths.png", "Depths of a bay",
             "Values at vertices; the islands are holes of the mesh.",
             'mesh = meshwalk.read("bay.ply")\n'

@@ -34,7 +34,10 @@ typedef struct mw_prober_options {
     int boxes;
     uint32_t threads;            /**< threads that build the boxes; 0: one per processor */
     const mw_progress *progress; /**< progress and cancelling, see base.h; NULL: none */
-    uint32_t reserved[4];        /**< must be zero */
+    /** 1: make a guide, a coarse grid that leads walks to their first triangle (2 bytes a
+     * triangle). It is made once, and stays good while the surface changes its shape little. */
+    int guide;
+    uint32_t reserved[3]; /**< must be zero */
 } mw_prober_options;
 
 /**
@@ -47,7 +50,7 @@ typedef struct mw_prober_options {
  * @return MW_OK; MW_ERROR_ARGUMENT for NULL; MW_ERROR_INPUT if the surface has no triangle;
  *         MW_ERROR_MEMORY, MW_CANCELLED.
  *
- * Thread-safe. O(1) without boxes, O(n log n) with boxes.
+ * Thread-safe. O(1) without boxes and guide, O(n) with a guide, O(n log n) with boxes.
  */
 MW_API mw_status mw_prober_create(const mw_surface *surface, const mw_prober_options *options,
                                   mw_prober **out, mw_error *error);
@@ -76,6 +79,7 @@ MW_API void mw_prober_update(mw_prober *prober, double moved, uint32_t threads);
 typedef struct mw_prober_info {
     size_t bytes;       /**< memory in bytes, without the surface */
     size_t box_bytes;   /**< of these, for the boxes */
+    size_t guide_bytes; /**< and for the guide */
     uint64_t fits;      /**< how often the boxes were fitted */
     double fit_seconds; /**< how long the last fit took */
 } mw_prober_info;
@@ -115,8 +119,9 @@ typedef struct mw_touch {
 
 /** How the first triangle of a walk is chosen. */
 typedef enum mw_probe_start {
-    /** LAST if that triangle is probably nearer to q than the best triangle of a sample; else
-     * SAMPLE. */
+    /** LAST if that triangle is near q. Otherwise the first walk starts at the triangle to which
+     * the prober's guide leads, if m points at its front; without a guide, and in further
+     * iterations, SAMPLE. */
     MW_PROBE_START_AUTO = 0,
     /** The triangle that this cursor touched last, if m points at its front. Otherwise, and in
      * further iterations, SAMPLE. */
@@ -176,7 +181,10 @@ typedef struct mw_probe_options {
     double min_distance;
     mw_probe_faces faces;
     mw_probe_extent extent;
-    uint32_t reserved[2]; /**< must be zero */
+    /** 1: of several triangles that a probe touches at one place, exactly, only the lowest counts:
+     * a line through an edge touches once there. mw_probe_all_batch() only. */
+    uint32_t one_per_place;
+    uint32_t reserved[1]; /**< must be zero */
 } mw_probe_options;
 
 /** What probes did, summed over queries. A race counts all its walks; that depends on the run. */
@@ -299,6 +307,61 @@ MW_API size_t mw_probe_all(const mw_prober *prober, mw_probe_cursor *cursor, con
 MW_API mw_status mw_probe_batch(const mw_prober *prober, const double *queries, size_t n,
                                 size_t stride, const mw_probe_options *options, mw_touch *touches,
                                 mw_probe_counters *counters, mw_error *error);
+
+/**
+ * Do n probes touch anything? Faster than mw_probe_batch(), since the first touch found is enough.
+ *
+ * @param prober    a prober with boxes
+ * @param queries   as for mw_probe_batch()
+ * @param n         number of queries
+ * @param stride    doubles from one query to the next; 0 means 6
+ * @param options   NULL selects the defaults; `certain` must be 1 for a ray or a segment
+ * @param states    receives n answers of mw_touch_state, as of mw_probe_any(); equal for every
+ *                  number of threads, unspecified on failure
+ * @param counters  NULL, or receives the sums over the batch (if enabled by the options)
+ * @param error     NULL, or receives the message of a failure
+ * @return MW_OK; MW_ERROR_ARGUMENT as mw_probe_batch(), and for a prober without boxes;
+ *         MW_CANCELLED.
+ *
+ * Thread-safe. O(log n) a probe typically.
+ */
+MW_API mw_status mw_probe_any_batch(const mw_prober *prober, const double *queries, size_t n,
+                                    size_t stride, const mw_probe_options *options, uint8_t *states,
+                                    mw_probe_counters *counters, mw_error *error);
+
+/** All touches of many probes. Release with mw_touch_lists_release(). */
+typedef struct mw_touch_lists {
+    size_t *offset;     /**< probe i has the touches offset[i] up to offset[i + 1] - 1 */
+    mw_touch *touch;    /**< all touches, in the order of the probes */
+    size_t probe_count; /**< offset has one more */
+    size_t touch_count;
+    size_t bad_count; /**< probes that mw_probe_all() calls MW_TOUCH_BAD; they have no touches */
+} mw_touch_lists;
+
+/**
+ * All triangles that n probes touch, those of each probe in their order along its motion.
+ *
+ * @param prober    a prober with boxes
+ * @param queries   as for mw_probe_batch()
+ * @param n         number of queries
+ * @param stride    doubles from one query to the next; 0 means 6
+ * @param options   NULL selects the defaults; `certain` must be 1 for a ray or a segment
+ * @param lists     receives the touches, as of mw_probe_all(), equal for every number of threads;
+ *                  empty on failure
+ * @param counters  NULL, or receives the sums over the batch (if enabled by the options)
+ * @param error     NULL, or receives the message of a failure
+ * @return MW_OK, also if a probe is bad (bad_count); MW_ERROR_ARGUMENT as mw_probe_any_batch();
+ *         MW_ERROR_MEMORY, MW_CANCELLED.
+ *
+ * Thread-safe. O(k log k) for the k touches of a probe, besides the search. Memory: 40 bytes a
+ * touch, twice at the end, and 8 bytes a probe.
+ */
+MW_API mw_status mw_probe_all_batch(const mw_prober *prober, const double *queries, size_t n,
+                                    size_t stride, const mw_probe_options *options,
+                                    mw_touch_lists *lists, mw_probe_counters *counters,
+                                    mw_error *error);
+/** Release the touches of probes. Zero-initialised lists are allowed. */
+MW_API void mw_touch_lists_release(mw_touch_lists *lists);
 
 /**
  * The triangles that the walks of one probe visit, in order. The query runs without a race.

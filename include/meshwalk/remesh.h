@@ -97,31 +97,37 @@ MW_API mw_status mw_star_remesh(const mw_star *star, uint32_t level,
 
 /** How far the points of one surface are from another surface. */
 typedef struct mw_deviation {
-    /** The largest distance of a sample: no distance of a point of the surface is known to be
-     * larger, but between samples one may be. */
+    /** The largest distance of a sample. Between samples a point may be farther. */
     double largest;
-    /** No point of the surface is farther than this, up to rounding: a point is farther than a
-     * sample by at most the way between them. It is more than `largest` by less than 0.6 times the
-     * longest edge. */
+    /** No point of the surface is farther than this, up to rounding: see mw_surface_deviation(). */
     double at_most;
-    double mean;               /**< by area, see mw_surface_deviation() */
+    double mean;               /**< by area, of the samples */
     double point[3];           /**< the sample with the largest distance */
     double nearest[3];         /**< the point of the other surface nearest to it */
-    uint32_t triangle;         /**< a triangle of the surface that has this sample */
+    uint32_t triangle;         /**< the triangle of the surface that has this sample */
     uint32_t nearest_triangle; /**< the triangle of the other surface */
-    uint64_t samples;          /**< vertices in use, and one point in each triangle */
+    uint64_t samples;          /**< how many distances were measured */
     double area;               /**< of the surface, rounded */
 } mw_deviation;
 
 /**
- * Measure how far a surface is from another one, by the nearest points of samples.
+ * Measure how far a surface is from another one, by the nearest points of samples [Cignoni,
+ * Rocchini, Scopigno 1998].
  *
- * Samples are the vertices of triangles and the centroid of each triangle, both rounded. This is
- * one direction only: call it once more with the surfaces exchanged. The larger of the two
+ * Each triangle is cut into f * f equal pieces, none of which is much larger than the mean triangle
+ * of the other surface (f is 64 at most). Samples are the corners of the pieces and their
+ * centroids, rounded. The mean counts each piece by its area: three quarters of its centroid's
+ * distance, and a twelfth of that of each corner, which is exact where the distance is a polynomial
+ * of degree two.
+ *
+ * `at_most` is the larger for all pieces of a bound: the distance from one triangle is a convex
+ * function, so no point of a piece is farther from the triangle nearest to its centroid than its
+ * farthest corner is; nor is one farther than a corner's or the centroid's distance and the way
+ * there.
+ *
+ * This is one direction only: call it once more with the surfaces exchanged. The larger of the two
  * `largest` is a lower bound of the Hausdorff distance, the larger of the two `at_most` an upper
- * bound, up to rounding. The mean counts each triangle by its area: three quarters of its
- * centroid's distance, and a twelfth of that of each vertex, which is exact where the distance is a
- * polynomial of degree two.
+ * bound, up to rounding.
  *
  * @param surface  the surface with the samples; its vertices in use must be finite
  * @param other    a prober with boxes of the other surface
@@ -129,10 +135,10 @@ typedef struct mw_deviation {
  * @param out      receives the result
  * @param error    NULL, or receives the message of a failure
  * @return MW_OK; MW_ERROR_ARGUMENT for NULL, a prober without boxes, or boxes that are not up to
- *         date; MW_ERROR_INPUT if a vertex is not finite, or the other surface has no triangle with
- *         an area; MW_ERROR_MEMORY, MW_CANCELLED.
+ *         date; MW_ERROR_INPUT if the surface has no triangle or a vertex is not finite, or the
+ *         other surface has no triangle with an area; MW_ERROR_MEMORY, MW_CANCELLED.
  *
- * Thread-safe. The same bits for any number of threads. O(n log m) typically.
+ * Thread-safe. The same bits for any number of threads. O((n + m) log m) typically.
  */
 MW_API mw_status mw_surface_deviation(const mw_surface *surface, const mw_prober *other,
                                       const mw_remesh_options *options, mw_deviation *out,

@@ -5,7 +5,7 @@
 #include "cli/frame/options.h"
 #include "mpi/program/service.h"
 
-extern const command locate_pieces_command, sample_pieces_command;
+extern const command locate_pieces_command, sample_pieces_command, weights_pieces_command;
 
 /* The ranks that carry out what the command orders. There is one such service for the program. */
 service *program_service(void);

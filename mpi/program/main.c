@@ -12,7 +12,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const command *const commands[] = {&locate_pieces_command, &sample_pieces_command};
+static const command *const commands[] = {&locate_pieces_command, &sample_pieces_command,
+                                          &weights_pieces_command};
 #define COMMAND_COUNT (sizeof commands / sizeof *commands)
 
 static service of_program;

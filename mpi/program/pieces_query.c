@@ -24,9 +24,9 @@ const option pieces_options[] = {
     {0},
 };
 
-/* The exit code for an error of the ranks, after a complaint. */
-static int pieces_fail(const char *path, const mwp_error *from)
+int pieces_query_fail(const pieces_query *q, const mwp_error *from)
 {
+    const char *path = q->path;
     mw_error error = {
         .status = from->status, .triangle = from->triangle, .vertex = from->vertex, .line = -1};
     memcpy(error.message, from->message, sizeof error.message);
@@ -54,7 +54,7 @@ static int file_distribute(pieces_query *q, const mw_mesh_file *file, const mw_m
     progress_phase("distributing", q->path);
     mw_status status =
         service_scatter(q->service, &bare, q->settings->stream.common.threads, &error);
-    return status ? pieces_fail(q->path, &error) : 0;
+    return status ? pieces_query_fail(q, &error) : 0;
 }
 
 static int file_take(pieces_query *q, mw_mesh_file *file, const mesh_field_choice *field)
@@ -64,6 +64,11 @@ static int file_take(pieces_query *q, mw_mesh_file *file, const mesh_field_choic
     const bool quiet = q->settings->stream.common.quiet;
     const mw_arrays arrays = mw_mesh_file_arrays(file);
     extent_add(&q->extent, file->points, file->point_count, 3);
+    q->vertex_count = file->point_count;
+    q->vertices = malloc(2 * file->point_count * sizeof *q->vertices + 1);
+    if (!q->vertices) return fail_memory();
+    for (size_t v = 0; v < file->point_count; v++)
+        memcpy(q->vertices + 2 * v, file->points + 3 * v, 2 * sizeof *q->vertices);
     if (mw_mesh_create(&arrays, NULL, &mesh, &error) != MW_OK) return fail_mesh(q->path, &error);
     if (!quiet) extent_warn_of_seam(q->path, &q->extent, mesh);
     q->first_number = file->first_number;
@@ -100,6 +105,7 @@ void pieces_query_release(pieces_query *q)
 {
     free(q->crs);
     free(q->faces);
+    free(q->vertices);
 }
 
 /* --- the points ------------------------------------------------------------------------------- */
@@ -118,10 +124,10 @@ static int pieces_answer(void *self, const query_block *block, void *answers)
     const service_answer *answer = answers;
     const service_options options = {.tolerance = q->settings->tolerance,
                                      .threads = q->settings->stream.common.threads,
-                                     .values = q->values};
+                                     .more = q->values ? SERVICE_VALUES : SERVICE_NOTHING};
     if (service_locate(q->service, block->values, block->stride, block->count, &options, answers,
                        &error))
-        return pieces_fail(q->path, &error);
+        return pieces_query_fail(q, &error);
     for (size_t i = 0; i < block->count; i++) q->where[answer[i].at.where]++;
     extent_add(&q->points, block->values, block->count, block->stride);
     return 0;

@@ -24,7 +24,9 @@ typedef struct pieces_query {
     char *crs;       /* NULL: not known */
     uint32_t *faces; /* NULL: faces are the triangles */
     int first_number;
-    bool values; /* each point gets a value of the field */
+    bool values;      /* each point gets a value of the field */
+    double *vertices; /* x, y of all vertices of the file */
+    size_t vertex_count;
     extent_box extent, points;
     uint64_t where[MW_WHERE_COUNT];
     double begin;
@@ -39,6 +41,9 @@ typedef bool pieces_row(const pieces_query *q, const void *self, const double po
 int pieces_query_open(pieces_query *q, service *s, const pieces_settings *settings,
                       const char *const *operands, const mesh_field_choice *field);
 void pieces_query_release(pieces_query *q);
+
+/* The exit code for an error of the ranks, after a complaint. */
+int pieces_query_fail(const pieces_query *q, const mwp_error *from);
 
 /* Write the header and the rows of all points. Arguments as point_query_run. */
 int pieces_query_run(pieces_query *q, const char *points, const char *const *answers,

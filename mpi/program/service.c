@@ -28,6 +28,42 @@ static mw_status all_scatter(service *s, const mw_mesh_file *file, uint32_t thre
     return mwp_mesh_scatter(s->wire.comm, file, &options, &s->mesh, error);
 }
 
+/* What is asked beside the locations. */
+static mw_status share_values(const service *s, size_t n, service_answer *answers,
+                              const mwp_location *at, mwp_error *error)
+{
+    mw_value_table table;
+    double *value = mwp__alloc(n, sizeof *value);
+    mw_status status = value ? MW_OK : mwp__fail_memory(error);
+    if (!status && !mwp_mesh_field(s->mesh, mwp_mesh_field_name(s->mesh, 0), &table))
+        status = mwp__fail(error, MW_ERROR_ARGUMENT, "the mesh has no field");
+    status = mwp__wire_agree(&s->wire, status, error);
+    if (!status) status = mwp_interpolate(s->mesh, &table, at, n, value, error);
+    for (size_t i = 0; i < n && !status; i++) answers[i].value = value[i];
+    free(value);
+    return status;
+}
+
+static mw_status share_corners(const service *s, size_t n, service_answer *answers,
+                               const mwp_location *at, mwp_error *error)
+{
+    uint64_t *first = mwp__alloc(n + 1, sizeof *first);
+    int64_t *column = mwp__alloc(n, 3 * sizeof *column);
+    double *weight = mwp__alloc(n, 3 * sizeof *weight);
+    mw_status status = first && column && weight ? MW_OK : mwp__fail_memory(error);
+    status = mwp__wire_agree(&s->wire, status, error);
+    if (!status) status = mwp_operator(s->mesh, at, n, first, column, weight, error);
+    for (size_t i = 0; i < n && !status; i++)
+        for (uint64_t e = first[i], k = 0; k < 3; e++, k++) {
+            answers[i].corner[k] = e < first[i + 1] ? column[e] : -1;
+            answers[i].weight[k] = e < first[i + 1] ? weight[e] : 0;
+        }
+    free(first);
+    free(column);
+    free(weight);
+    return status;
+}
+
 /* Locate the points of this rank. */
 static mw_status share_locate(const service *s, const mwp_parcels *points,
                               const service_options *options, service_answer *answers,
@@ -36,18 +72,13 @@ static mw_status share_locate(const service *s, const mwp_parcels *points,
     const size_t n = points->total;
     const mwp_locate_options how = {.tolerance = options->tolerance, .threads = options->threads};
     mwp_location *at = mwp__alloc(n, sizeof *at);
-    double *value = mwp__alloc(n, sizeof *value);
-    mw_value_table table;
-    mw_status status =
-        mwp__wire_agree(&s->wire, at && value ? MW_OK : mwp__fail_memory(error), error);
+    mw_status status = mwp__wire_agree(&s->wire, at ? MW_OK : mwp__fail_memory(error), error);
     if (!status) status = mwp_locate_batch(s->mesh, points->records, n, 2, &how, at, error);
-    if (!status && options->values &&
-        mwp_mesh_field(s->mesh, mwp_mesh_field_name(s->mesh, 0), &table))
-        status = mwp_interpolate(s->mesh, &table, at, n, value, error);
-    for (size_t i = 0; i < n && !status; i++)
-        answers[i] = (service_answer){at[i], options->values ? value[i] : 0};
+    for (size_t i = 0; i < n && !status; i++) answers[i] = (service_answer){.at = at[i]};
+    if (!status && options->more == SERVICE_VALUES) status = share_values(s, n, answers, at, error);
+    if (!status && options->more == SERVICE_CORNERS)
+        status = share_corners(s, n, answers, at, error);
     free(at);
-    free(value);
     return status;
 }
 

@@ -12,13 +12,19 @@ typedef struct service {
 /* The answer to a point. */
 typedef struct service_answer {
     mwp_location at;
-    double value; /* of the first field of the mesh, where values are asked for */
+    double value; /* of the first field of the mesh, for SERVICE_VALUES */
+    /* For SERVICE_CORNERS: the vertices whose weights are not 0, then -1; and their weights. */
+    int64_t corner[3];
+    double weight[3];
 } service_answer;
+
+/* What is asked beside the location. */
+enum { SERVICE_NOTHING, SERVICE_VALUES, SERVICE_CORNERS };
 
 typedef struct service_options {
     double tolerance;
     uint32_t threads;
-    uint32_t values; /* 1: interpolate the first field */
+    uint32_t more; /* SERVICE_... */
 } service_options;
 
 /* All ranks call these two, first and last. */

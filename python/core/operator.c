@@ -1,6 +1,8 @@
 /* operator.c - Operator: a mw_operator as an object. It keeps nothing of its mesh. */
 #include "core.h"
 
+#include <string.h>
+
 typedef struct operator_object {
     PyObject_HEAD
     core_state *state;
@@ -44,6 +46,40 @@ static PyObject *operator_from_locations(PyObject *module, PyObject *args)
     Py_BEGIN_ALLOW_THREADS
     status = mw_operator_create(((mesh_object *)mesh)->mesh, view.buf, count, &options, &weights,
                                 &error);
+    Py_END_ALLOW_THREADS
+    PyBuffer_Release(&view);
+    return status ? errors_raise(state, &error) : operator_new(state, weights);
+}
+
+/* operator_on_surface(surface, kind, records, threads, progress); kind: "locations", "touches" or
+ * "nearest" */
+static PyObject *operator_on_surface(PyObject *module, PyObject *args)
+{
+    core_state *state = PyModule_GetState(module);
+    PyObject *surface, *records, *function;
+    const char *kind;
+    mw_operator_options options = {0};
+    mw_progress progress;
+    Py_buffer view;
+    size_t count;
+    mw_operator *weights;
+    mw_error error;
+    mw_status status;
+    if (!PyArg_ParseTuple(args, "O!sOO&O", state->surface_type, &surface, &kind, &records,
+                          option_uint32, &options.threads, &function))
+        return NULL;
+    const int touches = strcmp(kind, "touches") == 0, nearest = strcmp(kind, "nearest") == 0;
+    const size_t size = touches   ? sizeof(mw_touch)
+                        : nearest ? sizeof(mw_nearest_surface_point)
+                                  : sizeof(mw_location);
+    if (buffer_get_all(records, size, &view, &count)) return NULL;
+    const mw_hits hits = touches   ? mw_hits_of_touches(view.buf, count)
+                         : nearest ? mw_hits_of_nearest(view.buf, count)
+                                   : mw_hits_of_locations(view.buf, count);
+    options.progress = progress_begin(state, function, &progress);
+    Py_BEGIN_ALLOW_THREADS
+    status = mw_operator_create_on_surface(((surface_object *)surface)->surface, &hits, &options,
+                                           &weights, &error);
     Py_END_ALLOW_THREADS
     PyBuffer_Release(&view);
     return status ? errors_raise(state, &error) : operator_new(state, weights);
@@ -196,6 +232,7 @@ static PyType_Spec operator_spec = {
 static PyMethodDef operator_functions[] = {
     {"operator_from_entries", operator_from_entries, METH_VARARGS, NULL},
     {"operator_from_locations", operator_from_locations, METH_VARARGS, NULL},
+    {"operator_on_surface", operator_on_surface, METH_VARARGS, NULL},
     {NULL, NULL, 0, NULL},
 };
 

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* prober_from_surface(cls, surface, boxes, threads, progress) */
+/* prober_from_surface(cls, surface, boxes, guide, threads, progress) */
 static PyObject *prober_from_surface(PyObject *module, PyObject *args)
 {
     core_state *state = PyModule_GetState(module);
@@ -15,8 +15,8 @@ static PyObject *prober_from_surface(PyObject *module, PyObject *args)
     mw_prober *prober;
     mw_error error;
     mw_status status;
-    if (!PyArg_ParseTuple(args, "OO!pO&O", &class, state->surface_type, &surface, &options.boxes,
-                          option_uint32, &options.threads, &function))
+    if (!PyArg_ParseTuple(args, "OO!ppO&O", &class, state->surface_type, &surface, &options.boxes,
+                          &options.guide, option_uint32, &options.threads, &function))
         return NULL;
     options.progress = progress_begin(state, function, &progress);
     Py_BEGIN_ALLOW_THREADS
@@ -121,6 +121,74 @@ static PyObject *prober_probe(PyObject *self, PyObject *args)
     Py_RETURN_NONE;
 }
 
+/* _any(queries, out, extent, faces, min_distance, max_distance, threads, progress): six doubles a
+ * query, and a byte of mw_touch_state for each */
+static PyObject *prober_any(PyObject *self, PyObject *args)
+{
+    prober_object *object = (prober_object *)self;
+    PyObject *queries, *out, *function;
+    const char *extent, *faces;
+    mw_progress progress;
+    mw_probe_options options = {.certain = 1};
+    buffer_batch batch;
+    mw_error error;
+    mw_status status;
+    if (!PyArg_ParseTuple(args, "OOssddO&O", &queries, &out, &extent, &faces, &options.min_distance,
+                          &options.max_distance, option_uint32, &options.threads, &function) ||
+        prober_set_ray(&options, extent, faces) ||
+        buffer_get_batch(queries, 6, out, 1, Py_None, &batch))
+        return NULL;
+    options.progress = progress_begin(object->state, function, &progress);
+    Py_BEGIN_ALLOW_THREADS
+    status = mw_probe_any_batch(object->prober, batch.points.points, batch.points.count,
+                                batch.points.stride, &options, batch.out.buf, NULL, &error);
+    Py_END_ALLOW_THREADS
+    buffer_release_batch(&batch);
+    if (status) return errors_raise(object->state, &error);
+    Py_RETURN_NONE;
+}
+
+/* Tuple of memory: offsets (size_t), touches (mw_touch). Takes what is in `lists`. */
+static PyObject *prober_wrap_lists(core_state *state, const mw_touch_lists *lists)
+{
+    PyObject *offset =
+                 memory_new(state, lists->offset, (lists->probe_count + 1) * sizeof *lists->offset),
+             *touch = memory_new(state, lists->touch, lists->touch_count * sizeof *lists->touch);
+    if (offset && touch) return Py_BuildValue("NN", offset, touch);
+    Py_XDECREF(offset);
+    Py_XDECREF(touch);
+    return NULL;
+}
+
+/* _lists(queries, one_per_place, extent, faces, min_distance, max_distance, threads, progress): six
+ * doubles a query; memory of offsets and touches */
+static PyObject *prober_lists(PyObject *self, PyObject *args)
+{
+    prober_object *object = (prober_object *)self;
+    PyObject *queries, *function;
+    const char *extent, *faces;
+    int one_per_place;
+    mw_progress progress;
+    mw_probe_options options = {.certain = 1};
+    buffer_points rows;
+    mw_touch_lists lists;
+    mw_error error;
+    mw_status status;
+    if (!PyArg_ParseTuple(args, "OpssddO&O", &queries, &one_per_place, &extent, &faces,
+                          &options.min_distance, &options.max_distance, option_uint32,
+                          &options.threads, &function) ||
+        prober_set_ray(&options, extent, faces) || buffer_get_points(queries, 6, &rows))
+        return NULL;
+    options.one_per_place = one_per_place != 0;
+    options.progress = progress_begin(object->state, function, &progress);
+    Py_BEGIN_ALLOW_THREADS
+    status = mw_probe_all_batch(object->prober, rows.points, rows.count, rows.stride, &options,
+                                &lists, NULL, &error);
+    Py_END_ALLOW_THREADS
+    PyBuffer_Release(&rows.view);
+    return status ? errors_raise(object->state, &error) : prober_wrap_lists(object->state, &lists);
+}
+
 /* The points that are nearest to several, one after the other. */
 typedef struct prober_search {
     const mw_prober *prober;
@@ -169,6 +237,32 @@ static PyObject *prober_nearest(PyObject *self, PyObject *args)
     buffer_release_batch(&batch);
     if (status) return errors_raise(object->state, &error);
     Py_RETURN_NONE;
+}
+
+/* _deviation(surface, threads, progress): a dictionary of the members of mw_deviation */
+static PyObject *prober_deviation(PyObject *self, PyObject *args)
+{
+    prober_object *object = (prober_object *)self;
+    PyObject *surface, *function;
+    mw_progress progress;
+    mw_remesh_options options = {0};
+    mw_deviation d;
+    mw_error error;
+    mw_status status;
+    if (!PyArg_ParseTuple(args, "O!O&O", object->state->surface_type, &surface, option_uint32,
+                          &options.threads, &function))
+        return NULL;
+    options.progress = progress_begin(object->state, function, &progress);
+    Py_BEGIN_ALLOW_THREADS
+    status = mw_surface_deviation(((surface_object *)surface)->surface, object->prober, &options,
+                                  &d, &error);
+    Py_END_ALLOW_THREADS
+    if (status) return errors_raise(object->state, &error);
+    return Py_BuildValue("{s:d,s:d,s:d,s:(ddd),s:(ddd),s:I,s:I,s:K,s:d}", "largest", d.largest,
+                         "at_most", d.at_most, "mean", d.mean, "point", d.point[0], d.point[1],
+                         d.point[2], "nearest", d.nearest[0], d.nearest[1], d.nearest[2],
+                         "triangle", d.triangle, "nearest_triangle", d.nearest_triangle, "samples",
+                         (unsigned long long)d.samples, "area", d.area);
 }
 
 /* All touches of a probe, to be released by free(). */
@@ -252,7 +346,10 @@ static PyObject *prober_surface(PyObject *self, void *unused)
 static PyMethodDef prober_methods[] = {
     {"_probe", prober_probe, METH_VARARGS, NULL},
     {"_nearest", prober_nearest, METH_VARARGS, NULL},
+    {"_deviation", prober_deviation, METH_VARARGS, NULL},
     {"_all", prober_all, METH_VARARGS, NULL},
+    {"_any", prober_any, METH_VARARGS, NULL},
+    {"_lists", prober_lists, METH_VARARGS, NULL},
     {"_inside", prober_inside, METH_VARARGS, NULL},
     {NULL, NULL, 0, NULL},
 };

@@ -79,6 +79,83 @@ static PyObject *star_locate(PyObject *self, PyObject *args)
     Py_RETURN_NONE;
 }
 
+/* _project(points, out, locations, threads, progress): x, y, z for each point */
+static PyObject *star_project(PyObject *self, PyObject *args)
+{
+    star_object *object = (star_object *)self;
+    PyObject *points, *out, *locations, *function;
+    mw_progress progress;
+    mw_star_query_options options = {0};
+    buffer_batch batch;
+    Py_buffer view;
+    mw_error error;
+    mw_status status;
+    if (!PyArg_ParseTuple(args, "OOOO&O", &points, &out, &locations, option_uint32,
+                          &options.threads, &function) ||
+        buffer_get_batch(points, 3, out, 3 * sizeof(double), Py_None, &batch))
+        return NULL;
+    if (buffer_get_writable(locations, sizeof(mw_location), batch.points.count, &view)) {
+        buffer_release_batch(&batch);
+        return NULL;
+    }
+    options.progress = progress_begin(object->state, function, &progress);
+    Py_BEGIN_ALLOW_THREADS
+    status = mw_star_project_batch(object->star, batch.points.points, batch.points.count,
+                                   batch.points.stride, &options, batch.out.buf, view.buf, &error);
+    Py_END_ALLOW_THREADS
+    PyBuffer_Release(&view);
+    buffer_release_batch(&batch);
+    if (status) return errors_raise(object->state, &error);
+    Py_RETURN_NONE;
+}
+
+/* _remesh(level, points, triangles, locations, threads, progress): doubles, uint32, locations, as
+ * many as icosphere_size tells */
+static PyObject *star_remesh(PyObject *self, PyObject *args)
+{
+    star_object *object = (star_object *)self;
+    PyObject *given[3], *function;
+    Py_buffer views[3];
+    mw_progress progress;
+    mw_remesh_options options = {0};
+    uint32_t level, vertices, triangles;
+    mw_error error;
+    mw_status status = MW_OK;
+    int got = 0;
+    if (!PyArg_ParseTuple(args, "O&OOOO&O", option_uint32, &level, &given[0], &given[1], &given[2],
+                          option_uint32, &options.threads, &function))
+        return NULL;
+    if (mw_icosphere_size(level, &vertices, &triangles, &error))
+        return errors_raise(object->state, &error);
+    if (!buffer_get_writable(given[0], 3 * sizeof(double), vertices, &views[got])) got++;
+    if (got == 1 && !buffer_get_writable(given[1], 3 * sizeof(uint32_t), triangles, &views[got]))
+        got++;
+    if (got == 2 && !buffer_get_writable(given[2], sizeof(mw_location), vertices, &views[got]))
+        got++;
+    if (got == 3) {
+        options.progress = progress_begin(object->state, function, &progress);
+        Py_BEGIN_ALLOW_THREADS
+        status = mw_star_remesh(object->star, level, &options, views[0].buf, views[1].buf,
+                                views[2].buf, &error);
+        Py_END_ALLOW_THREADS
+    }
+    for (int i = 0; i < got; i++) PyBuffer_Release(&views[i]);
+    if (got < 3) return NULL;
+    if (status) return errors_raise(object->state, &error);
+    Py_RETURN_NONE;
+}
+
+/* icosphere_size(level): vertices and triangles */
+static PyObject *star_icosphere_size(PyObject *module, PyObject *args)
+{
+    uint32_t level, vertices, triangles;
+    mw_error error;
+    if (!PyArg_ParseTuple(args, "O&", option_uint32, &level)) return NULL;
+    if (mw_icosphere_size(level, &vertices, &triangles, &error))
+        return errors_raise(PyModule_GetState(module), &error);
+    return Py_BuildValue("(II)", vertices, triangles);
+}
+
 /* describe(): a dictionary of the members of mw_star_info */
 static PyObject *star_describe(PyObject *self, PyObject *unused)
 {
@@ -152,6 +229,8 @@ static PyObject *star_to_lonlat(PyObject *module, PyObject *args)
 
 static PyMethodDef star_methods[] = {
     {"_locate", star_locate, METH_VARARGS, NULL},
+    {"_project", star_project, METH_VARARGS, NULL},
+    {"_remesh", star_remesh, METH_VARARGS, NULL},
     {"_describe", star_describe, METH_NOARGS, NULL},
     {NULL, NULL, 0, NULL},
 };
@@ -177,6 +256,7 @@ static PyType_Spec star_spec = {
 
 static PyMethodDef star_functions[] = {
     {"star_from_surface", star_from_surface, METH_VARARGS, NULL},
+    {"icosphere_size", star_icosphere_size, METH_VARARGS, NULL},
     {"lonlat_to_direction", star_from_lonlat, METH_VARARGS, NULL},
     {"direction_to_lonlat", star_to_lonlat, METH_VARARGS, NULL},
     {NULL, NULL, 0, NULL},

@@ -64,10 +64,24 @@ if TYPE_CHECKING:
     from meshwalk._plot import explain, plot
     from meshwalk._polygons import PolygonHits, Polygons
     from meshwalk._prepared import map
-    from meshwalk._prober import NearestPoints, Prober, SurfaceSide, Touches, TouchState
+    from meshwalk._prober import (
+        Deviation,
+        NearestPoints,
+        Prober,
+        SurfaceSide,
+        Touches,
+        TouchLists,
+        TouchState,
+    )
     from meshwalk._segments import Segments
     from meshwalk._sight import Sights, SightState, visible
-    from meshwalk._star import Star, StarInfo, direction_to_lonlat, lonlat_to_direction
+    from meshwalk._star import (
+        Remeshed,
+        Star,
+        StarInfo,
+        direction_to_lonlat,
+        lonlat_to_direction,
+    )
     from meshwalk._surface import Surface, SurfaceInfo
     from meshwalk._tiles import TileLocations, Tiles
     from meshwalk._tiling import prepare_tiles
@@ -119,10 +133,18 @@ _MODULES = {
     "_plot": ("explain", "plot"),
     "_polygons": ("PolygonHits", "Polygons"),
     "_prepared": ("map",),
-    "_prober": ("NearestPoints", "Prober", "SurfaceSide", "Touches", "TouchState"),
+    "_prober": (
+        "Deviation",
+        "NearestPoints",
+        "Prober",
+        "SurfaceSide",
+        "TouchLists",
+        "TouchState",
+        "Touches",
+    ),
     "_segments": ("Segments",),
     "_sight": ("SightState", "Sights", "visible"),
-    "_star": ("Star", "StarInfo", "direction_to_lonlat", "lonlat_to_direction"),
+    "_star": ("Remeshed", "Star", "StarInfo", "direction_to_lonlat", "lonlat_to_direction"),
     "_surface": ("Surface", "SurfaceInfo"),
     "_tiles": ("TileLocations", "Tiles"),
     "_tiling": ("prepare_tiles",),
@@ -143,6 +165,7 @@ __all__ = [
     "Constraints",
     "Cursor",
     "Defect",
+    "Deviation",
     "DuplicateWarning",
     "EdgeKind",
     "Edit",
@@ -170,6 +193,7 @@ __all__ = [
     "Polygons",
     "Prober",
     "Remap",
+    "Remeshed",
     "Reordered",
     "Segments",
     "SightState",
@@ -183,6 +207,7 @@ __all__ = [
     "SurfaceSide",
     "TileLocations",
     "Tiles",
+    "TouchLists",
     "TouchState",
     "Touches",
     "VolumeInfo",

@@ -91,6 +91,7 @@ class Locator:
     def _nearest_border(
         self, x: float, y: float, /
     ) -> tuple[int, int, float, tuple[float, float], tuple[float, float, float]]: ...
+    def _holes(self) -> memoryview: ...
     def _describe(self) -> dict[str, Any]: ...
 
 class Operator:
@@ -112,6 +113,10 @@ class Operator:
 def operator_from_locations(
     mesh: Mesh, locations: Buffer, threads: int, progress: Progress | None, /
 ) -> Operator: ...
+def operator_on_surface(
+    surface: Surface, kind: str, records: Buffer, threads: int, progress: Progress | None, /
+) -> Operator: ...
+def icosphere_size(level: int, /) -> tuple[int, int]: ...
 
 _Mesh = TypeVar("_Mesh", bound=Mesh)
 _Locator = TypeVar("_Locator", bound=Locator)
@@ -217,6 +222,25 @@ class Star:
         progress: Progress | None,
         /,
     ) -> None: ...
+    def _project(
+        self,
+        points: Buffer,
+        out: Buffer,
+        locations: Buffer,
+        threads: int,
+        progress: Progress | None,
+        /,
+    ) -> None: ...
+    def _remesh(
+        self,
+        level: int,
+        points: Buffer,
+        triangles: Buffer,
+        locations: Buffer,
+        threads: int,
+        progress: Progress | None,
+        /,
+    ) -> None: ...
     def _describe(self) -> dict[str, Any]: ...
 
 class Prober:
@@ -240,6 +264,9 @@ class Prober:
     def _nearest(
         self, points: Buffer, out: Buffer, max_distance: float, progress: Progress | None, /
     ) -> None: ...
+    def _deviation(
+        self, surface: Surface, threads: int, progress: Progress | None, /
+    ) -> dict[str, Any]: ...
     def _all(
         self,
         query: tuple[float, float, float, float, float, float],
@@ -249,6 +276,30 @@ class Prober:
         max_distance: float,
         /,
     ) -> memoryview: ...
+    def _any(
+        self,
+        queries: Buffer,
+        out: Buffer,
+        extent: str,
+        faces: str,
+        min_distance: float,
+        max_distance: float,
+        threads: int,
+        progress: Progress | None,
+        /,
+    ) -> None: ...
+    def _lists(
+        self,
+        queries: Buffer,
+        one_per_place: bool,
+        extent: str,
+        faces: str,
+        min_distance: float,
+        max_distance: float,
+        threads: int,
+        progress: Progress | None,
+        /,
+    ) -> tuple[memoryview, memoryview]: ...
     def _inside(self, points: Buffer, out: Buffer, threads: int, /) -> None: ...
 
 _RawChange: TypeAlias = tuple[int, int, int, int, int, int, int, int, bytes | None]
@@ -330,6 +381,7 @@ def prober_from_surface(
     cls: type[_Prober],
     surface: Surface,
     boxes: bool,
+    guide: bool,
     threads: int,
     progress: Progress | None,
     /,

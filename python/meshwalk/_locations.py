@@ -297,12 +297,15 @@ class Locations:
     def _core_operator(self, threads: int, progress: Progress | None) -> _core.Operator:
         """The weights, for an `Operator`."""
         from meshwalk._mesh import Mesh
+        from meshwalk._surface import Surface
 
-        if not isinstance(self.mesh, Mesh):
-            kind = type(self.mesh).__name__
-            raise TypeError(f"points must be located in a Mesh, not in a {kind}")
         records = np.ascontiguousarray(self.records).reshape(-1)
-        return _core.operator_from_locations(self.mesh, records, threads, progress)
+        if isinstance(self.mesh, Mesh):
+            return _core.operator_from_locations(self.mesh, records, threads, progress)
+        if isinstance(self.mesh, Surface):
+            return self.mesh._operator("locations", records, threads, progress)
+        kind = type(self.mesh).__name__
+        raise TypeError(f"points must be located in a Mesh or a Surface, not in a {kind}")
 
     def __getitem__(self, index: Any) -> Locations:
         chosen = self.records[index]

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
 
     from meshwalk._core import Progress
     from meshwalk._locations import Locations
+    from meshwalk._prober import Found
 
 
 class Operator:
@@ -25,8 +26,9 @@ class Operator:
 
     Parameters
     ----------
-    hit : Locations
-        Points that were located in a `Mesh` or in `Tiles`, which the operator does not keep.
+    hit : Locations, Touches or NearestPoints
+        Points that were located in a `Mesh` or in `Tiles`; or answers of a `Star` or `Prober`, at
+        places of its surface. The operator keeps none of these.
     threads : int, optional
         How many threads work on it; 0 lets the library choose.
     progress : callable, optional
@@ -52,11 +54,15 @@ class Operator:
     __slots__ = ("_columns", "_points", "_transposed", "_values", "_weights")
 
     def __init__(
-        self, hit: Locations, threads: int = 0, *, progress: Progress | None = None
+        self,
+        hit: Locations | Found,
+        threads: int = 0,
+        *,
+        progress: Progress | None = None,
     ) -> None:
         self._weights = hit._core_operator(threads, progress)
         self._points: tuple[int, ...] = hit.shape
-        self._values: tuple[int, ...] = (hit.mesh.vertex_count,)
+        self._values: tuple[int, ...] = (self._weights.describe()[1],)
         self._transposed = False
         self._columns = "vertices"
 

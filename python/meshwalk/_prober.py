@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import enum
-from typing import TYPE_CHECKING, Any, Literal
+import functools
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
 
@@ -14,6 +15,7 @@ if TYPE_CHECKING:
     from typing import Self
 
     from numpy.typing import ArrayLike, NDArray
+    from scipy.sparse import csr_array
 
     from meshwalk._core import Progress
 
@@ -67,10 +69,35 @@ class SurfaceSide(enum.IntEnum):
     """A coordinate is NaN or infinite."""
 
 
-class _Found:
+class Deviation(NamedTuple):
+    """How far the points of a surface are from another one: the answer of `Prober.deviation`."""
+
+    largest: float
+    """The largest distance of a sample; between samples a point may be farther."""
+    at_most: float
+    """No point is farther than this, up to rounding."""
+    mean: float
+    """By area."""
+    point: tuple[float, float, float]
+    """The sample with the largest distance."""
+    nearest: tuple[float, float, float]
+    """The point of the other surface nearest to it."""
+    triangle: int
+    """A triangle that has this sample."""
+    nearest_triangle: int
+    """The triangle of the other surface."""
+    samples: int
+    """How many distances were measured."""
+    area: float
+    """Of the surface, rounded."""
+
+
+class Found:
     """What several queries of a surface found: views of the library's own answers."""
 
     __slots__ = ("records", "surface")
+    _KIND: str
+    """Which record of the library it is."""
 
     def __init__(self, surface: Surface, records: NDArray[Any]) -> None:
         self.surface = surface
@@ -96,8 +123,61 @@ class _Found:
         """The shape of the points, without their coordinates."""
         return self.records.shape
 
+    def interpolate(
+        self,
+        values: ArrayLike | str,
+        threads: int = 0,
+        *,
+        progress: Progress | None = None,
+    ) -> NDArray[Any]:
+        """Interpolate values at the vertices of the surface, linearly in each triangle.
 
-class Touches(_Found):
+        Parameters
+        ----------
+        values, threads, progress
+            As of `Locations.interpolate`.
+
+        Returns
+        -------
+        ndarray, shape ``hit.shape + values.shape[1:]``
+            NaN where nothing was found, and where a vertex with a weight has NaN.
+
+        Examples
+        --------
+        >>> import meshwalk
+        >>> floor = meshwalk.Surface([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]])
+        >>> prober = meshwalk.Prober(floor, boxes=True)
+        >>> prober.nearest([[1, 1, 5], [9, 0, 0]]).interpolate([0.0, 4.0, 8.0])
+        array([3., 4.])
+        """
+        from meshwalk._operator import Operator
+
+        if isinstance(values, str):
+            values = _arrays.named(self.surface.fields, values)
+        return Operator(self, threads, progress=progress).apply(values, threads, progress=progress)
+
+    def _core_operator(self, threads: int, progress: Progress | None) -> _core.Operator:
+        """The weights, for an `Operator`."""
+        records = np.ascontiguousarray(self.records).reshape(-1)
+        return self.surface._operator(self._KIND, records, threads, progress)
+
+    def operator(self) -> csr_array:
+        """The interpolation as a sparse matrix, as of `Locations.operator`.
+
+        Returns
+        -------
+        scipy.sparse.csr_array, shape (number of points, n_vertices)
+
+        See Also
+        --------
+        Operator : the same weights, which does without SciPy.
+        """
+        from meshwalk._operator import Operator
+
+        return Operator(self).tocsr()
+
+
+class Touches(Found):
     """What probes touch: the answer of `Prober.probe`, of the shape of the points.
 
     `distance` is from the point along the motion, negative behind it. The attributes are views of
@@ -105,6 +185,7 @@ class Touches(_Found):
     """
 
     __slots__ = ()
+    _KIND = "touches"
 
     @property
     def state(self) -> NDArray[np.uint8]:
@@ -127,13 +208,45 @@ class Touches(_Found):
         return f"<Touches: {self.records.size} probes{'; ' if kinds else ''}{kinds}>"
 
 
-class NearestPoints(_Found):
+class TouchLists(Touches):
+    """All that many probes touch: the answer of `Prober.probe_each`.
+
+    The touches of a probe stand one after the other, in their order along its motion.
+
+    Attributes
+    ----------
+    offsets : ndarray of int64, shape (n + 1,)
+        Probe i has the touches from ``offsets[i]`` up to ``offsets[i + 1]``, which is not its.
+    """
+
+    __slots__ = ("offsets",)
+
+    def __init__(self, surface: Surface, records: NDArray[Any], offsets: NDArray[np.int64]) -> None:
+        super().__init__(surface, records)
+        self.offsets = offsets
+
+    @property
+    def count(self) -> NDArray[np.int64]:
+        """How many touches each probe has: a new array each time."""
+        return np.diff(self.offsets)
+
+    @property
+    def probe(self) -> NDArray[np.int64]:
+        """The probe of each touch: a new array each time."""
+        return np.repeat(np.arange(len(self.offsets) - 1), self.count)
+
+    def __repr__(self) -> str:
+        return f"<TouchLists: {len(self.offsets) - 1} probes, {len(self.records)} touches>"
+
+
+class NearestPoints(Found):
     """The points of a surface that are nearest: the answer of `Prober.nearest`.
 
     The attributes are views of the library's own answers.
     """
 
     __slots__ = ()
+    _KIND = "nearest"
 
     @property
     def point(self) -> NDArray[np.float64]:
@@ -145,6 +258,18 @@ class NearestPoints(_Found):
         return f"<NearestPoints: {found} of {self.records.size}>"
 
 
+def _queries(points: ArrayLike, motions: ArrayLike) -> tuple[NDArray[np.float64], tuple[int, ...]]:
+    """Points beside motions, six doubles a row, and the shape of the points."""
+    rows, shape = _arrays.queries(points, "points", 3)
+    ways, way_shape = _arrays.queries(motions, "motions", 3)
+    if way_shape not in ((), shape):
+        raise ValueError(f"motions must have the shape of points, {shape}, not {way_shape}")
+    queries = np.empty((len(rows), 6))
+    queries[:, :3] = rows
+    queries[:, 3:] = ways
+    return queries, shape
+
+
 class Prober(_core.Prober):
     """Finds the triangle of a surface that a probe touches, and the nearest point.
 
@@ -154,6 +279,9 @@ class Prober(_core.Prober):
         Any surface: open or closed, in pieces.
     boxes : bool, optional
         Build boxes over the triangles, for ``certain=True`` and `nearest`.
+    guide : bool, optional
+        Make a coarse grid that leads the walks of probes that are not certain to their first
+        triangle; for many probes in any order.
     threads : int, optional
         How many threads build them; 0 lets the library choose.
     progress : callable, optional
@@ -183,8 +311,9 @@ class Prober(_core.Prober):
     array([1., 0., 0.])
     """
 
-    __slots__ = ("__weakref__", "_boxes")
+    __slots__ = ("__weakref__", "_boxes", "_guide")
     _boxes: bool
+    _guide: bool
     if TYPE_CHECKING:
         surface: Surface
 
@@ -193,14 +322,16 @@ class Prober(_core.Prober):
         surface: Surface,
         boxes: bool = False,
         *,
+        guide: bool = False,
         threads: int = 0,
         progress: Progress | None = None,
     ) -> Self:
         if not isinstance(surface, Surface):
             raise TypeError(f"surface must be a meshwalk.Surface, not {type(surface).__name__}")
         with surface._lock:
-            prober = _core.prober_from_surface(cls, surface, boxes, threads, progress)
+            prober = _core.prober_from_surface(cls, surface, boxes, guide, threads, progress)
             prober._boxes = boxes
+            prober._guide = guide
             surface._kept.add(prober)
         return prober
 
@@ -255,14 +386,8 @@ class Prober(_core.Prober):
         -------
         Touches
         """
-        rows, shape = _arrays.queries(points, "points", 3)
-        ways, way_shape = _arrays.queries(motions, "motions", 3)
-        if way_shape not in ((), shape):
-            raise ValueError(f"motions must have the shape of points, {shape}, not {way_shape}")
-        queries = np.empty((len(rows), 6))
-        queries[:, :3] = rows
-        queries[:, 3:] = ways
-        records = np.empty(len(rows), TOUCH)
+        queries, shape = _queries(points, motions)
+        records = np.empty(len(queries), TOUCH)
         self._probe(
             queries,
             records,
@@ -324,6 +449,114 @@ class Prober(_core.Prober):
         x, y, z, a, b, c = (float(v) for v in (*rows[0], *ways[0]))
         found = self._all((x, y, z, a, b, c), extent, faces, min_distance, max_distance)
         return Touches(self.surface, np.frombuffer(found, TOUCH))
+
+    def probe_each(
+        self,
+        points: ArrayLike,
+        motions: ArrayLike,
+        max_distance: float = 0,
+        *,
+        extent: Literal["line", "ray", "segment"] = "line",
+        faces: Literal["front", "back", "both"] = "both",
+        min_distance: float = 0,
+        one_per_place: bool = False,
+        threads: int = 0,
+        progress: Progress | None = None,
+    ) -> TouchLists:
+        """Find all triangles that each of many lines touches, in their order along it.
+
+        Parameters
+        ----------
+        points, motions : array_like, shape (..., 3)
+            As of `probe`.
+        max_distance, extent, faces, min_distance
+            As of `probe_all`.
+        one_per_place : bool, optional
+            Of several triangles that a line touches at one place, exactly, give only the lowest: a
+            line through an edge touches once there.
+        threads : int, optional
+            How many threads answer; 0 lets the library choose. The answers are the same.
+        progress : callable, optional
+            As of `Locator.locate`.
+
+        Returns
+        -------
+        TouchLists
+            In the order of the points' ``ravel``. A point or motion that is not finite, or a motion
+            of zero, touches nothing.
+
+        Raises
+        ------
+        ValueError
+            The prober has no boxes.
+
+        Examples
+        --------
+        >>> import meshwalk
+        >>> floor = meshwalk.Surface([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]])
+        >>> prober = meshwalk.Prober(floor, boxes=True)
+        >>> found = prober.probe_each([[1, 1, 5], [9, 9, 5], [1, 2, 3]], [0, 0, -1])
+        >>> found.probe
+        array([0, 2])
+        >>> found.distance
+        array([5., 3.])
+        """
+        queries, _ = _queries(points, motions)
+        offsets, touches = self._lists(
+            queries, one_per_place, extent, faces, min_distance, max_distance, threads, progress
+        )
+        return TouchLists(
+            self.surface, np.frombuffer(touches, TOUCH), np.frombuffer(offsets, np.int64)
+        )
+
+    def probe_any(
+        self,
+        points: ArrayLike,
+        motions: ArrayLike,
+        max_distance: float = 0,
+        *,
+        extent: Literal["line", "ray", "segment"] = "line",
+        faces: Literal["front", "back", "both"] = "both",
+        min_distance: float = 0,
+        threads: int = 0,
+        progress: Progress | None = None,
+    ) -> NDArray[np.bool_]:
+        """Tell which lines touch any triangle: faster than to find the nearest.
+
+        Parameters
+        ----------
+        points, motions : array_like, shape (..., 3)
+            As of `probe`.
+        max_distance, extent, faces, min_distance
+            As of `probe_all`.
+        threads : int, optional
+            How many threads answer; 0 lets the library choose.
+        progress : callable, optional
+            As of `Locator.locate`.
+
+        Returns
+        -------
+        ndarray of bool, shape (...)
+            False, too, where a point or motion is not finite or a motion is zero.
+
+        Raises
+        ------
+        ValueError
+            The prober has no boxes.
+
+        Examples
+        --------
+        >>> import meshwalk
+        >>> floor = meshwalk.Surface([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]])
+        >>> prober = meshwalk.Prober(floor, boxes=True)
+        >>> prober.probe_any([[1, 1, 5], [9, 9, 5]], [0, 0, -1], extent="ray")
+        array([ True, False])
+        """
+        queries, shape = _queries(points, motions)
+        states = np.empty(len(queries), np.uint8)
+        self._any(queries, states, extent, faces, min_distance, max_distance, threads, progress)
+        touched: NDArray[np.bool_] = states == TouchState.HIT
+        return touched.reshape(shape)
 
     def inside(self, points: ArrayLike, *, threads: int = 0) -> NDArray[np.uint8]:
         """Decide which points are inside of the surface, exactly.
@@ -392,8 +625,49 @@ class Prober(_core.Prober):
         self._nearest(rows, records, max_distance, progress)
         return NearestPoints(self.surface, records.reshape(shape))
 
+    def deviation(
+        self, surface: Surface, *, threads: int = 0, progress: Progress | None = None
+    ) -> Deviation:
+        """Measure how far another surface is from that of the prober, by samples.
+
+        Samples are the vertices and the centroids of triangles, of which large ones are cut. This
+        is one direction: the Hausdorff distance is the larger of both.
+
+        Parameters
+        ----------
+        surface : Surface
+            The surface with the samples.
+        threads : int, optional
+            How many threads work on it; 0 lets the library choose. The answer is the same.
+        progress : callable, optional
+            As of `Locator.locate`.
+
+        Returns
+        -------
+        Deviation
+
+        Raises
+        ------
+        InputError
+            A surface has no triangles, or a vertex that is not finite.
+        ValueError
+            The prober has no boxes.
+
+        Examples
+        --------
+        >>> import meshwalk
+        >>> floor = meshwalk.Surface([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]])
+        >>> tilted = meshwalk.Surface([[0, 0, 1], [4, 0, 2], [0, 4, 3]], [[0, 1, 2]])
+        >>> found = meshwalk.Prober(floor, boxes=True).deviation(tilted)
+        >>> found.largest, found.mean, found.point
+        (3.0, 2.0, (0.0, 4.0, 3.0))
+        """
+        with surface._lock:
+            return Deviation(**self._deviation(surface, threads, progress))
+
     def __repr__(self) -> str:
         return f"<Prober of {self.surface!r}{', with boxes' if self._boxes else ''}>"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return type(self), (self.surface, self._boxes)
+        make = functools.partial(type(self), guide=self._guide)
+        return make, (self.surface, self._boxes)

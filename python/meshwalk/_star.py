@@ -34,6 +34,15 @@ class StarInfo(NamedTuple):
     """Where the rays begin."""
 
 
+class Remeshed(NamedTuple):
+    """A polyhedron sampled anew: the answer of `Star.remesh`."""
+
+    surface: Surface
+    """The new mesh, with the fields of the polyhedron."""
+    hit: Locations
+    """The facet and the weights of each new vertex, for other values."""
+
+
 class Star(_core.Star):
     """Finds the facet of a closed surface that a ray from a centre meets, exactly.
 
@@ -146,6 +155,122 @@ class Star(_core.Star):
         records = np.empty(len(rows), LOCATION)
         self._locate(rows, records, walk, start, threads, progress)
         return Locations(self.surface, records.reshape(shape))
+
+    def project(
+        self, points: ArrayLike, threads: int = 0, *, progress: Progress | None = None
+    ) -> NDArray[np.float64]:
+        """Find where rays from the centre through points meet the polyhedron.
+
+        Parameters
+        ----------
+        points : array_like, shape (..., 3)
+            A point on each ray but the centre.
+        threads : int, optional
+            How many threads answer; 0 lets the library choose. The answers are the same.
+        progress : callable, optional
+            As of `Locator.locate`.
+
+        Returns
+        -------
+        ndarray, shape (..., 3)
+            Each coordinate is the double nearest to the exact one. NaN where a point is the centre,
+            or not finite.
+        """
+        rows, shape = _arrays.queries(points, "points", 3)
+        out, _ = self._project_rows(rows, threads, progress)
+        return out.reshape(*shape, 3)
+
+    def _project_rows(
+        self, rows: NDArray[np.float64], threads: int, progress: Progress | None
+    ) -> tuple[NDArray[np.float64], Locations]:
+        out = np.empty((len(rows), 3))
+        records = np.empty(len(rows), LOCATION)
+        self._project(rows, out, records, threads, progress)
+        return out, Locations(self.surface, records)
+
+    def remesh(
+        self,
+        level: int | None = None,
+        *,
+        onto: Surface | None = None,
+        threads: int = 0,
+        progress: Progress | None = None,
+    ) -> Remeshed:
+        """Sample the polyhedron on an icosphere about the centre, or on another mesh.
+
+        Each new vertex is where a ray from the centre meets the polyhedron: the exact point, each
+        coordinate rounded once. The fields of the surface are interpolated there; NaN where a
+        vertex with a weight has NaN.
+
+        Parameters
+        ----------
+        level : int, optional
+            How often the triangles of an icosahedron are cut into four, 0 to 12: the result has
+            ``10 * 4**level + 2`` vertices.
+        onto : Surface, optional
+            Instead: a mesh that is star-shaped about the same centre. The result has its triangles,
+            and its vertices move along their rays.
+        threads : int, optional
+            How many threads work on it; 0 lets the library choose. The result is the same.
+        progress : callable, optional
+            As of `Locator.locate`.
+
+        Returns
+        -------
+        Remeshed
+
+        Raises
+        ------
+        InputError
+            `onto` is not star-shaped about the centre.
+
+        Examples
+        --------
+        >>> import meshwalk
+        >>> points = [[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]]
+        >>> triangles = [[0, 2, 4], [2, 1, 4], [1, 3, 4], [3, 0, 4],
+        ...              [2, 0, 5], [1, 2, 5], [3, 1, 5], [0, 3, 5]]
+        >>> fields = {"height": [0, 0, 0, 0, 1, -1]}
+        >>> star = meshwalk.Star(meshwalk.Surface(points, triangles, fields))
+        >>> ball, hit = star.remesh(3)
+        >>> ball
+        <Surface: 642 vertices, 1280 triangles, fields: height>
+        >>> bool(abs(ball.fields["height"] - ball.points[:, 2]).max() < 1e-15)
+        True
+        >>> hit.triangle.shape
+        (642,)
+        """
+        if (level is None) == (onto is None):
+            raise TypeError("remesh takes a level or a mesh to go onto, one of them")
+        if onto is None:
+            points, triangles, hit = self._on_icosphere(level or 0, threads, progress)
+        else:
+            points, triangles, hit = self._onto(onto, threads, progress)
+        values = {
+            name: hit.interpolate(field, threads) for name, field in self.surface.fields.items()
+        }
+        weld = onto is not None and onto._options[0]
+        return Remeshed(Surface(points, triangles, values, weld=weld), hit)
+
+    def _on_icosphere(
+        self, level: int, threads: int, progress: Progress | None
+    ) -> tuple[NDArray[np.float64], NDArray[np.integer[Any]], Locations]:
+        vertices, count = _core.icosphere_size(level)
+        points = np.empty((vertices, 3))
+        triangles = np.empty((count, 3), np.uint32)
+        records = np.empty(vertices, LOCATION)
+        self._remesh(level, points, triangles, records, threads, progress)
+        return points, triangles, Locations(self.surface, records)
+
+    def _onto(
+        self, onto: Surface, threads: int, progress: Progress | None
+    ) -> tuple[NDArray[np.float64], NDArray[np.integer[Any]], Locations]:
+        Star(onto, self._centre)
+        rows = onto.points
+        points, hit = self._project_rows(rows, threads, progress)
+        alone = hit.triangle < 0  # of no triangle, at the centre
+        points[alone] = rows[alone]
+        return points, onto.triangles, hit
 
     def describe(self) -> StarInfo:
         """Tell what the star keeps beside its surface.

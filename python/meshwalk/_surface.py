@@ -309,6 +309,13 @@ class Surface(_core.Surface):
         """
         return SurfaceInfo(**self._describe())
 
+    def _operator(
+        self, kind: str, records: NDArray[Any], threads: int, progress: Progress | None
+    ) -> _core.Operator:
+        """The weights of answers: "locations", "touches" or "nearest"."""
+        with self._lock:
+            return _core.operator_on_surface(self, kind, records, threads, progress)
+
     def _interpolate_table(
         self,
         values: NDArray[Any],
@@ -318,18 +325,8 @@ class Surface(_core.Surface):
         threads: int,
         progress: Progress | None,
     ) -> None:
-        """As the library does it in the plane: a weight of 0 ignores even NaN."""
-        there = records["triangle"] >= 0
-        corners = self.triangles[records["triangle"][there]]
-        weights = records["weights"][there]
-        out.fill(np.nan)
-        columns = out.T if _arrays.lies_in_rows(values) else out
-        for k in range(values.shape[1]):
-            total = np.zeros(len(weights))
-            for c in range(3):
-                part = weights[:, c] * values[corners[:, c], k]
-                total += np.where(weights[:, c] != 0, part, 0)
-            columns[k, there] = total
+        weights = self._operator("locations", records, threads, progress)
+        weights.apply(values, narrow, out, False, False, threads, progress)
 
     def __len__(self) -> int:
         """Number of triangles."""

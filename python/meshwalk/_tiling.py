@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 import os
+from fractions import Fraction
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -14,11 +15,8 @@ from meshwalk._errors import InputError
 from meshwalk._locator import Locator
 from meshwalk._mesh import Mesh
 from meshwalk._prepared import map as map_file
-from meshwalk._where import Where
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from numpy.typing import NDArray
 
     from meshwalk._core import Progress
@@ -161,12 +159,7 @@ def _write(mesh: Mesh, chosen: NDArray[np.intp], triangles: NDArray[Any], path: 
         },
         crs=mesh.crs,
     )
-    try:
-        locator = Locator(part, border=True, fill="yes")
-    except InputError as error:
-        name = os.path.basename(path)
-        raise InputError(f"{name}: {error}: make fewer tiles, or drop flat triangles") from None
-    locator.prepare(path)
+    Locator(part, border=True, fill="yes").prepare(path)
     mapped = map_file(path, trust=True).mesh._mapped
     assert mapped is not None
     return mapped[2]
@@ -199,9 +192,49 @@ def _cut(boxes: NDArray[np.float64], tiles: int) -> tuple[list[Node], list[NDArr
     return nodes, leaves
 
 
-def _at_border(triangles: NDArray[Any], neighbours: NDArray[np.int32]) -> NDArray[np.intp]:
-    """Triangles that have a vertex of the border."""
+def _flat(mesh: Mesh, corners: NDArray[np.float64]) -> NDArray[np.intp]:
+    """Triangles without area, exactly; `corners` are the coordinates of each."""
+    if mesh.describe().flat_triangles == 0:
+        return np.empty(0, np.intp)
+    with np.errstate(all="ignore"):
+        (x, y), (u, v) = (corners[:, 1] - corners[:, 0]).T, (corners[:, 2] - corners[:, 0]).T
+        left, right = x * v, y * u
+        bound = 4 * 2.0**-53 * (np.abs(left) + np.abs(right))
+        doubtful = np.flatnonzero(~(np.abs(left - right) > bound))
+    return np.array([t for t in doubtful.tolist() if _has_no_area(corners[t])], np.intp)
+
+
+def _has_no_area(corners: NDArray[np.float64]) -> bool:
+    (ax, ay), (bx, by), (cx, cy) = ((Fraction(x), Fraction(y)) for x, y in corners.tolist())
+    return (bx - ax) * (cy - ay) == (by - ay) * (cx - ax)
+
+
+def _with_flat(
+    chosen: NDArray[np.intp], triangles: NDArray[Any], flat: NDArray[np.intp]
+) -> NDArray[np.intp]:
+    """The chosen triangles and the flat ones that hang on them.
+
+    Without one of these, a vertex would lie inside an edge.
+    """
+    marked = np.zeros(int(triangles.max()) + 1, bool)
+    marked[triangles[chosen]] = True
+    parts = [chosen]
+    while len(flat):
+        near = marked[triangles[flat]].any(axis=1)
+        if not near.any():
+            break
+        parts.append(flat[near])
+        marked[triangles[flat[near]]] = True
+        flat = flat[~near]
+    return np.unique(np.concatenate(parts))
+
+
+def _at_border(
+    triangles: NDArray[Any], neighbours: NDArray[np.int32], flat: NDArray[np.intp]
+) -> NDArray[np.intp]:
+    """Triangles that have a vertex of the border or of a flat triangle."""
     alone = neighbours < 0
+    alone[flat] = True
     marked = np.zeros(int(triangles.max()) + 1, bool)
     for k in range(3):
         marked[triangles[alone[:, k], k]] = True
@@ -209,37 +242,18 @@ def _at_border(triangles: NDArray[Any], neighbours: NDArray[np.int32]) -> NDArra
     return np.flatnonzero(marked[triangles].any(axis=1))
 
 
-def _beside(points: NDArray[np.float64], mesh: Mesh) -> Iterator[NDArray[np.float64]]:
-    """Points that lie beside the edges of the border, nearer and nearer."""
-    triangles, alone = mesh.triangles, mesh.neighbours < 0
-    triangle, edge = np.nonzero(alone)
-    a, b = (points[triangles[triangle, (edge + k) % 3]] for k in (0, 1))
-    across = (a - b)[:, ::-1] * (1, -1)
-    for share in 2.0 ** -np.arange(2, 46, 4):
-        for side in (share, -share):
-            yield a / 2 + b / 2 + across * side
-
-
 def _holes(locator: Locator, overview: Locator) -> list[int]:
     """For each hole of the overview the number that the whole mesh has for it, -1 if none.
 
-    The interior of the mesh, which the overview leaves out, makes more holes. A point in a hole of
-    both tells which is which.
+    The interior of the mesh, which the overview leaves out, makes more holes. The lowest triangle
+    at a hole, and its edge there, tell which is which.
     """
-    wanted = locator.describe().holes
-    names = np.full(overview.describe().holes, -1)
-    if wanted:
-        for xy in _beside(locator.mesh.points, locator.mesh):
-            whole, part = locator.locate(xy), overview.locate(xy)
-            both = (whole.where == Where.HOLE) & (part.where == Where.HOLE)
-            names[part.hole[both]] = whole.hole[both]
-            if np.count_nonzero(names >= 0) == wanted:
-                break
-    seen = set(names.tolist())
-    for hole in range(wanted):
-        if hole not in seen:
-            raise InputError(f"hole {hole} is too narrow to be told apart in an overview")
-    return [int(name) for name in names]
+    pair = (locator, overview)
+    whole, part = (np.frombuffer(one._holes(), np.uint32).reshape(-1, 2) for one in pair)
+    numbers = overview.mesh.triangle_fields[TRIANGLES][part[:, 0]]
+    names = {(triangle, edge): hole for hole, (triangle, edge) in enumerate(whole.tolist())}
+    edges = zip(numbers.astype(int).tolist(), part[:, 1].tolist(), strict=True)
+    return [names.get(edge, -1) for edge in edges]
 
 
 def prepare_tiles(
@@ -268,14 +282,15 @@ def prepare_tiles(
     OSError
         The folder cannot be written; ``FileExistsError`` where there is one.
     InputError
-        The mesh is no embedding, or has a hole that is too narrow to be named.
+        The mesh is no embedding.
 
     Notes
     -----
     All of the mesh is in memory while this works, and about 150 bytes a triangle beside it.
 
-    Each triangle is in one tile. The overview has all triangles with a vertex of the border, so
-    that points in no tile are told apart: outside, in which hole, near which edge.
+    Each triangle is in one tile, but flat ones, which are in all tiles that touch them. The
+    overview has all triangles with a vertex of the border, so that points in no tile are told
+    apart: outside, in which hole, near which edge.
 
     Examples
     --------
@@ -291,6 +306,8 @@ def prepare_tiles(
     import tempfile
 
     locator = mesh if isinstance(mesh, Locator) else Locator(mesh, fill="yes", progress=progress)
+    if locator.describe().unfilled:
+        locator = Locator(locator.mesh, fill="yes", progress=progress)
     count = locator.mesh.triangle_count
     if not 1 <= tiles <= count:
         raise ValueError(f"tiles must be from 1 to {count}, the number of triangles, not {tiles}")
@@ -321,13 +338,18 @@ def _prepare(locator: Locator, folder: str, tiles: int, progress: Progress | Non
     triangles = mesh.triangles
     corners = mesh.points[triangles]
     boxes = np.concatenate([corners.min(axis=1), corners.max(axis=1)], axis=1)
+    flat = _flat(mesh, corners)
     del corners
-    nodes, leaves = _cut(boxes, tiles)
+    solid = np.delete(np.arange(len(triangles)), flat)
+    if tiles > len(solid):
+        raise ValueError(f"{tiles} tiles are more than the {len(solid)} triangles with an area")
+    nodes, leaves = _cut(boxes[solid], tiles)
     overview = os.path.join(folder, OVERVIEW)
-    sums = [_write(mesh, _at_border(triangles, mesh.neighbours), triangles, overview)]
-    for number, chosen in enumerate(leaves):
+    sums = [_write(mesh, _at_border(triangles, mesh.neighbours, flat), triangles, overview)]
+    for number, leaf in enumerate(leaves):
         if progress:
             progress("tiles", number / tiles)
+        chosen = _with_flat(solid[leaf], triangles, flat)
         sums.append(_write(mesh, chosen, triangles, os.path.join(folder, tile_name(number))))
     holes = _holes(locator, map_file(overview))
     write_index(folder, (mesh.vertex_count, mesh.triangle_count), holes, sums, nodes)

@@ -5,9 +5,10 @@ queries: all peers search the same triangles. ``interpolate`` takes values of ma
 queries, beside ``scipy.sparse``. ``particles`` carries them round the middle of the square by steps
 of second order, which locate each of them twice, with a `Cursor` and without. ``dask`` streams
 queries through Dask's workers, and through as many plain processes. ``drop-ins`` asks drop-ins and
-their originals (``--peers xugrid,uxarray`` chooses), and tells the memory that they keep. Rounds
-are interleaved, so a machine that is busy for a while slows all; the best round counts. A peer that
-is not installed is left out.
+their originals (``--peers xugrid,uxarray`` chooses), and tells the memory that they keep. ``rays``,
+``joins`` and ``cells`` do that for trimesh, for GeoPandas and shapely, and for pyvista. Rounds are
+interleaved, so a machine that is busy for a while slows all; the best round counts. A peer that is
+not installed is left out.
 """
 
 from __future__ import annotations
@@ -20,6 +21,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 import meshwalk
+from meshwalk._drop_ins import tasks as own_tasks
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -258,13 +260,24 @@ def _print_times(times: Sequence[Time], values: int, what: str) -> None:
         print(f"{time_.name:22}{time_.seconds:10.3f}{each:14.1f}{ratio:8.2f}")
 
 
+def _measure_dropin(task: str, vertices: int, queries: int, rounds: int, seed: int) -> None:
+    for title, contestants in own_tasks.TASKS[task](vertices, queries, seed).items():
+        rows = own_tasks.measure(contestants, queries, rounds)
+        print(f"{title}, {queries} queries")
+        print(f"{'':22}{'build, s':>10}{'ns a query':>12}{'ratio':>8}{'MB':>8}{'same answers':>14}")
+        for row in rows:
+            ratio = row.query / rows[0].query
+            columns = f"{row.build:10.3f}{1e9 * row.query:12.1f}{ratio:8.1f}"
+            print(f"{row.name:22}{columns}{row.memory / 1e6:8.0f}{row.same:14.6f}")
+
+
 def main(arguments: Sequence[str] | None = None) -> int:
     """Print a table; `arguments` are those of the command line."""
     from meshwalk._drop_ins.bench import PAIRS, report
     from meshwalk._drop_ins.bench import measure as measure_drop_ins
 
     parser = argparse.ArgumentParser("python -m meshwalk.bench", description=__doc__)
-    tasks = ("locate", "interpolate", "particles", "dask", "drop-ins")
+    tasks = ("locate", "interpolate", "particles", "dask", "drop-ins", *own_tasks.TASKS)
     parser.add_argument("--task", choices=tasks, default="locate")
     parser.add_argument("--vertices", type=float, default=1e5)
     parser.add_argument("--queries", type=float, default=1e5)
@@ -300,12 +313,20 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print(f"{sizes[1]} random queries in {sizes[0]} random vertices, {given.workers} processes")
         _print_times(streams.times, sizes[1], "ns a query")
         print("the same sums" if len(set(streams.sums)) == 1 else f"other sums: {streams.sums}")
+        each = [f"{1e9 * cpu / sizes[1]:.1f}" for cpu in streams.cpu]
+        print("processor time, ns a query:", *each)
         print("memory of a process at most, MB:", *(size >> 20 for size in streams.bytes))
         return 0
     if given.task == "particles":
         print(f"{sizes[1]} particles among {sizes[0]} random vertices, {given.steps} steps")
         times = measure_particles(*sizes, given.steps, given.seed)
         _print_times(times, sizes[1] * given.steps * 2, "ns a location")
+        return 0
+    if given.task in own_tasks.TASKS:
+        try:
+            _measure_dropin(given.task, *sizes, given.seed)
+        except ImportError as missing:
+            parser.error(f"the task {given.task} needs a package: {missing}")
         return 0
     figures = measure(*sizes, names, given.seed)
     print(f"{sizes[1]} random queries in {sizes[0]} random vertices")

@@ -265,10 +265,11 @@ static void sum_pour(void *sink, const void *bytes, size_t size)
     mw__checksum_add(sink, bytes, size);
 }
 
-/* In pieces, each a step of the job. */
+/* In pieces, each a step of the job. Large ones let the system keep the file in large pages, which
+ * a map of it then has. */
 static void output_pour(void *sink, const void *bytes, size_t size)
 {
-    enum { PIECE = 1 << 20 };
+    enum { PIECE = 1 << 24 };
     for (size_t done = 0; done < size && !mw_output_failed(sink); done += PIECE)
         mw_output_write(sink, (const char *)bytes + done,
                         size - done < PIECE ? size - done : PIECE);

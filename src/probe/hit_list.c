@@ -28,9 +28,21 @@ static void heap_sift(const mw_ray_search *s, mw_touch *heap, size_t n, size_t i
     heap[i] = touch;
 }
 
+static bool hit_list_grow(mw_hit_list *list)
+{
+    size_t capacity = 2 * list->capacity + 8;
+    mw_touch *touches = mw__realloc(list->touches, capacity, sizeof *touches);
+    list->no_memory = !touches;
+    if (!touches) return false;
+    list->touches = touches;
+    list->capacity = capacity;
+    return true;
+}
+
 bool mw__hit_list_found(mw_ray_search *s, uint32_t triangle, mw_ray_side side)
 {
     mw_hit_list *list = s->self;
+    if (list->grows && list->count == list->capacity && !hit_list_grow(list)) return false;
     mw_touch touch = {.triangle = triangle, .back = side == MW_RAY_BACK}, *heap = list->touches;
     size_t i = list->count++;
     if (i < list->capacity) {
@@ -44,17 +56,41 @@ bool mw__hit_list_found(mw_ray_search *s, uint32_t triangle, mw_ray_side side)
     return true;
 }
 
-void mw__hit_list_finish(const mw_ray_search *s)
+static size_t hit_list_held(const mw_hit_list *list)
+{
+    return list->count < list->capacity ? list->count : list->capacity;
+}
+
+void mw__hit_list_sort(const mw_ray_search *s)
 {
     mw_hit_list *list = s->self;
     mw_touch *heap = list->touches;
-    size_t held = list->count < list->capacity ? list->count : list->capacity;
-    for (size_t n = held; n-- > 1;) {
+    for (size_t n = hit_list_held(list); n-- > 1;) {
         mw_touch last = heap[0];
         heap[0] = heap[n];
         heap[n] = last;
         heap_sift(s, heap, n, 0);
     }
-    for (size_t i = 0; i < held; i++)
-        heap[i] = mw__ray_touch(s->prober->surface, s->ray, heap[i].triangle, touch_side(&heap[i]));
+}
+
+void mw__hit_list_keep_places(const mw_ray_search *s)
+{
+    mw_hit_list *list = s->self;
+    mw_touch *touch = list->touches;
+    size_t kept = 0;
+    for (size_t i = 0; i < list->count; i++)
+        if (kept == 0 || mw__ray_place_order(s->prober->surface, s->ray, touch[kept - 1].triangle,
+                                             touch_side(&touch[kept - 1]), touch[i].triangle,
+                                             touch_side(&touch[i])) != 0)
+            touch[kept++] = touch[i];
+    list->count = kept;
+}
+
+void mw__hit_list_complete(const mw_ray_search *s)
+{
+    mw_hit_list *list = s->self;
+    mw_touch *touch = list->touches;
+    for (size_t i = 0, held = hit_list_held(list); i < held; i++)
+        touch[i] =
+            mw__ray_touch(s->prober->surface, s->ray, touch[i].triangle, touch_side(&touch[i]));
 }

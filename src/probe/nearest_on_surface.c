@@ -281,6 +281,13 @@ static mw_nearest_surface_point nearest_of_triangle(const mw_corners corner, con
     return hit;
 }
 
+double mw__distance_to_triangle(const mw_surface *surface, uint32_t t, const double q[3])
+{
+    const mw_corners corner = {mw__surface_corner(surface, t, 0), mw__surface_corner(surface, t, 1),
+                               mw__surface_corner(surface, t, 2)};
+    return nearest_of_triangle(corner, q, distance_to_corners_box(corner, q)).distance;
+}
+
 /* --- the search --- */
 
 /* Bounds are in the frame of the BVH and rounded as for lines (bvh_beam.h). The distance of a

@@ -16,7 +16,7 @@ typedef struct mw_probe_search {
     const mw_surface *surface;
     mw_line line;
     double reach;        /* largest distance of a touch; may be infinite */
-    uint32_t last;       /* the first walk starts there if m points at its front; or MW_NONE */
+    uint32_t first;      /* the first walk starts there if m points at its front; or MW_NONE */
     uint32_t samples;    /* k of Alg. 1 */
     bool nearest;        /* take the nearest of the samples that m points at, or the first one */
     uint32_t iterations; /* maximal number of walks */

@@ -1,5 +1,5 @@
 /* probe_counters.c - adds counters of probes. */
-#include <meshwalk/probe.h>
+#include "probe/prober.h"
 
 static void counter_raise(uint64_t *most, uint64_t value)
 {
@@ -20,4 +20,14 @@ void mw_probe_counters_add(mw_probe_counters *sum, const mw_probe_counters *more
     counter_raise(&sum->iterations_max, more->iterations_max);
     sum->boxes += more->boxes;
     sum->box_triangles += more->box_triangles;
+}
+
+void mw__probe_count(mw_probe_counters *sum, mw_probe_counters *work, bool hit)
+{
+    work->queries = 1;
+    work->hits = hit;
+    work->triangles_max = work->triangles;
+    work->tests_max = work->tests;
+    work->iterations_max = work->iterations;
+    mw_probe_counters_add(sum, work);
 }

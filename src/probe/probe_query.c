@@ -38,18 +38,6 @@ const char *mw_probe_extent_name(mw_probe_extent extent)
     return (unsigned)extent < MW_PROBE_EXTENT_COUNT ? names[extent] : NULL;
 }
 
-/* --- counters --- */
-
-static void probe_count(mw_probe_counters *sum, mw_probe_counters *work, bool hit)
-{
-    work->queries = 1;
-    work->hits = hit;
-    work->triangles_max = work->triangles;
-    work->tests_max = work->tests;
-    work->iterations_max = work->iterations;
-    mw_probe_counters_add(sum, work);
-}
-
 /* --- the cursor --- */
 
 /* k of Alg. 1, but at most the number of triangles: a query must end soon. The roots are rounded
@@ -117,14 +105,15 @@ mw_status mw_probe_cursor_init(const mw_prober *prober, const mw_probe_options *
 
 /* --- one probe --- */
 
-/* Is triangle t probably nearer to q than the nearest of a sample? If k points are spread over a
- * ball of radius r, the nearest has an expected distance of about 2 r / sqrt(k). */
-static bool probe_beats_sample(const mw_prober *prober, uint32_t t, const double q[3],
-                               uint32_t samples)
+/* Is triangle t near q: nearer than what another start would probably find? */
+static bool probe_is_near(const mw_prober *prober, uint32_t t, const double q[3], uint32_t samples)
 {
     const double *p = mw__surface_corner(prober->surface, t, 0);
-    double x = p[0] - q[0], y = p[1] - q[1], z = p[2] - q[2];
-    return (x * x + y * y + z * z) * samples < 4 * prober->variance;
+    double x = p[0] - q[0], y = p[1] - q[1], z = p[2] - q[2], square = x * x + y * y + z * z;
+    if (prober->guide.cell) return square < prober->guide.near2;
+    /* of k points that are spread over a ball of radius r, the nearest to q has an expected
+     * distance of about 2 r / sqrt(k) */
+    return square * samples < 4 * prober->variance;
 }
 
 /* The triangle touched last, or one that took its place in edits; MW_NONE: none is known. */
@@ -147,10 +136,24 @@ static uint32_t probe_coherent(const mw_prober *prober, const mw_probe_cursor *c
     mw_probe_start start = cursor->options.start;
     uint32_t last = probe_last(prober, cursor);
     bool starts =
-        last != MW_NONE && (start == MW_PROBE_START_LAST ||
-                            (start == MW_PROBE_START_AUTO &&
-                             probe_beats_sample(prober, last, q, cursor->options.samples)));
+        last != MW_NONE &&
+        (start == MW_PROBE_START_LAST ||
+         (start == MW_PROBE_START_AUTO && probe_is_near(prober, last, q, cursor->options.samples)));
     return starts ? last : MW_NONE;
+}
+
+/* Where the first walk starts, if m points at the front of that triangle; MW_NONE: at the best of a
+ * sample. Certain probes need no guide: their boxes are one. */
+static uint32_t probe_first(const mw_prober *prober, const mw_probe_cursor *cursor,
+                            const double q[3])
+{
+    uint32_t last = probe_coherent(prober, cursor, q);
+    if (last != MW_NONE || !prober->guide.cell || cursor->options.certain ||
+        cursor->options.start != MW_PROBE_START_AUTO)
+        return last;
+    uint32_t t = mw__probe_guide_triangle(&prober->guide, q);
+    return t < prober->surface->tri_count && !mw__surface_is_freed(prober->surface, t) ? t
+                                                                                       : MW_NONE;
 }
 
 static mw_probe_search probe_plan(const mw_prober *prober, mw_probe_cursor *cursor,
@@ -161,7 +164,7 @@ static mw_probe_search probe_plan(const mw_prober *prober, mw_probe_cursor *curs
         .surface = prober->surface,
         .line = {{q[0], q[1], q[2]}, {m[0], m[1], m[2]}, {0}},
         .reach = options->max_distance > 0 ? options->max_distance : INFINITY,
-        .last = probe_coherent(prober, cursor, q),
+        .first = probe_first(prober, cursor, q),
         .samples = options->samples,
         .nearest = options->start != MW_PROBE_START_RANDOM,
         .iterations = options->iterations,
@@ -179,8 +182,8 @@ static mw_touch probe_answer_published(const mw_probe_search *search, mw_probe_c
 {
     mw_touch again;
     bool stays =
-        search->last != MW_NONE && mw__touch_surely_inside(search->surface, &search->line,
-                                                           search->last, search->reach, &again);
+        search->first != MW_NONE && mw__touch_surely_inside(search->surface, &search->line,
+                                                            search->first, search->reach, &again);
     if (stays && !work) return again;
     uint32_t t = mw__probe_search_all(search, work, trace);
     if (stays) return again;
@@ -198,14 +201,14 @@ static void probe_guess(mw_ray_search *search, const mw_probe_cursor *cursor, mw
     bool walks = ray->extent == MW_PROBE_LINE && ray->faces == MW_PROBE_FRONT && ray->least == 0;
     uint32_t last =
         cursor->options.start <= MW_PROBE_START_LAST ? probe_last(prober, cursor) : MW_NONE;
-    if (walks && walk->last != MW_NONE && mw__probe_faces(walk, walk->last, work)) {
+    if (walks && walk->first != MW_NONE && mw__probe_faces(walk, walk->first, work)) {
         walk->steps = SEED_STEPS < walk->steps ? SEED_STEPS : walk->steps;
-        last = mw__probe_search_from(walk, 0, walk->last, NULL, work, trace);
+        last = mw__probe_search_from(walk, 0, walk->first, NULL, work, trace);
     }
     if (last != MW_NONE) mw__ray_search_guess(search, last);
 }
 
-static bool prober_is_current(const mw_prober *prober)
+bool mw__prober_is_current(const mw_prober *prober)
 {
     return prober->has_bvh && prober->version == prober->surface->version;
 }
@@ -222,10 +225,8 @@ static mw_touch probe_answer_certain(const mw_prober *prober, mw_probe_cursor *c
     return mw__ray_touch_found(&search);
 }
 
-/* The line, ray or segment of a query. Returns false if a coordinate is not finite, or it has no
- * direction. */
-static bool probe_ray(const mw_probe_options *options, const double q[3], const double m[3],
-                      mw_ray_query *ray)
+bool mw__probe_ray(const mw_probe_options *options, const double q[3], const double m[3],
+                   mw_ray_query *ray)
 {
     if (!mw__is_finite3(q) || !mw__is_finite3(m)) return false;
     *ray = (mw_ray_query){.line = {{q[0], q[1], q[2]}, {m[0], m[1], m[2]}, {0}},
@@ -247,7 +248,7 @@ static mw_touch probe_conclude(const mw_prober *prober, mw_probe_cursor *cursor,
         cursor->prober = prober;
         cursor->last = touch.triangle;
     }
-    if (cursor->options.counters) probe_count(&cursor->counters, work, hit);
+    if (cursor->options.counters) mw__probe_count(&cursor->counters, work, hit);
     return touch;
 }
 
@@ -260,13 +261,13 @@ static mw_touch probe_answer(const mw_prober *prober, mw_probe_cursor *cursor, c
     mw_probe_counters work = {0};
     mw_touch touch = mw__touch_none(MW_TOUCH_BAD);
     mw_ray_query ray;
-    if (probe_ray(&cursor->options, q, m, &ray)) {
+    if (mw__probe_ray(&cursor->options, q, m, &ray)) {
         mw__surface_read_lock(prober->surface);
         mw_probe_search search = probe_plan(prober, cursor, q, m);
         mw_probe_counters *to = counted ? &work : NULL;
         if (!cursor->options.certain)
             touch = probe_answer_published(&search, to, trace);
-        else if (prober_is_current(prober))
+        else if (mw__prober_is_current(prober))
             touch = probe_answer_certain(prober, cursor, &ray, &search, to, trace);
         mw__surface_read_unlock(prober->surface);
     }
@@ -289,7 +290,7 @@ static void probe_group_run(probe_group *g, const mw_prober *prober, mw_probe_cu
         const double *q = queries + i * stride;
         g->search[i].stack.count = 0;
         g->search[i].prober = NULL;
-        if (!probe_ray(&cursor->options, q, q + 3, &g->ray[i])) continue;
+        if (!mw__probe_ray(&cursor->options, q, q + 3, &g->ray[i])) continue;
         mw_probe_search walk = probe_plan(prober, cursor, q, q + 3);
         mw__ray_search_begin(&g->search[i], prober, &g->ray[i], mw__ray_found_nearest, NULL);
         probe_guess(&g->search[i], cursor, &walk, cursor->options.counters ? &g->work[i] : NULL,
@@ -307,7 +308,7 @@ void mw__probe_certain_group(const mw_prober *prober, mw_probe_cursor *cursor,
         touches[i] = mw__touch_none(MW_TOUCH_BAD);
     }
     mw__surface_read_lock(prober->surface);
-    if (prober_is_current(prober)) {
+    if (mw__prober_is_current(prober)) {
         probe_group_run(&g, prober, cursor, queries, stride, n);
         for (uint32_t i = 0; i < n; i++) {
             if (!g.search[i].prober) continue;
@@ -321,13 +322,6 @@ void mw__probe_certain_group(const mw_prober *prober, mw_probe_cursor *cursor,
 
 /* --- any, and all --- */
 
-static bool ray_found_any(mw_ray_search *search, uint32_t triangle, mw_ray_side side)
-{
-    search->nearest = triangle;
-    search->side = side;
-    return false;
-}
-
 /* Run a search of all that a query meets. Returns its state. */
 static mw_touch_state probe_search(const mw_prober *prober, mw_probe_cursor *cursor,
                                    const double q[3], const double m[3], mw_ray_found *found,
@@ -337,9 +331,9 @@ static mw_touch_state probe_search(const mw_prober *prober, mw_probe_cursor *cur
     mw_probe_counters work = {0};
     mw_ray_query ray;
     if (!cursor->prober) mw_probe_cursor_init(prober, NULL, cursor, NULL); /* was all zero */
-    if (!probe_ray(&cursor->options, q, m, &ray)) return state;
+    if (!mw__probe_ray(&cursor->options, q, m, &ray)) return state;
     mw__surface_read_lock(prober->surface);
-    if (prober_is_current(prober)) {
+    if (mw__prober_is_current(prober)) {
         mw_ray_search search;
         mw__ray_search_begin(&search, prober, &ray, found, self);
         uint32_t last = finish ? MW_NONE : probe_last(prober, cursor);
@@ -351,14 +345,20 @@ static mw_touch_state probe_search(const mw_prober *prober, mw_probe_cursor *cur
         if (search.nearest != MW_NONE) cursor->last = search.nearest;
     }
     mw__surface_read_unlock(prober->surface);
-    if (cursor->options.counters) probe_count(&cursor->counters, &work, state == MW_TOUCH_HIT);
+    if (cursor->options.counters) mw__probe_count(&cursor->counters, &work, state == MW_TOUCH_HIT);
     return state;
 }
 
 mw_touch_state mw_probe_any(const mw_prober *prober, mw_probe_cursor *cursor, const double point[3],
                             const double motion[3])
 {
-    return probe_search(prober, cursor, point, motion, ray_found_any, NULL, NULL);
+    return probe_search(prober, cursor, point, motion, mw__ray_found_any, NULL, NULL);
+}
+
+static void hit_list_finish(const mw_ray_search *search)
+{
+    mw__hit_list_sort(search);
+    mw__hit_list_complete(search);
 }
 
 size_t mw_probe_all(const mw_prober *prober, mw_probe_cursor *cursor, const double point[3],
@@ -367,7 +367,7 @@ size_t mw_probe_all(const mw_prober *prober, mw_probe_cursor *cursor, const doub
 {
     mw_hit_list list = {.touches = touches, .capacity = touches ? capacity : 0};
     mw_touch_state found =
-        probe_search(prober, cursor, point, motion, mw__hit_list_found, &list, mw__hit_list_finish);
+        probe_search(prober, cursor, point, motion, mw__hit_list_found, &list, hit_list_finish);
     if (state) *state = found;
     return list.count;
 }

@@ -28,8 +28,8 @@ static uint32_t race_search_once(const mw_probe_search *search, uint64_t i,
 {
     uint64_t random = mw__random_seed(search->random, i);
     bool coherent =
-        i == 0 && search->last != MW_NONE && mw__probe_faces(search, search->last, work);
-    uint32_t first = coherent ? search->last : mw__probe_first_triangle(search, &random, work);
+        i == 0 && search->first != MW_NONE && mw__probe_faces(search, search->first, work);
+    uint32_t first = coherent ? search->first : mw__probe_first_triangle(search, &random, work);
     return mw__probe_search_from(search, i, first, found, work, trace);
 }
 

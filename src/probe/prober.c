@@ -50,6 +50,23 @@ bool mw__prober_rebuild(mw_prober *prober, mw_job *job)
     return done;
 }
 
+static mw_status prober_make(mw_prober *prober, const mw_prober_options *options, mw_job *job,
+                             mw_error *error)
+{
+    const double boxes = !options->boxes ? 0 : options->guide ? 0.95 : 1;
+    mw_status status = MW_OK;
+    if (options->boxes) {
+        mw_job_span outer = mw__job_part(job, boxes);
+        status = prober_make_boxes(prober, job, error);
+        mw__job_part_end(job, outer);
+    }
+    if (status || !options->guide) return status;
+    mw_job_span outer = mw__job_part(job, 1 - boxes);
+    bool done = mw__probe_guide_create(&prober->guide, prober->surface, job);
+    mw__job_part_end(job, outer);
+    return done ? MW_OK : mw__fail_memory(error);
+}
+
 /* The variance of a sample of corners. It is only a guide: overflow, or a growing surface, makes
  * choices worse, but not answers. */
 static double prober_sample_variance(const mw_surface *surface)
@@ -91,10 +108,10 @@ mw_status mw_prober_create(const mw_surface *surface, const mw_prober_options *o
     prober->edit_count = surface->edit_count;
     prober->has_bvh = options->boxes != 0;
     prober->variance = prober_sample_variance(surface);
-    if (prober->has_bvh) {
-        prober->closed = mw__surface_is_closed(surface);
+    if (prober->has_bvh) prober->closed = mw__surface_is_closed(surface);
+    if (options->boxes || options->guide) {
         mw_job job = mw__job(options->threads, options->progress);
-        status = mw__job_end(&job, prober_make_boxes(prober, &job, error), error);
+        status = mw__job_end(&job, prober_make(prober, options, &job, error), error);
     }
     if (status)
         mw_prober_destroy(prober);
@@ -107,6 +124,7 @@ void mw_prober_destroy(mw_prober *prober)
 {
     if (!prober) return;
     mw__bvh_release(&prober->bvh);
+    mw__probe_guide_release(&prober->guide);
     free(prober);
 }
 
@@ -131,5 +149,6 @@ void mw_prober_describe(const mw_prober *prober, mw_prober_info *info)
     *info = (mw_prober_info){
         .bytes = sizeof *prober, .fits = prober->fits, .fit_seconds = prober->fit_seconds};
     if (prober->has_bvh) info->box_bytes = mw__bvh_bytes(&prober->bvh);
-    info->bytes += info->box_bytes;
+    info->guide_bytes = mw__probe_guide_bytes(&prober->guide);
+    info->bytes += info->box_bytes + info->guide_bytes;
 }

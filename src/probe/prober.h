@@ -8,12 +8,14 @@
 #include "surface/surface.h"
 #include "predicates/line.h"
 #include "probe/bvh.h"
+#include "probe/probe_guide.h"
 
 #include <meshwalk/probe.h>
 
 struct mw_prober {
     const mw_surface *surface;
     mw_bvh bvh;
+    mw_probe_guide guide;
     bool has_bvh;
     bool portable; /* no vector instructions: for tests */
     /* For mw_inside_surface: all edges have neighbours, which do not change; and vertices that were
@@ -77,6 +79,12 @@ bool mw__touch_surely_inside(const mw_surface *surface, const mw_line *line, uin
 uint32_t mw__probe_certain(const mw_prober *prober, const mw_line *line, double max_distance,
                            uint32_t seed, mw_probe_counters *counters);
 
+/* --- nearest_on_surface.c --- */
+
+/* The distance of q from a triangle that has an area and finite corners, rounded as that of
+ * mw_nearest_on_surface. q is finite. */
+double mw__distance_to_triangle(const mw_surface *surface, uint32_t triangle, const double q[3]);
+
 /* --- inside.c --- */
 
 /* Does every edge have a neighbour? O(n) */
@@ -84,7 +92,15 @@ bool mw__surface_is_closed(const mw_surface *surface);
 /* Are vertices that were welded at the same place? O(n) if the surface was welded. */
 bool mw__surface_is_joined(const mw_surface *surface);
 
+/* --- probe_counters.c --- */
+
+/* Add the work of one probe. */
+void mw__probe_count(mw_probe_counters *sum, mw_probe_counters *work, bool hit);
+
 /* --- probe_query.c --- */
+
+/* Are there boxes, which are up to date? */
+bool mw__prober_is_current(const mw_prober *prober);
 
 /* Answer n certain probes, at most 8, as mw_probe one after the other. */
 void mw__probe_certain_group(const mw_prober *prober, mw_probe_cursor *cursor,

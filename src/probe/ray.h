@@ -22,6 +22,13 @@ typedef struct mw_ray_query {
 /* How a ray meets a triangle. */
 typedef enum mw_ray_side { MW_RAY_MISSES = 0, MW_RAY_FRONT, MW_RAY_BACK } mw_ray_side;
 
+/* --- probe_query.c --- */
+
+/* The line, ray or segment of a query. Returns false if a coordinate is not finite, or it has no
+ * direction. */
+bool mw__probe_ray(const mw_probe_options *options, const double q[3], const double m[3],
+                   mw_ray_query *ray);
+
 /* --- ray_hit.c --- */
 
 /* Does the ray meet the triangle, on a face that counts, within its extent and limits? Exact. A
@@ -29,7 +36,11 @@ typedef enum mw_ray_side { MW_RAY_MISSES = 0, MW_RAY_FRONT, MW_RAY_BACK } mw_ray
 mw_ray_side mw__ray_meets(const mw_ray_query *ray, const mw_corners corners);
 
 /* Compare where along the line two triangles are met, whose sides are known: < 0 if s comes before
- * t; equal places by their numbers. Exact. */
+ * t, 0 if they are met at one place. Exact. */
+int mw__ray_place_order(const mw_surface *surface, const mw_ray_query *ray, uint32_t s,
+                        mw_ray_side s_side, uint32_t t, mw_ray_side t_side);
+
+/* The same, but equal places by their numbers. */
 int mw__ray_order(const mw_surface *surface, const mw_ray_query *ray, uint32_t s,
                   mw_ray_side s_side, uint32_t t, mw_ray_side t_side);
 
@@ -74,6 +85,8 @@ void mw__ray_search_run(const mw_prober *prober, mw_ray_search *search, uint32_t
 
 /* Keeps the triangle nearest to q, of equally near ones the lowest. */
 mw_ray_found mw__ray_found_nearest;
+/* Keeps the first triangle found, and ends the search. */
+mw_ray_found mw__ray_found_any;
 
 /* The answer of a search for the nearest triangle. */
 mw_touch mw__ray_touch_found(const mw_ray_search *search);
@@ -87,11 +100,16 @@ void mw__ray_search_count(const mw_ray_search *search, mw_probe_counters *counte
 typedef struct mw_hit_list {
     mw_touch *touches;
     size_t capacity, count; /* count: of all that were found */
+    bool grows;             /* the array is the list's own, and grows: so all fit */
+    bool no_memory;         /* it could not grow: the search has ended */
 } mw_hit_list;
 
 /* `self` of the search is the list. */
 mw_ray_found mw__hit_list_found;
-/* Sort the list and complete its touches. */
-void mw__hit_list_finish(const mw_ray_search *search);
+/* Sort the list. Until mw__hit_list_complete its touches have nothing but triangles and sides. */
+void mw__hit_list_sort(const mw_ray_search *search);
+/* Of triangles at one place keep the first. The list is sorted, and all are in it. */
+void mw__hit_list_keep_places(const mw_ray_search *search);
+void mw__hit_list_complete(const mw_ray_search *search);
 
 #endif

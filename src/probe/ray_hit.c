@@ -67,15 +67,21 @@ mw_ray_side mw__ray_meets(const mw_ray_query *ray, const mw_corners c)
     return ray_reaches(ray, c, side) ? side : MW_RAY_MISSES;
 }
 
-int mw__ray_order(const mw_surface *surface, const mw_ray_query *ray, uint32_t s,
-                  mw_ray_side s_side, uint32_t t, mw_ray_side t_side)
+int mw__ray_place_order(const mw_surface *surface, const mw_ray_query *ray, uint32_t s,
+                        mw_ray_side s_side, uint32_t t, mw_ray_side t_side)
 {
     mw_corners c, d;
     ray_corners_of(surface, s, c);
     ray_corners_of(surface, t, d);
     int after = hit_after(ray->line.q, c, s_side), other = hit_after(ray->line.q, d, t_side);
     if (after != other) return after < other ? -1 : 1;
-    int order = after == 0 ? 0 : mw__compare_hits(&ray->line, c, d) * after;
+    return after == 0 ? 0 : mw__compare_hits(&ray->line, c, d) * after;
+}
+
+int mw__ray_order(const mw_surface *surface, const mw_ray_query *ray, uint32_t s,
+                  mw_ray_side s_side, uint32_t t, mw_ray_side t_side)
+{
+    int order = mw__ray_place_order(surface, ray, s, s_side, t, t_side);
     return order != 0 ? order : s < t ? -1 : s > t;
 }
 

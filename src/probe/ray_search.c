@@ -24,6 +24,13 @@ bool mw__ray_found_nearest(mw_ray_search *s, uint32_t triangle, mw_ray_side side
     return true;
 }
 
+bool mw__ray_found_any(mw_ray_search *s, uint32_t triangle, mw_ray_side side)
+{
+    s->nearest = triangle;
+    s->side = side;
+    return false;
+}
+
 mw_touch mw__ray_touch_found(const mw_ray_search *s)
 {
     return s->nearest == MW_NONE ? mw__touch_none(MW_TOUCH_NONE)

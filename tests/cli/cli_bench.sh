@@ -236,10 +236,12 @@ run bench paper D1 --data flat.off "${few[@]}"; refused 3 'flat.off'
 rm one.tsv
 
 # Appendix F: rays from the centre. Seven quantities a walk without times, and the triangles of the
-# mesh. A number of vertices of a subdivided icosahedron makes it, another one a random star. All
-# walks are compared by the program.
-run bench paper F1 --sizes 42,500,10 "${few[@]}"; exits 0; says_nothing; sound 108
+# mesh. A number of vertices of a subdivided tetrahedron, octahedron or icosahedron makes it,
+# another one a random star. All walks are compared by the program.
+run bench paper F1 --sizes 42,500,34,66 "${few[@]}"; exits 0; says_nothing; sound 144
 holds "an icosahedron" test "$(ours icosahedron 42 mesh mesh_triangles)" == 80
+holds "a tetrahedron" test "$(ours tetrahedron 34 mesh mesh_triangles)" == 64
+holds "an octahedron" test "$(ours octahedron 66 mesh mesh_triangles)" == 128
 holds "a star" test "$(ours star 500 mesh mesh_triangles)" == 996
 holds "the barycentric walk makes three tests a triangle" test \
     "$(ours star 500 barycentric orient)" == \
@@ -290,6 +292,15 @@ for at in 0 100; do
     prints_line '^tetrahedron.off, 4 vertices$'
     prints_line '^  barycentric +WBW  exact time +[0-9.]+  0\.772 to 0\.786$'
 done
+# A file that stands in for a model of the thesis, said or by its name and its triangles.
+run bench paper F1 --data skull=tetrahedron.off,tetrahedron.off "${few[@]}"; exits 0; says_nothing
+publishes tetrahedron.off 4 forgetful triangles 135.2
+holds "published once" test "$(grep -c 135.2 "$logs/out")" == 1
+run bench paper F2 --data bunny=tetrahedron.off "${few[@]}"; exits 0; says_nothing
+publishes tetrahedron.off-128 4 octahedron triangles_init 6.2
+run bench paper F1 --data blob=tetrahedron.off "${few[@]}"; refused 2 "unknown model 'blob'"
+run bench paper G1 --data blbo=tetrahedron.off "${few[@]}"; refused 2 "did you mean 'blob'"
+run bench paper F1 --data skull= "${few[@]}"; refused 2 "model 'skull'"
 run bench paper F1 --data ring.off "${few[@]}"; refused 3 'ring.off'
 run bench paper F1 --data p.xyz "${few[@]}"; refused 3 'p.xyz: this is not a mesh'
 run bench paper F1 --sizes 42 --enclose yes "${few[@]}"; refused 2 'meshes, which --enclose'

@@ -133,6 +133,20 @@ printf '%s\n' "$overlap" >overlap.off
 run walk --from 0.1,0.2 --to 3.9,0.8 overlap.off; refused 3 'overlap.off: '
 says 'check overlap.off'
 
+run walk --plane --from 0.1,0.2 --to 3.9,0.8 row.off -o plane.svg
+refused 2 "'--plane' needs --as star or --as surface"
+run walk --as star --plane --from 1,1,1 --to 1,1.1,-1 octahedron.off
+refused 2 "'--plane' needs a picture"
+run walk --as star --grid uniform --from 1,1,1 --to 1,1.1,-1 octahedron.off -o plane.svg
+refused 2 "'--grid' needs --as star --plane"
+run walk --as surface --plane --grid uniform --from 1,1,1 --to 1,1.1,-1 octahedron.off -o plane.svg
+refused 2 "'--grid' needs --as star --plane"
+run walk --as star --plane --cells 9 --from 1,1,1 --to 1,1.1,-1 octahedron.off -o plane.svg
+refused 2 "'--cells' needs --grid"
+run walk --as star --plane --to 1,1.1,-1 octahedron.off -o plane.svg
+refused 2 "'--from' is missing"
+absent plane.svg
+
 # Pictures, where the program can draw.
 run walk --from 0.1,0.2 --to 3.9,0.8 row.off -o row.svg
 if grep -q 'without Cairo' "$logs/err"; then
@@ -227,4 +241,28 @@ run walk --from 0.01,0.01 --to 0.99,0.99 large.ply -o large.svg; exits 0; says_n
 holds "the picture is not too large" test "$(wc -c <large.svg)" -lt 20000000
 run walk --from 0.5,0.5 --to 0.52,0.52 large.ply -o small.svg; exits 0
 holds "a short walk needs few lines" test "$(wc -c <small.svg)" -lt 2000000
+# In the plane: of longitude and polar angle, with grids, whose first facets are yellow; of a probe.
+run star octahedron.off --remesh 2 -o ball.off; exits 0
+has_yellow() { grep -Eq 'rgb\(94[0-9.]*%, ?89' "$1"; }
+for walk in orthogonal straight auto; do
+    run walk --as star --plane --lonlat --walk $walk --from 40,-20 --to 80,30 ball.off \
+        -o plane.svg
+    exits 0; says_nothing
+    holds "$walk: a picture" grep -q '<svg ' plane.svg
+done
+holds "without a grid nothing is yellow" test -z "$(has_yellow plane.svg && echo yes)"
+for grid in uniform nonuniform; do
+    run walk --as star --plane --lonlat --grid $grid --cells 8 --to 80,30 ball.off -o $grid.svg
+    exits 0; says_nothing
+    holds "$grid: cells are yellow" has_yellow $grid.svg
+done
+run walk --as surface --plane --from 0.1,0.2,5 --to 0.1,0.2,4 octahedron.off -o probe.svg
+exits 0; says_nothing
+holds "the plane is dashed" grep -q 'stroke-dasharray' probe.svg
+run walk --as surface --plane --iterations 3 --from 7,7,5 --to 7,7,4 octahedron.off \
+    --animate plane.png
+exits 0
+says 'touched nothing'
+holds "an animation" test -s plane.png
+
 finish

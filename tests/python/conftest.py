@@ -19,9 +19,22 @@ import meshwalk
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-HEAVY = ("opendrift", "parcels", "uxarray", "xugrid")
+HEAVY = (
+    "geopandas",
+    "meshio",
+    "opendrift",
+    "parcels",
+    "pyvista",
+    "shapely",
+    "trimesh",
+    "uxarray",
+    "xugrid",
+)
 """Drop-ins for packages that ./test leaves out."""
 NOT_HERE = "is not installed: ./test --python-all tests its drop-in"
+
+PAGES = Path(os.environ.get("MW_SOURCE", ".")) / "docs" / "drop-ins"
+"""The pages of the drop-ins."""
 
 SEED = int(os.environ.get("MW_TEST_SEED", "20261123"))
 

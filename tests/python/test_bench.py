@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -45,6 +49,27 @@ def test_streams_have_the_same_sums() -> None:
     streams = measure_streams(200, 1000, 1, workers=1, chunk=300)
     assert streams.sums[0] == streams.sums[1] > 0
     assert [time.name for time in streams.times] == ["plain processes", "Dask"]
+
+
+def test_the_model_of_scaling(data: Path, tmp_path: Path, program: str) -> None:
+    routing = tmp_path / "routing.tsv"
+    options = ["--ranks", "1,8", "--sizes", "1000", "--queries", "2000", "--format", "tsv"]
+    subprocess.run([program, "bench", "scale", *options, "-q", "-o", routing], check=True)
+    script = data.parent / "bench" / "programs" / "bench_scaling.py"
+    sizes = ["--sizes", "500", "--points", "1000", "--mesh", "1e9", "--queries", "1e9"]
+    ran = subprocess.run(
+        [sys.executable, script, *sizes, "--routing", routing],
+        check=True,
+        capture_output=True,
+        text=True,
+    )
+    constants, names, *rows = ran.stdout.splitlines()
+    assert constants.startswith("vertices: 500  bytes a vertex: ")
+    assert names.split("\t")[:3] == ["queries", "ranks", "memory_MB"]
+    figures = {tuple(row.split("\t")[:2]): row.split("\t")[2:] for row in rows}
+    assert len(figures) == 6
+    assert figures["uniform", "1"][3:] == ["0", "0"]  # nothing travels to another rank
+    assert float(figures["uniform", "1"][0]) > 7 * float(figures["uniform", "8"][0])
 
 
 def test_particles_go_the_same_way() -> None:

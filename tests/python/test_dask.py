@@ -105,6 +105,28 @@ def test_arrays(source: Path, locator: meshwalk.Locator, xy: NDArray[Any]) -> No
     assert "9 chunks" in repr(hit)
 
 
+def test_chunks_of_unknown_size(source: Path, locator: meshwalk.Locator, xy: NDArray[Any]) -> None:
+    table = pd.DataFrame(xy, columns=["x", "y"])
+    points = dd.from_pandas(table, npartitions=3).to_dask_array()
+    wanted = locator.locate(xy)
+    hit = meshwalk.dask.locate(source, points)
+    np.testing.assert_array_equal(hit.weights.compute(), wanted.weights)
+    heights = meshwalk.dask.sample(source, points).compute()
+    np.testing.assert_array_equal(heights, wanted.interpolate("z"))
+    values = np.arange(4000.0)
+    np.testing.assert_array_equal((hit.operator() @ values).compute(), wanted.interpolate(values))
+
+
+def test_odd_points(source: Path) -> None:
+    masked = da.ma.masked_array(da.full((2, 2), 0.5), [[False, False], [True, False]])
+    where = meshwalk.dask.locate(source, masked).where.compute()
+    assert where[0] != where[1] == meshwalk.Where.BAD
+    assert meshwalk.dask.locate(source, da.zeros((0, 2))).triangle.compute().shape == (0,)
+    assert meshwalk.dask.locate(source, da.ones((2,), dtype=int)).triangle.compute() == -1
+    one = meshwalk.dask.sample(source, xr.Dataset({"x": 0.5, "y": 0.5}))
+    assert one["z"].shape == ()
+
+
 def test_operators(
     source: Path, locator: meshwalk.Locator, xy: NDArray[Any], random: Random
 ) -> None:
@@ -202,6 +224,8 @@ def test_what_is_refused_at_once(
         meshwalk.dask.locate(folder / "none.mwm", points)
     with pytest.raises(KeyError, match="no field 'depth'; it has 'z', 'soil'"):
         meshwalk.dask.sample(folder / "mesh.mwm", points, "depth")
+    with pytest.raises(ValueError, match="one field at least"):
+        meshwalk.dask.sample(folder / "mesh.mwm", points, [])
     with pytest.raises(ValueError, match="shape"):
         meshwalk.dask.locate(folder / "mesh.mwm", da.zeros((10, 3)))
     with pytest.raises(TypeError, match="dask array"):
@@ -231,6 +255,21 @@ def test_each_process_maps_the_file_once(
     assert len(counts) == 4
     assert all(count <= 2 for count in counts.values())  # checked, and trusted
     assert any(counts.values())
+
+
+def test_workers_give_tiles_up(
+    client: distributed.Client, folder: Path, locator: meshwalk.Locator, xy: NDArray[Any]
+) -> None:
+    path = folder / "few"
+    shutil.copytree(folder / "tiles", path)
+    tiles = meshwalk.Tiles(path, memory=1)
+    hit = meshwalk.dask.locate(tiles, da.from_array(xy, chunks=(1000, 2)), 0.01)
+    _same(hit.compute(), locator.locate(xy, 0.01))
+    assert all(count <= 1 for count in client.run(_tiles_mapped, str(path)).values())
+
+
+def _tiles_mapped(path: str) -> int:
+    return Path("/proc/self/maps").read_text().count(f"{path}/tile-")
 
 
 def test_a_file_that_workers_do_not_have(

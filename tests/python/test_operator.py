@@ -66,9 +66,12 @@ def test_refused(hit: meshwalk.Locations) -> None:
         weights @ [1.0, 2.0]
     with pytest.raises(TypeError, match="values must be real numbers"):
         weights @ np.array(["a"] * weights.shape[1])
-    surface = meshwalk.Surface([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
-    with pytest.raises(TypeError, match="located in a Mesh, not in a Surface"):
-        meshwalk.Operator(meshwalk.Locations(surface, hit.records))
+    assert isinstance(hit.mesh, meshwalk.Mesh)
+    borrowed = meshwalk.BorrowedMesh(
+        hit.mesh.points, hit.mesh.triangles, hit.mesh.neighbours, layout="edge"
+    )
+    with pytest.raises(TypeError, match="in a Mesh or a Surface, not in a BorrowedMesh"):
+        meshwalk.Operator(meshwalk.Locations(borrowed, hit.records))
 
 
 def test_pickles(hit: meshwalk.Locations, random: np.random.Generator) -> None:

@@ -192,6 +192,47 @@ def test_rays(octahedron: meshwalk.Surface) -> None:
         prober.probe([0, 0, -5], [0, 0, 1], extent="ray")
 
 
+def test_many_rays(octahedron: meshwalk.Surface, random: np.random.Generator) -> None:
+    prober = meshwalk.Prober(octahedron, boxes=True)
+    points = random.integers(-4, 5, (40, 5, 3)) / 4
+    motions = random.integers(-2, 3, (40, 5, 3)).astype(float)
+    motions[~motions.any(axis=2)] = 1
+    motions[0, 0], points[0, 1] = 0, np.nan
+    some: Any = {"max_distance": 3, "extent": "ray", "min_distance": 0.25}
+    found = prober.probe_each(points, motions, **some)
+    once = prober.probe_each(points, motions, **some, one_per_place=True)
+    assert found.count.sum() == len(found.probe) == len(found.triangle) > len(once.triangle) > 30
+    touched = prober.probe_any(points, motions, **some)
+    assert touched.shape == (40, 5)
+    np.testing.assert_array_equal(touched.ravel(), found.count > 0)
+    rays = np.concatenate([points, motions], axis=2).reshape(-1, 6)
+    for i, ray in enumerate(rays):
+        part = slice(found.offsets[i], found.offsets[i + 1])
+        if i < 2:
+            assert found.count[i] == 0
+            continue
+        one = prober.probe_all(ray[:3], ray[3:], **some)
+        np.testing.assert_array_equal(found.records[part], one.records)
+        # In the octahedron all rounded distances at one place are equal.
+        _, first = np.unique(one.distance.round(12), return_index=True)
+        part = slice(once.offsets[i], once.offsets[i + 1])
+        np.testing.assert_array_equal(once.triangle[part], one.triangle[first])
+    assert repr(once) == f"<TouchLists: 200 probes, {len(once.triangle)} touches>"
+    line = prober.probe_each([0.1, 0.2, -5], [0, 0, 1], faces="back")
+    assert line.distance == pytest.approx([5.7])
+    assert prober.probe_any([0.1, 0.2, 5], [0, 0, 1])
+    wrong: Any
+    for wrong in ({"extent": "curve"}, {"faces": "none"}, {"min_distance": -1}):
+        with pytest.raises(ValueError, match=r"no extent|no faces|least distance"):
+            prober.probe_each([0, 0, -5], [0, 0, 1], **wrong)
+        with pytest.raises(ValueError, match=r"no extent|no faces|least distance"):
+            prober.probe_any([0, 0, -5], [0, 0, 1], **wrong)
+    bare = meshwalk.Prober(octahedron)
+    for ask in (bare.probe_each, bare.probe_any):
+        with pytest.raises(ValueError, match="boxes"):
+            ask([0, 0, -5], [0, 0, 1])
+
+
 def test_inside(octahedron: meshwalk.Surface) -> None:
     points = np.array([[[0, 0, 0], [1, 0, 0]], [[1, 1, 1], [np.nan, 0, 0]]])
     side = meshwalk.SurfaceSide

@@ -28,6 +28,24 @@ def _queries(mesh: meshwalk.Mesh, random: Random) -> NDArray[np.float64]:
     return np.concatenate([around, points, middles, bad])
 
 
+def _with_flat_triangles(random: Random) -> meshwalk.Mesh:
+    """A grid; many of its cells have a flat triangle along the diagonal, others are holes."""
+    side = 8
+    corners = [[4 * x, 4 * y] for y in range(side + 1) for x in range(side + 1)]
+    middles = [[4 * x + 2, 4 * y + 2] for y in range(side) for x in range(side)]
+    triangles = []
+    for y in range(side):
+        for x in range(side):
+            a, m = y * (side + 1) + x, len(corners) + y * side + x
+            b, c, d = a + 1, a + side + 2, a + side + 1
+            kind = random.integers(4)
+            if kind > 0:
+                triangles += [[a, b, c]]
+            if kind > 1:
+                triangles += [[a, m, c], [a, m, d], [m, c, d]]
+    return meshwalk.Mesh(corners + middles, random.permutation(triangles))
+
+
 def _meshes(random: Random) -> dict[str, meshwalk.Mesh]:
     points = random.uniform(size=(2000, 2))
     whole = meshwalk.delaunay(points)
@@ -44,6 +62,7 @@ def _meshes(random: Random) -> dict[str, meshwalk.Mesh]:
         "holes": meshwalk.Mesh(points, whole.triangles[random.uniform(size=len(whole)) < 0.8]),
         "holes on a grid": meshwalk.Mesh(grid, kept),
         "not welded": meshwalk.Mesh(torn, np.arange(len(torn)).reshape(-1, 3)),
+        "flat triangles": _with_flat_triangles(random),
         "ring": meshwalk.Mesh(*ring_arrays()),
     }
 
@@ -129,6 +148,9 @@ def test_what_is_refused(tmp_path: Path, square: meshwalk.Mesh) -> None:
         meshwalk.prepare_tiles(square, tmp_path / "t", 3)
     with pytest.raises(FileNotFoundError):
         meshwalk.prepare_tiles(square, tmp_path / "none" / "t", 1)
+    flat = meshwalk.Mesh([[0, 0], [4, 0], [0, 4], [2, 0]], [[0, 1, 2], [0, 3, 1]])
+    with pytest.raises(ValueError, match="2 tiles are more than the 1 triangles with an area"):
+        meshwalk.prepare_tiles(flat, tmp_path / "t", 2)
     overlapping = meshwalk.Mesh([[0, 0], [4, 0], [2, 3], [2, 2]], [[0, 1, 2], [0, 1, 3]])
     with pytest.raises(meshwalk.InputError):
         meshwalk.prepare_tiles(overlapping, tmp_path / "t", 1)

@@ -295,7 +295,7 @@ static void test_known_distances(void **state)
     }
     assert_true(d.at_most >= sqrt(3) && d.triangle < 12 && d.nearest_triangle < 12);
     d = deviation_of(a, a, 1);
-    assert_true(d.largest == 0 && d.mean == 0 && d.at_most > 0);
+    assert_true(d.largest == 0 && d.mean == 0 && d.at_most == 0 && d.samples == 20);
     mw_surface_destroy(a);
     mw_surface_destroy(b);
     solid_free(&inner);
@@ -306,7 +306,7 @@ static void test_known_distances(void **state)
 static void test_against_every_sample(void **state)
 {
     uint64_t random = environment_print_seed("every sample", 60);
-    solid one = solid_sphere(2, &random), other = solid_sphere(3, &random);
+    solid one = solid_sphere(4, &random), other = solid_sphere(2, &random); /* nothing is cut */
     mw_surface *a = solid_surface(&one, (mw_surface_options){0}),
                *b = solid_surface(&other, (mw_surface_options){0});
     const mw_deviation d = deviation_of(a, b, 1);
@@ -352,6 +352,37 @@ static void test_against_every_sample(void **state)
     mw_surface_destroy(b);
     solid_free(&one);
     solid_free(&other);
+}
+
+/* Large triangles are cut: the samples come near the farthest point, and none is beyond the
+ * bound. */
+static void test_large_triangles(void **state)
+{
+    uint64_t random = environment_print_seed("large triangles", 61);
+    solid box = solid_box(-1, -1, -1, 2, 0), ball = solid_sphere(4, &random);
+    mw_surface *a = solid_surface(&box, (mw_surface_options){0}),
+               *b = solid_surface(&ball, (mw_surface_options){0});
+    const mw_deviation d = deviation_of(a, b, 1);
+    mw_prober *prober = prober_with_boxes(b);
+    double largest = 0;
+    (void)state;
+    for (int i = 0; i < 20000; i++) {
+        const uint32_t *v = box.triangles + 3 * (size_t)mw__random_below(&random, 12);
+        double u = random_unit(&random), w = random_unit(&random), p[3];
+        mw_nearest_surface_point hit;
+        for (uint32_t k = 0; k < 3; k++)
+            p[k] = (1 - u) * box.points[3 * v[0] + k] +
+                   u * ((1 - w) * box.points[3 * v[1] + k] + w * box.points[3 * v[2] + k]);
+        expect_ok(mw_nearest_on_surface(prober, p, INFINITY, &hit, NULL), "nearest", NULL);
+        largest = fmax(largest, hit.distance);
+    }
+    assert_true(d.samples > 12 * 64);
+    assert_true(largest <= d.at_most && d.largest > 0.95 * largest && d.at_most < 1.2 * d.largest);
+    mw_prober_destroy(prober);
+    mw_surface_destroy(a);
+    mw_surface_destroy(b);
+    solid_free(&box);
+    solid_free(&ball);
 }
 
 static void test_deviation_arguments(void **state)
@@ -459,7 +490,7 @@ int main(void)
         cmocka_unit_test(test_remesh_welded),        cmocka_unit_test(test_remesh_threads),
         cmocka_unit_test(test_remesh_arguments),     cmocka_unit_test(test_known_distances),
         cmocka_unit_test(test_against_every_sample), cmocka_unit_test(test_deviation_arguments),
-        cmocka_unit_test(test_every_allocation),
+        cmocka_unit_test(test_every_allocation),     cmocka_unit_test(test_large_triangles),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

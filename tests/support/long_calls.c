@@ -802,12 +802,13 @@ static mw_status run_prober(const call_inputs *in, const call_setting *how, uint
 {
     mw_prober *prober;
     mw_prober_info info;
-    mw_prober_options options = {.boxes = 1, .threads = how->threads, .progress = how->progress};
+    mw_prober_options options = {
+        .boxes = 1, .threads = how->threads, .progress = how->progress, .guide = 1};
     mw_status status = mw_prober_create(in->surface, &options, &prober, error);
     expect(!status == (prober != NULL), "there is a prober");
     if (status) return status;
     mw_prober_describe(prober, &info);
-    sum_add(sum, info.box_bytes);
+    sum_add(sum, info.bytes);
     mw_prober_destroy(prober);
     return MW_OK;
 }
@@ -822,6 +823,33 @@ static mw_status run_probe_batch(const call_inputs *in, const call_setting *how,
         mw_probe_batch(in->prober, in->ball.point, n, 6, &options, touches, NULL, error);
     for (size_t i = 0; i < n && !status; i++) sum_add(sum, touches[i].triangle);
     free(touches);
+    return status;
+}
+
+static mw_status run_probe_any(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                               mw_error *error)
+{
+    size_t n = in->ball.points / 4;
+    uint8_t *states = malloc(n);
+    mw_probe_options options = {.certain = 1, .threads = how->threads, .progress = how->progress};
+    mw_status status =
+        mw_probe_any_batch(in->prober, in->ball.point, n, 6, &options, states, NULL, error);
+    for (size_t i = 0; i < n && !status; i++) sum_add(sum, states[i]);
+    free(states);
+    return status;
+}
+
+static mw_status run_probe_all(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                               mw_error *error)
+{
+    size_t n = in->ball.points / 4;
+    mw_touch_lists lists;
+    mw_probe_options options = {.certain = 1, .threads = how->threads, .progress = how->progress};
+    mw_status status =
+        mw_probe_all_batch(in->prober, in->ball.point, n, 6, &options, &lists, NULL, error);
+    expect(!status || (!lists.offset && !lists.touch), "there are no touches");
+    for (size_t i = 0; i < lists.touch_count; i++) sum_add(sum, lists.touch[i].triangle);
+    mw_touch_lists_release(&lists);
     return status;
 }
 
@@ -958,6 +986,8 @@ const long_call long_calls[] = {
     {"mw_surface_deviation", run_deviation},
     {"mw_prober_create", run_prober},
     {"mw_probe_batch", run_probe_batch},
+    {"mw_probe_any_batch", run_probe_any},
+    {"mw_probe_all_batch", run_probe_all},
     {"mw_read_mesh", run_read},
     {"mw_read_constraints", run_read_lines},
     {"mw_write_mesh", run_write},

@@ -20,16 +20,16 @@ typedef struct probe_world {
     shape s;
     mw_surface_options options;
     mw_surface *surface;
-    mw_prober *prober;
+    mw_prober *prober, *guided; /* the second one has a guide */
 } probe_world;
 
 enum { WORLDS = 10, STAR_SHAPED = 0, PATCH = 3 };
 
 static probe_world worlds[WORLDS];
 
-static mw_prober *prober_of(const mw_surface *surface)
+static mw_prober *prober_of(const mw_surface *surface, int guide)
 {
-    mw_prober_options options = {.boxes = 1};
+    mw_prober_options options = {.boxes = 1, .guide = guide};
     mw_prober *prober;
     assert_int_equal(mw_prober_create(surface, &options, &prober, NULL), MW_OK);
     return prober;
@@ -39,13 +39,15 @@ static probe_world world_of(const char *name, shape s, mw_surface_options option
 {
     probe_world w = {.name = name, .s = s, .options = options};
     w.surface = shape_surface(&w.s, options);
-    w.prober = prober_of(w.surface);
+    w.prober = prober_of(w.surface, 0);
+    w.guided = prober_of(w.surface, 1);
     return w;
 }
 
 static void world_free(probe_world *w)
 {
     mw_prober_destroy(w->prober);
+    mw_prober_destroy(w->guided);
     mw_surface_destroy(w->surface);
     shape_free(&w->s);
 }
@@ -278,10 +280,12 @@ static void test_touches_are_true(void **state)
             mw_probe_options options = {.start = (mw_probe_start)(j % MW_PROBE_START_COUNT),
                                         .seed = j,
                                         .max_distance = reach};
-            mw_probe_cursor cursor = cursor_of(w, options);
+            probe_world asked = *w;
+            if (j % 8 < 4) asked.prober = w->guided;
+            mw_probe_cursor cursor = cursor_of(&asked, options);
             touch_oracle o = touch_oracle_make(&w->s, q);
             for (int again = 0; again < 3; again++) {
-                mw_touch touch = ask(w, &cursor, q);
+                mw_touch touch = ask(&asked, &cursor, q);
                 check_touch(w, &o, &touch, reach);
                 hits += touch.state == MW_TOUCH_HIT;
                 boundary += touch.state == MW_TOUCH_HIT && touch.where != MW_INSIDE;
@@ -292,6 +296,37 @@ static void test_touches_are_true(void **state)
         if (hits < QUERIES / 2 || boundary < QUERIES / 10)
             fail_msg("%s: %zu hits, of them %zu on edges and vertices", w->name, hits, boundary);
     }
+}
+
+/* A guide leads near the touch: without looking at a sample, to shorter walks. */
+static void test_guide(void **state)
+{
+    (void)state;
+    uint64_t random = 23;
+    probe_world w = world_of("large ball", shape_ball(80, 4096, 0.1, &random),
+                             (mw_surface_options){0}),
+                guided = w;
+    guided.prober = w.guided;
+    mw_probe_cursor sampling = cursor_of(&w, (mw_probe_options){.counters = 1}),
+                    guide = cursor_of(&guided, (mw_probe_options){.counters = 1});
+    for (int i = 0; i < 2000; i++) {
+        double q[6];
+        for (int k = 0; k < 3; k++) {
+            q[3 + k] = random_unit(&random) - 0.5;
+            q[k] = -9000 * q[3 + k]; /* about at the ball, and into it */
+        }
+        assert_int_equal(ask(&w, &sampling, q).state, MW_TOUCH_HIT);
+        assert_int_equal(ask(&guided, &guide, q).state, MW_TOUCH_HIT);
+    }
+    assert_true(guide.counters.triangles < 0.6 * (double)sampling.counters.triangles);
+    assert_true(guide.counters.samples < sampling.counters.samples / 50);
+    mw_prober_info info, plain;
+    mw_prober_describe(w.guided, &info);
+    mw_prober_describe(w.prober, &plain);
+    assert_true(info.guide_bytes > 0 && info.guide_bytes < 3 * (size_t)w.s.triangle_count);
+    assert_int_equal(info.bytes, plain.bytes + info.guide_bytes);
+    assert_int_equal(plain.guide_bytes, 0);
+    world_free(&w);
 }
 
 /* A plane through the centre cuts a star-shaped surface in one closed line: one walk is enough. */
@@ -762,6 +797,7 @@ int main(void)
         cmocka_unit_test(test_coherence),
         cmocka_unit_test(test_counting),
         cmocka_unit_test(test_auto),
+        cmocka_unit_test(test_guide),
         cmocka_unit_test(test_path),
         cmocka_unit_test(test_border),
         cmocka_unit_test(test_degenerate_planes),

@@ -1,5 +1,7 @@
 /* Rays, segments and lines: nearest, any and all triangles, either face, least and greatest
- * distance; points inside of closed surfaces. Against brute force in rationals. */
+ * distance; the same in batches; points inside of closed surfaces. Against brute force in
+ * rationals. */
+/* wrap: malloc calloc realloc aligned_alloc */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -13,6 +15,7 @@
 #include "base/random.h"
 #include "oracle/touch_oracle.h"
 #include "probe/prober.h"
+#include "support/allocations.h"
 #include "support/environment.h"
 #include "support/make_prober.h"
 #include "support/meshes.h"
@@ -87,6 +90,45 @@ static void check_touch(const touch_oracle *o, const mw_touch *touch, uint32_t t
     assert_true(fabs(touch->weight[0] + touch->weight[1] + touch->weight[2] - 1) < 1e-14);
 }
 
+/* A batch of two good probes and one that is bad, with and without all triangles of a place. */
+static void check_lists(const mw_prober *prober, const touch_oracle *o, const double q[6],
+                        const mw_probe_options *given, const uint32_t *met, uint32_t n)
+{
+    double queries[21] = {0};
+    mw_probe_options options = *given;
+    mw_touch_lists lists;
+    uint8_t states[3];
+    memcpy(queries, q, 6 * sizeof *q);
+    memcpy(queries + 14, q, 6 * sizeof *q);
+    queries[8] = NAN;
+    assert_int_equal(mw_probe_any_batch(prober, queries, 3, 7, &options, states, NULL, NULL),
+                     MW_OK);
+    assert_int_equal(states[0], n ? MW_TOUCH_HIT : MW_TOUCH_NONE);
+    assert_int_equal(states[1], MW_TOUCH_BAD);
+    assert_int_equal(states[2], states[0]);
+    for (options.one_per_place = 0; options.one_per_place < 2; options.one_per_place++) {
+        assert_int_equal(mw_probe_all_batch(prober, queries, 3, 7, &options, &lists, NULL, NULL),
+                         MW_OK);
+        uint32_t count = 0;
+        for (uint32_t i = 0; i < n; i++) {
+            bool again = i > 0 && mpq_equal(o->t[met[i]], o->t[met[i - 1]]);
+            if (again && options.one_per_place) continue;
+            assert_true(count < lists.offset[1]);
+            check_touch(o, &lists.touch[count], met[i]);
+            check_touch(o, &lists.touch[lists.offset[2] + count++], met[i]);
+        }
+        assert_int_equal(lists.probe_count, 3);
+        assert_int_equal(lists.bad_count, 1);
+        assert_int_equal(lists.offset[0], 0);
+        assert_int_equal(lists.offset[1], count);
+        assert_int_equal(lists.offset[2], count);
+        assert_int_equal(lists.offset[3], 2 * count);
+        assert_int_equal(lists.touch_count, 2 * count);
+        mw_touch_lists_release(&lists);
+        assert_null(lists.offset);
+    }
+}
+
 /* Returns the number of triangles that the query meets. */
 static uint32_t check_query(const mw_prober *prober, const touch_oracle *o, const double q[6],
                             const mw_probe_options *options, mw_probe_cursor *cursor)
@@ -116,6 +158,7 @@ static uint32_t check_query(const mw_prober *prober, const touch_oracle *o, cons
         if (room == 0) break;
     }
     free(all);
+    check_lists(prober, o, q, options, met, n);
     free(met);
     return n;
 }
@@ -234,6 +277,129 @@ static void test_long_segments(void **state)
     shape_free(&s);
 }
 
+/* Many probes: all of them, in order, whatever the threads; and the counters add up. */
+static void test_batches(void **state)
+{
+    (void)state;
+    enum { PROBES = 5000 };
+    uint64_t random = new_seed("batches");
+    shape s = shape_torus(12, 9, 3);
+    mw_surface *surface = shape_surface(&s, (mw_surface_options){0});
+    mw_prober *prober = prober_with_boxes(surface);
+    double *queries = shape_queries(&s, PROBES, &random);
+    static uint8_t states[PROBES], others[PROBES];
+    mw_probe_options options = {.certain = 1, .faces = MW_PROBE_BOTH, .counters = 1, .threads = 1};
+    mw_probe_cursor cursor;
+    mw_probe_counters any, all;
+    mw_touch_lists lists, same;
+    queries[6 * 1500] = INFINITY;
+    assert_int_equal(mw_probe_cursor_init(prober, &options, &cursor, NULL), MW_OK);
+    assert_int_equal(mw_probe_any_batch(prober, queries, PROBES, 0, &options, states, &any, NULL),
+                     MW_OK);
+    assert_int_equal(mw_probe_all_batch(prober, queries, PROBES, 0, &options, &lists, &all, NULL),
+                     MW_OK);
+    options.threads = 3;
+    assert_int_equal(mw_probe_any_batch(prober, queries, PROBES, 6, &options, others, NULL, NULL),
+                     MW_OK);
+    assert_int_equal(mw_probe_all_batch(prober, queries, PROBES, 6, &options, &same, NULL, NULL),
+                     MW_OK);
+    assert_memory_equal(states, others, sizeof states);
+    assert_memory_equal(lists.offset, same.offset, (PROBES + 1) * sizeof *lists.offset);
+    assert_memory_equal(lists.touch, same.touch, lists.touch_count * sizeof *lists.touch);
+    size_t hits = 0;
+    for (size_t i = 0; i < PROBES; i++) {
+        static mw_touch touches[64];
+        mw_touch_state one;
+        size_t n =
+            mw_probe_all(prober, &cursor, queries + 6 * i, queries + 6 * i + 3, touches, 64, &one);
+        assert_true(n <= 64);
+        assert_int_equal(states[i], one);
+        assert_int_equal(lists.offset[i + 1] - lists.offset[i], n);
+        if (n) assert_memory_equal(lists.touch + lists.offset[i], touches, n * sizeof *touches);
+        hits += n > 0;
+    }
+    assert_true(hits > PROBES / 10);
+    assert_int_equal(lists.bad_count, 1);
+    assert_int_equal(any.queries, PROBES);
+    assert_int_equal(any.hits, hits);
+    assert_int_equal(all.hits, hits);
+    assert_true(all.intersections >= lists.touch_count && any.boxes < all.boxes);
+    mw_touch_lists_release(&lists);
+    mw_touch_lists_release(&same);
+    free(queries);
+    mw_prober_destroy(prober);
+    mw_surface_destroy(surface);
+    shape_free(&s);
+}
+
+/* Each allocation of a batch fails once. */
+static void test_batch_memory(void **state)
+{
+    (void)state;
+    enum { PROBES = 1500 };
+    uint64_t random = 8;
+    shape s = shape_torus(12, 9, 3);
+    mw_surface *surface = shape_surface(&s, (mw_surface_options){0});
+    mw_prober *prober = prober_with_boxes(surface);
+    double *queries = shape_queries(&s, PROBES, &random);
+    mw_probe_options options = {.certain = 1, .faces = MW_PROBE_BOTH, .threads = 1};
+    for (long failures = 0;; failures++) {
+        mw_touch_lists lists;
+        mw_error error = {0};
+        allocations_left = failures;
+        mw_status status =
+            mw_probe_all_batch(prober, queries, PROBES, 6, &options, &lists, NULL, &error);
+        bool failed = allocations_left < 0;
+        allocations_left = -1;
+        assert_int_equal(status, failed ? MW_ERROR_MEMORY : MW_OK);
+        if (!failed) {
+            assert_true(failures > 10);
+            mw_touch_lists_release(&lists);
+            break;
+        }
+        assert_null(lists.touch);
+        assert_null(lists.offset);
+    }
+    free(queries);
+    mw_prober_destroy(prober);
+    mw_surface_destroy(surface);
+    shape_free(&s);
+}
+
+static void check_batch_arguments(const mw_prober *prober, const mw_prober *bare)
+{
+    const double q[6] = {0, 0, 9, 0, 0, -1};
+    const mw_probe_options ray = {.extent = MW_PROBE_RAY}, spare = {.reserved = {1}};
+    mw_touch_lists lists;
+    uint8_t answer;
+    const struct {
+        const mw_prober *prober;
+        const double *queries;
+        size_t stride;
+        const mw_probe_options *options;
+    } wrong[] = {
+        {NULL, q, 0, NULL},   {bare, q, 0, NULL},   {prober, NULL, 0, NULL},
+        {prober, q, 5, NULL}, {prober, q, 0, &ray}, {prober, q, 0, &spare},
+    };
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        assert_int_equal(mw_probe_any_batch(wrong[i].prober, wrong[i].queries, 1, wrong[i].stride,
+                                            wrong[i].options, &answer, NULL, NULL),
+                         MW_ERROR_ARGUMENT);
+        assert_int_equal(mw_probe_all_batch(wrong[i].prober, wrong[i].queries, 1, wrong[i].stride,
+                                            wrong[i].options, &lists, NULL, NULL),
+                         MW_ERROR_ARGUMENT);
+    }
+    assert_int_equal(mw_probe_any_batch(prober, q, 1, 0, NULL, NULL, NULL, NULL),
+                     MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_probe_all_batch(prober, q, 1, 0, NULL, NULL, NULL, NULL),
+                     MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_probe_any_batch(prober, NULL, 0, 0, NULL, NULL, NULL, NULL), MW_OK);
+    assert_int_equal(mw_probe_all_batch(prober, NULL, 0, 0, NULL, &lists, NULL, NULL), MW_OK);
+    assert_int_equal(lists.offset[0], 0);
+    mw_touch_lists_release(&lists);
+    mw_touch_lists_release(NULL);
+}
+
 static void test_arguments(void **state)
 {
     (void)state;
@@ -267,6 +433,7 @@ static void test_arguments(void **state)
     assert_int_equal(mw_inside_surface(prober, q, 1, 2, 1, &side, NULL), MW_ERROR_ARGUMENT);
     assert_int_equal(mw_inside_surface(prober, NULL, 1, 0, 1, &side, NULL), MW_ERROR_ARGUMENT);
     assert_int_equal(mw_inside_surface(prober, NULL, 0, 0, 1, NULL, NULL), MW_OK);
+    check_batch_arguments(prober, bare);
     mw_prober_destroy(bare);
     mw_prober_destroy(prober);
     mw_surface_destroy(surface);
@@ -401,6 +568,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_shapes),     cmocka_unit_test(test_long_segments),
+        cmocka_unit_test(test_batches),    cmocka_unit_test(test_batch_memory),
         cmocka_unit_test(test_arguments),  cmocka_unit_test(test_inside),
         cmocka_unit_test(test_not_closed),
     };

@@ -51,6 +51,9 @@ __all__ = ["Locations", "Operator", "locate", "operator", "sample"]
 _KEPT = 16
 """So many meshes stay mapped in a process, beside those that tasks are using."""
 
+_MEMORY = 2**30
+"""Bytes of tiles that stay mapped, where nothing is said."""
+
 _opened: OrderedDict[_Source, Locator | Tiles] = OrderedDict()
 _lock = threading.Lock()
 
@@ -62,13 +65,15 @@ class _Source:
     path: str
     trust: bool
     checksum: int
+    memory: int
+    """Of tiles: so many bytes stay mapped."""
 
     def open(self) -> Locator | Tiles:
         """The mesh, mapped when this process first asks for it."""
         with _lock:
             found = _opened.get(self)
             if found is None:
-                found = _open(self.path, self.trust)
+                found = _open(self.path, self.trust, self.memory)
                 if _checksum(found) != self.checksum:
                     raise InputError(
                         f"{self.path}: is another prepared mesh here than where the work was"
@@ -81,9 +86,9 @@ class _Source:
             return found
 
 
-def _open(path: str, trust: bool) -> Locator | Tiles:
+def _open(path: str, trust: bool, memory: int) -> Locator | Tiles:
     if os.path.exists(os.path.join(path, INDEX)):
-        return Tiles(path, trust)
+        return Tiles(path, trust, memory=memory)
     return _map(path, trust)
 
 
@@ -96,7 +101,7 @@ def _checksum(mesh: Locator | Tiles) -> int:
 
 def _source(mesh: Prepared, trust: bool) -> _Source:
     if isinstance(mesh, Tiles):
-        return _Source(mesh.folder, mesh.trust or trust, mesh.checksum)
+        return _Source(mesh.folder, mesh.trust or trust, mesh.checksum, mesh.memory)
     if isinstance(mesh, Locator):
         if mesh.mesh._mapped is None:
             raise TypeError(
@@ -104,10 +109,10 @@ def _source(mesh: Prepared, trust: bool) -> _Source:
                 " (Locator.prepare), and give the path"
             )
         path, trusted, checksum = mesh.mesh._mapped
-        return _Source(path, trusted or trust, checksum)
+        return _Source(path, trusted or trust, checksum, _MEMORY)
     path = os.path.abspath(os.fsdecode(_arrays.path(mesh)))
     # The header tells the checksum; what it is the sum of is checked when the file is opened.
-    return _Source(path, trust, _checksum(_open(path, True)))
+    return _Source(path, trust, _checksum(_open(path, True, _MEMORY)), _MEMORY)
 
 
 def _names(source: _Source) -> tuple[list[str], list[str]]:
@@ -119,6 +124,8 @@ def _names(source: _Source) -> tuple[list[str], list[str]]:
 
 
 def _check_fields(source: _Source, fields: Sequence[str]) -> None:
+    if not fields:
+        raise ValueError("fields must name one field at least")
     of_vertices, of_triangles = _names(source)
     known = of_vertices + of_triangles
     for name in fields:
@@ -536,7 +543,7 @@ def locate(
     ----------
     mesh : str, path-like, Locator or Tiles
         A prepared file (``.mwm``) or a folder that `prepare_tiles` made, at the same place for
-        all workers; or what `map` gave.
+        all workers; or what `map` gave, or `Tiles`, whose `memory` then holds for each worker.
     points : dask.array.Array, dask.dataframe.DataFrame or xarray.Dataset
         An array of the shape (..., 2); a dataframe or dataset that has x and y. A dataset's x and y
         are broadcast, as of a grid with the axes x and y; one without chunks is one chunk.

@@ -9,6 +9,7 @@ from __future__ import annotations
 import multiprocessing
 import os
 import tempfile
+import time
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -21,11 +22,14 @@ if TYPE_CHECKING:
 
 
 class Streams(NamedTuple):
-    """What was measured: times, the sums of both ways, and the most memory of a process."""
+    """What was measured, of plain processes and of Dask's workers."""
 
     times: list[Time]
+    cpu: tuple[float, float]
+    """Processor time of all processes that located, in the best round."""
     sums: tuple[int, int]
     bytes: tuple[int, int]
+    """The most memory of a process."""
 
 
 def _points(seed: int, chunk: int, count: int) -> NDArray[np.float64]:
@@ -40,13 +44,17 @@ def _chunk(block: NDArray[Any], seed: int, count: int) -> NDArray[np.float64]:
 _locators: dict[str, meshwalk.Locator] = {}
 
 
-def _sum(given: tuple[str, int, int, int]) -> int:
-    """What a plain process does with a chunk: it maps the file when it gets its first."""
+def _sum(given: tuple[str, int, int, int]) -> tuple[int, float]:
+    """What a plain process does with a chunk, and the processor time that it takes.
+
+    It maps the file when it gets its first.
+    """
     path, seed, chunk, count = given
+    begin = time.process_time()
     if path not in _locators:
         _locators[path] = meshwalk.map(path)
     triangles = _locators[path].locate(_points(seed, chunk, count), threads=1).triangle
-    return int(triangles.sum(dtype=np.int64))
+    return int(triangles.sum(dtype=np.int64)), time.process_time() - begin
 
 
 def _most_memory(_: int = 0) -> int:
@@ -99,16 +107,20 @@ def measure_streams(
         ):
             pool.map(_sum, work[:workers], 1)
             client.run(_sum, work[0])
-            sums = [0, 0]
+            sums, cpu = [0, 0], [np.inf, np.inf]
 
             def plain() -> None:
-                sums[0] = sum(pool.imap_unordered(_sum, work))
+                answers = list(pool.imap_unordered(_sum, work))
+                sums[0] = sum(answer[0] for answer in answers)
+                cpu[0] = min(cpu[0], sum(answer[1] for answer in answers))
 
             def by_dask() -> None:
+                before = sum(client.run(time.process_time).values())
                 sums[1] = int(total.compute())
+                cpu[1] = min(cpu[1], sum(client.run(time.process_time).values()) - before)
 
             seconds = best([plain, by_dask], rounds)
             most = max(pool.map(_most_memory, range(workers), 1))
             most_of_dask = max(client.run(_most_memory).values())
     times = [Time("plain processes", seconds[0]), Time("Dask", seconds[1])]
-    return Streams(times, (sums[0], sums[1]), (most, most_of_dask))
+    return Streams(times, (cpu[0], cpu[1]), (sums[0], sums[1]), (most, most_of_dask))

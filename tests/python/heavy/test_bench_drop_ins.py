@@ -15,6 +15,7 @@ def test_answers_are_the_same(name: str) -> None:
     if find_spec(PAIRS[name].original) is None:
         pytest.skip(f"{PAIRS[name].original} {NOT_HERE}")
     [(theirs, ours)] = measure([name], 300, 500, 1)
-    assert theirs.same == 1
+    # OpenDrift takes the face whose centre is the nearest.
+    assert 0.5 < theirs.same < 1 if name == "opendrift" else theirs.same == 1
     assert ours.name == f"meshwalk.{name}"
     assert ours.query > 0

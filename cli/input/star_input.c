@@ -1,0 +1,64 @@
+#include "cli/input/star_input.h"
+#include "cli/frame/message.h"
+#include "cli/frame/progress.h"
+#include "cli/frame/text.h"
+#include "cli/input/lonlat_input.h"
+
+#include <stdio.h>
+
+/* The options with which 'check' reads the polyhedron in the same way. */
+static const char *star_check_arguments(const star_input_settings *s, char words[128])
+{
+    const double *c = s->centre->at;
+    text t = {0};
+    text_string(&t, "--as star");
+    if (c[0] != 0 || c[1] != 0 || c[2] != 0) {
+        text_string(&t, " --centre ");
+        for (int k = 0; k < 3; k++) {
+            if (k) text_string(&t, ",");
+            text_double(&t, c[k]);
+        }
+    }
+    if (s->lonlat) text_string(&t, " --lonlat");
+    snprintf(words, 128, "%.*s", t.failed ? 0 : (int)t.size, t.failed ? "" : t.bytes);
+    text_release(&t);
+    return words;
+}
+
+static int star_input_fail(const star_input_settings *s, const char *path, bool flat,
+                           const mw_error *error)
+{
+    char words[128];
+    int end = fail_mesh(path, error);
+    if (end == END_INPUT && flat)
+        complain("%s: has no z; --lonlat takes x and y as longitude and latitude", path);
+    else if (end == END_INPUT)
+        complain("'meshwalk check %s %s' lists every defect, 'meshwalk view' shows it",
+                 star_check_arguments(s, words), path);
+    return end;
+}
+
+int star_input_make(star_input *in, const char *path, mw_mesh_file *file,
+                    const star_input_settings *s)
+{
+    mw_error error;
+    int end = s->lonlat ? lonlat_input_mesh(path, file) : 0;
+    if (end) return end;
+    const mw_arrays arrays = mw_mesh_file_arrays(file);
+    const mw_surface_options surface = {.weld = 1, .progress = progress_of_call()};
+    const mw_star_options star = {.centre = {s->centre->at[0], s->centre->at[1], s->centre->at[2]},
+                                  .angles = s->angles,
+                                  .threads = s->threads,
+                                  .progress = progress_of_call()};
+    progress_phase("preparing", path);
+    if (mw_surface_create(&arrays, &surface, &in->surface, &error) != MW_OK ||
+        mw_star_create(in->surface, &star, &in->star, &error) != MW_OK)
+        return star_input_fail(s, path, !file->has_z, &error);
+    return 0;
+}
+
+void star_input_release(star_input *s)
+{
+    mw_star_destroy(s->star);
+    mw_surface_destroy(s->surface);
+}

@@ -1,0 +1,29 @@
+/* star_input.h - a star-shaped polyhedron from the file of a mesh. */
+#ifndef MW_CLI_INPUT_STAR_INPUT_H
+#define MW_CLI_INPUT_STAR_INPUT_H
+
+#include "cli/frame/options.h"
+
+#include <meshwalk/meshwalk.h>
+
+typedef struct star_input {
+    mw_surface *surface;
+    mw_star *star;
+} star_input;
+
+/* How the polyhedron is taken. */
+typedef struct star_input_settings {
+    const coordinates *centre; /* not given: the origin */
+    bool lonlat;               /* x and y of a file without z are longitude and latitude */
+    bool angles;               /* for the orthogonal walk */
+    uint32_t threads;          /* 0: all there are */
+} star_input_settings;
+
+/* Make the polyhedron. Its vertices with equal coordinates are one: that closes the seam of a
+ * sphere, and its poles. With `lonlat` the vertices of the file come onto the unit sphere. Returns
+ * 0, or an exit code after a complaint; release it in both cases. */
+int star_input_make(star_input *s, const char *path, mw_mesh_file *file,
+                    const star_input_settings *settings);
+void star_input_release(star_input *s);
+
+#endif
