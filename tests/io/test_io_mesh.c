@@ -216,6 +216,7 @@ static void test_ply_binary(void **state)
     static const char *const types[] = {"char", "uchar", "short",  "ushort", "int",
                                         "uint", "int64", "uint64", "float",  "double"};
     static const size_t sizes[] = {1, 1, 2, 2, 4, 4, 8, 8, 4, 8};
+    const bool here_big = __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__;
     for (int big = 0; big < 2; big++) {
         char file_bytes[2048];
         size_t n =
@@ -232,7 +233,7 @@ static void test_ply_binary(void **state)
         unsigned char raw_[8];                                                                     \
         memcpy(raw_, &put_, sizeof put_);                                                          \
         for (size_t b_ = 0; b_ < sizeof put_; b_++)                                                \
-            file_bytes[n++] = (char)raw_[big ? sizeof put_ - 1 - b_ : b_];                         \
+            file_bytes[n++] = (char)raw_[big != here_big ? sizeof put_ - 1 - b_ : b_];             \
     } while (0)
         for (int v = 0; v < 3; v++) {
             PUT(int8_t, -100 - v);

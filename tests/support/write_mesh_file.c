@@ -1,5 +1,6 @@
 /* write_mesh_file.c - writes small mesh files, reads them, compares. */
 #include "support/write_mesh_file.h"
+#include "io/text/byte_order.h"
 
 #include <stdarg.h>
 #include <stddef.h>
@@ -19,11 +20,15 @@ bytes mesh_file_stl(char *memory, const char *header, uint32_t count, const floa
 {
     memset(memory, 0, 84);
     memcpy(memory, header, strlen(header));
-    memcpy(memory + 80, &count, 4);
+    mw__put_bytes((unsigned char *)memory + 80, 4, count);
     for (size_t t = 0; t < n; t++) {
         char *facet = memory + 84 + 50 * t;
         memset(facet, 0, 50);
-        memcpy(facet + 12, corners[t], 36);
+        for (size_t k = 0; k < 9; k++) {
+            uint32_t bits;
+            memcpy(&bits, &corners[t][k], sizeof bits);
+            mw__put_bytes((unsigned char *)facet + 12 + 4 * k, 4, bits);
+        }
     }
     return (bytes){memory, 84 + 50 * n};
 }
