@@ -213,7 +213,7 @@ static int ranks_measure_size(ranks_run *r, size_t vertices, const size_list *ra
     progress_phase("replaying", "queries");
     int end = ranks_make(r, vertices);
     for (int spread = 0; spread < RANK_SPREADS && end == 0; spread++)
-        end = ranks_measure_spread(r, ranks, spread);
+        end = ranks_measure_spread(r, ranks, (rank_spread)spread);
     rank_boxes_release(&r->boxes);
     mw_locator_destroy(r->locator);
     mw_mesh_destroy(r->mesh);
