@@ -3,9 +3,9 @@
  * Chunks for the threads; in a chunk, searches of a group take turns. The touches of a chunk lie in
  * an array of its own. When all are known, each goes to its place. */
 #include "base/job.h"
+#include "base/posix.h"
 #include "probe/ray.h"
 
-#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 
