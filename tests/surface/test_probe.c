@@ -318,7 +318,7 @@ static void test_guide(void **state)
         assert_int_equal(ask(&w, &sampling, q).state, MW_TOUCH_HIT);
         assert_int_equal(ask(&guided, &guide, q).state, MW_TOUCH_HIT);
     }
-    assert_true(guide.counters.triangles < 0.6 * (double)sampling.counters.triangles);
+    assert_true(5 * guide.counters.triangles < 3 * sampling.counters.triangles);
     assert_true(guide.counters.samples < sampling.counters.samples / 50);
     mw_prober_info info, plain;
     mw_prober_describe(w.guided, &info);
