@@ -105,8 +105,8 @@ bool mw__probe_guide_create(mw_probe_guide *guide, const mw_surface *surface, mw
         guide_find_box(guide, surface);
         guide_enter(guide, surface, cells);
         guide_fill(guide, &queue, cells);
-        if (guide->cell[0] == MW_NONE) guide->cell[0] = 0; /* nothing is finite: one for all */
-        for (uint32_t i = 1; i < cells && queue.end == 0; i++) guide->cell[i] = 0;
+        /* if no triangle is finite, no cell has one: any will do */
+        for (uint32_t i = 0; i < cells && queue.end == 0; i++) guide->cell[i] = 0;
         done = mw__job_step(job, 1, 1);
     }
     free(queue.item);
