@@ -75,7 +75,7 @@ static const format_places *format_find_places(const char *format)
         {.format = "node", .fields = true},
         {.format = "netcdf", .fields = true, .triangle_fields = true},
         {.format = "csv", .fields = true},
-        {.format = "vtk", .fields = true},
+        {.format = "vtk", .fields = true, .triangle_fields = true},
         {.format = "vtu", .fields = true, .triangle_fields = true},
         {.format = "fort.14", .field = "depth", .fields = true, .marks = true},
         {.format = "gr3", .field = "depth", .fields = true, .marks = true},
@@ -85,11 +85,7 @@ static const format_places *format_find_places(const char *format)
          .second_triangle_field = "physical",
          .fields = true,
          .triangle_fields = true},
-        {.format = "msh",
-         .triangle_field = "physical",
-         .second_triangle_field = "material",
-         .triangle_fields = true,
-         .marks = true},
+        {.format = "msh", .fields = true, .triangle_fields = true, .marks = true},
         {0},
     };
     const format_places *p = places;
