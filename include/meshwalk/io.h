@@ -240,16 +240,16 @@ MW_API int mw_constraints_known(const char *path);
  * - "2dm": SMS. The height is z; without z the negative field "depth". The material is the triangle
  *   field "material", else "physical", else 1
  * - "msh": Gmsh 2.2 as text. Physical groups as above where these are whole numbers, else 0;
- *   marked edges are lines in groups; other fields are $NodeData and $ElementData
+ *   marked edges are lines in groups; fields are $NodeData
  *
  * Faces that were cut into triangles (`faces`) are written as they were: quadrilaterals in gr3, 2dm
  * and msh, all polygons in vtu.
  *
- * PLY and netCDF keep the coordinate system; other formats do not. netCDF, vtk, vtu and msh keep
- * values per triangle; 2dm keeps some of them. fort.14, gr3 and msh keep marked edges. Vertices,
+ * PLY and netCDF keep the coordinate system; other formats do not. netCDF, vtk and vtu keep values
+ * per triangle; 2dm and msh keep some of them. fort.14, gr3 and msh keep marked edges. Vertices,
  * triangles, z and fields keep their order and every bit, except the sign of a NaN and the vertices
- * of STL and csv, which have corners only. Names of fields become single words, except in vtu, msh
- * and netCDF.
+ * of STL and csv, which have corners only. Names of fields become single words, except in vtu and
+ * msh.
  *
  * The two files of "node" are complete before .ele and then .node get their names. A program that
  * is stopped between these two steps leaves a new .ele without a .node, or with an old one.

@@ -58,11 +58,7 @@ ND 2 1 0 0
 ND 3 0 1 0
 E3T 1 1 2 3 -1.25' convert --format msh - d.msh
 exits 0
-says_nothing
-holds "values that are no numbers of groups stay values" \
-    grep -qx -e '1 -1.25' d.msh
-run convert d.msh d.2dm
-exits 0
+says 'the format msh has no place for these values of triangles: material is not written'
 run_on "$(cat b.msh)" convert --format fort.14 - -; exits 0
 says 'the format fort.14 has no place for these values of triangles: physical is not written'
 prints_line '^5 4 0 7$'

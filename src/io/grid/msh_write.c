@@ -1,7 +1,8 @@
 /* Writing MSH of Gmsh, version 2.2 as text: marked edges become lines in physical groups named like
  * their marks; faces become triangles and quadrilaterals, and the triangle field "physical" (or
- * "material"), if it has whole numbers, is the number of their physical group. Other fields become
- * $NodeData and $ElementData, without missing values. */
+ * "material"), if it has whole numbers, is the number of their physical group. Fields of vertices
+ * become $NodeData. There is no $ElementData, since meshio 5.3 fails to read it in files of several
+ * kinds of elements. */
 #include "io/grid/grid_writers.h"
 
 #include <math.h>
@@ -79,56 +80,20 @@ static void msh_write_names(mw_output *output, const mw_mesh_file *file)
     mw__output_text(output, "$EndPhysicalNames\n");
 }
 
-/* What stands before values: their name, a time of 0, and that it is step 0 of one value each. */
-static void msh_write_data_head(mw_output *output, const char *section, const char *name,
-                                size_t count)
-{
-    mw_output_printf(output, "$%s\n1\n", section);
-    msh_write_name(output, name);
-    mw_output_printf(output, "1\n0\n3\n0\n1\n%zu\n", count);
-}
-
-static void msh_write_value(mw_output *output, size_t number, double value)
-{
-    mw__output_integer(output, number);
-    mw__output_char(output, ' ');
-    mw_output_double(output, value);
-    mw__output_char(output, '\n');
-}
-
+/* Values of the vertices, at the time 0 and step 0, one each. Missing ones are NaN: meshio needs as
+ * many as there are vertices. */
 static void msh_write_field(mw_output *output, const mw_mesh_file *file, size_t f)
 {
-    const double *values = file->fields[f];
-    size_t count = 0;
-    for (size_t v = 0; v < file->point_count; v++) count += isnan(values[v]) ? 0 : 1;
-    msh_write_data_head(output, "NodeData", file->field_names[f], count);
-    for (size_t v = 0; v < file->point_count && !mw_output_failed(output); v++)
-        if (!isnan(values[v])) msh_write_value(output, v + 1, values[v]);
-    mw__output_text(output, "$EndNodeData\n");
-}
-
-/* The value of a face is that of its first triangle. */
-static void msh_write_face_field(mw_output *output, const mw_mesh_file *file, size_t f)
-{
-    const double *values = file->triangle_fields[f];
-    size_t face = file->edge_count, count = 0;
-    for (size_t t = 0; t < file->triangle_count; t += mw__face_triangles(file, t, 4))
-        count += isnan(values[t]) ? 0 : 1;
-    msh_write_data_head(output, "ElementData", file->triangle_field_names[f], count);
-    for (size_t t = 0; t < file->triangle_count && !mw_output_failed(output);
-         t += mw__face_triangles(file, t, 4)) {
-        face++;
-        if (!isnan(values[t])) msh_write_value(output, face, values[t]);
+    mw__output_text(output, "$NodeData\n1\n");
+    msh_write_name(output, file->field_names[f]);
+    mw_output_printf(output, "1\n0\n3\n0\n1\n%zu\n", file->point_count);
+    for (size_t v = 0; v < file->point_count && !mw_output_failed(output); v++) {
+        mw__output_integer(output, v + 1);
+        mw__output_char(output, ' ');
+        mw_output_double(output, file->fields[f][v]);
+        mw__output_char(output, '\n');
     }
-    mw__output_text(output, "$EndElementData\n");
-}
-
-static void msh_write_fields(mw_output *output, const mw_mesh_file *file)
-{
-    const double *groups = msh_find_groups(file);
-    for (size_t f = 0; f < file->field_count; f++) msh_write_field(output, file, f);
-    for (size_t f = 0; f < file->triangle_field_count; f++)
-        if (file->triangle_fields[f] != groups) msh_write_face_field(output, file, f);
+    mw__output_text(output, "$EndNodeData\n");
 }
 
 static void msh_write(mw_output *output, const mw_mesh_file *file)
@@ -149,7 +114,7 @@ static void msh_write(mw_output *output, const mw_mesh_file *file)
     msh_write_edges(output, file);
     msh_write_faces(output, file);
     mw__output_text(output, "$EndElements\n");
-    msh_write_fields(output, file);
+    for (size_t f = 0; f < file->field_count; f++) msh_write_field(output, file, f);
 }
 
 mw_status mw__write_msh(const char *path, const mw_mesh_file *file, mw_job *job, mw_error *error)
