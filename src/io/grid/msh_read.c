@@ -288,12 +288,12 @@ static mw_status msh_read_elements(msh_mesh *m, mw_error *error)
 
 /* --- values --- */
 
-static mw_status msh_read_vertex_data(msh_mesh *m, mw_error *error)
+static mw_status msh_vertex_data(msh_mesh *m, mw_error *error)
 {
     return mw__msh_read_data(&m->in, m->builder, &m->vertices, false, error);
 }
 
-static mw_status msh_read_face_data(msh_mesh *m, mw_error *error)
+static mw_status msh_face_data(msh_mesh *m, mw_error *error)
 {
     size_t twice = SIZE_MAX;
     mw_status status = m->faces_sorted ? MW_OK : mw__ranks_sort(&m->faces, &twice, error);
@@ -379,8 +379,8 @@ static const msh_section *msh_find_section(const msh_mesh *m, const char *name)
         {.name = "$PartitionedEntities", .read = msh_read_partitions, .of_41 = true},
         {.name = "$Nodes", .read = msh_read_vertices},
         {.name = "$Elements", .read = msh_read_elements},
-        {.name = "$NodeData", .read = msh_read_vertex_data, .of_faces = true},
-        {.name = "$ElementData", .read = msh_read_face_data, .of_faces = true}};
+        {.name = "$NodeData", .read = msh_vertex_data, .of_faces = true},
+        {.name = "$ElementData", .read = msh_face_data, .of_faces = true}};
     for (size_t i = 0; i < sizeof sections / sizeof *sections; i++) {
         const msh_section *section = &sections[i];
         if (strcmp(name, section->name) != 0) continue;
