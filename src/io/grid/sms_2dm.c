@@ -1,8 +1,8 @@
 /* 2DM, the meshes of SMS: one card on each line. Read are ND (vertex: number x y z), E3T and E4Q
- * (triangle and quadrilateral: number, corners, material, which may be a real number). Cards of lines (E2L, E3L), node strings
- * and all other cards are skipped; elements with vertices on their sides (E6T, E8Q, E9Q) are
- * refused. Numbers may have gaps and come in any order: vertices and faces are counted in the order
- * of their numbers, as datasets list their values. */
+ * (triangle and quadrilateral: number, corners, material, which may be a real number). Cards of
+ * lines (E2L, E3L), node strings and all other cards are skipped; elements with vertices on their
+ * sides (E6T, E8Q, E9Q) are refused. Numbers may have gaps and come in any order: vertices and
+ * faces are counted in the order of their numbers, as datasets list their values. */
 #include "io/grid/grid_readers.h"
 #include "io/grid/number_list.h"
 #include "io/text/counted_rows.h"
