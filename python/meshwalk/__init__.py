@@ -64,6 +64,8 @@ if TYPE_CHECKING:
     from meshwalk._plot import explain, plot
     from meshwalk._polygons import PolygonHits, Polygons
     from meshwalk._prepared import map
+    from meshwalk._segments import Segments
+    from meshwalk._sight import Sights, SightState, visible
     from meshwalk._space.prober import (
         Deviation,
         NearestPoints,
@@ -73,8 +75,6 @@ if TYPE_CHECKING:
         TouchLists,
         TouchState,
     )
-    from meshwalk._segments import Segments
-    from meshwalk._sight import Sights, SightState, visible
     from meshwalk._space.star import (
         Remeshed,
         Star,

@@ -297,7 +297,7 @@ class Surface(_core.Surface):
     def _keep(self, follower: Any) -> None:
         """What was made beside the surface is to be brought up to date with it."""
         self._kept.add(follower)
-        editor = self._editor and self._editor()
+        editor = None if self._editor is None else self._editor()
         if editor is not None:
             editor._attach(follower)
 
@@ -352,7 +352,9 @@ class Surface(_core.Surface):
             arrays = (self.points, self.triangles, self._fields)
         triangles = arrays[1]
         if not self._options[1] and (triangles[:, 0] == triangles[:, 1]).any():
-            raise TypeError("edits have freed triangles: SurfaceEditor.copy() pickles, or compact()")
+            raise TypeError(
+                "edits have freed triangles: SurfaceEditor.copy() pickles, or compact()"
+            )
         return _restore, (type(self), *arrays, *self._options)
 
 

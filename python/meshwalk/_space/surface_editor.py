@@ -221,14 +221,14 @@ class SurfaceEditor(_core.SurfaceEditor):
         path: ArrayLike | None = None,
         other: ArrayLike | None = None,
     ) -> SurfaceChange:
-        place = _ANYWHERE if point is None else _place(point)
+        x, y, z = _ANYWHERE if point is None else _place(point)
         v0, v1, v2 = (*vertices, 0, 0, 0)[:3]
         chains = [
             None if chain is None else _arrays.indices(chain, name, (None,), None)
             for name, chain in (("path", path), ("other", other))
         ]
         with self.surface._lock:
-            return SurfaceChange(self._apply(kind, triangle, v0, v1, v2, *place, *chains))
+            return SurfaceChange(self._apply(kind, triangle, v0, v1, v2, x, y, z, *chains))
 
     def add_vertex(self, point: ArrayLike) -> SurfaceChange:
         """Add a vertex of no triangle.
@@ -378,7 +378,9 @@ class SurfaceEditor(_core.SurfaceEditor):
         """
         chains = [np.shape(path), np.shape(other)]
         if chains[0] != chains[1]:
-            raise ValueError(f"the chains must have the same shape, not {chains[0]} and {chains[1]}")
+            raise ValueError(
+                f"the chains must have the same shape, not {chains[0]} and {chains[1]}"
+            )
         return self._edit(_Kind.SEW, path=path, other=other)
 
     def undo(self) -> SurfaceChange:
@@ -479,11 +481,12 @@ class SurfaceEditor(_core.SurfaceEditor):
         raise TypeError("an editor does not pickle; its copy() does")
 
 
-def _place(point: ArrayLike) -> tuple[float, ...]:
+def _place(point: ArrayLike) -> tuple[float, float, float]:
     """One point in space; what is not finite is the library's to refuse."""
     rows, _ = _arrays.queries(point, "point", 3)
     if np.shape(point) != (3,):
         raise ValueError(f"point must have the shape (3,), not {np.shape(point)}")
     if np.isnan(rows[0, 0]):
         raise ValueError("point is not finite")
-    return tuple(float(x) for x in rows[0])
+    x, y, z = (float(value) for value in rows[0])
+    return x, y, z
