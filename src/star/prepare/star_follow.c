@@ -79,7 +79,7 @@ static bool star_is_current(const mw_star *star)
 
 /* Follow the vertices that moved, if that can be. A star that is not star-shaped cannot turn round
  * its vertices. */
-static bool star_follow(mw_star *star, const mw_star_update_options *options)
+static bool star_follow_update(mw_star *star, const mw_star_update_options *options)
 {
     if (!options->moved || !star_is_current(star)) return false;
     if (options->moved_count == 0 && star->track.on) return true;
@@ -156,7 +156,7 @@ mw_status mw_star_update(mw_star *star, const mw_star_update_options *options, m
     mw_status status = MW_RESERVED_CHECK(mw_star_update_options, options, error);
     if (!status) status = star_check_moved(star, options, error);
     if (status) return status;
-    bool followed = star_follow(star, options);
+    bool followed = star_follow_update(star, options);
     if (!followed || !star_conclude(star)) status = star_update_all(star, options, followed, error);
     if (!status || star->track.on) star->version = star->surface->version;
     return status;

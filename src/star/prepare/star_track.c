@@ -237,7 +237,7 @@ void mw__star_track_drop(mw_star *star, uint32_t t)
 /* --- memory --- */
 
 /* Grow an array that begins at a cache line, which realloc would not keep. */
-static bool lines_make_room(void *array, size_t count, size_t room, size_t size)
+static bool facet_lines_make_room(void *array, size_t count, size_t room, size_t size)
 {
     void **records = array, *more = mw__alloc_lines(room, size);
     if (!more) return false;
@@ -283,7 +283,7 @@ static bool facets_reserve(mw_star *star, size_t count)
     if (!state) return false;
     star->track.state = state;
     if (!numbers_make_room(&star->track.place, room) || !guide_refine(star, (uint32_t)room) ||
-        !lines_make_room(&star->facet, star->facet_count, room, sizeof *star->facet))
+        !facet_lines_make_room(&star->facet, star->facet_count, room, sizeof *star->facet))
         return false;
     for (size_t t = star->tri_room; t < room; t++) {
         star->track.state[t] = 0;
@@ -300,7 +300,7 @@ static bool vertices_reserve(mw_star *star, size_t count)
     if (!numbers_make_room(&star->track.degree, room) || !numbers_make_room(&star->owner, room))
         return false;
     if (star->angle &&
-        !lines_make_room(&star->angle, star->point_room, room, 2 * sizeof *star->angle))
+        !facet_lines_make_room(&star->angle, star->point_room, room, 2 * sizeof *star->angle))
         return false;
     for (size_t v = star->point_room; v < room; v++) {
         star->track.degree[v] = 0;

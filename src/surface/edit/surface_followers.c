@@ -170,13 +170,13 @@ static void prober_follow(const mw_surface_editor *e, mw_prober *prober)
 
 /* --- stars --- */
 
-static void facet_renew(const mw_surface_editor *e, void *star, uint32_t t)
+static void star_facet_renew(const mw_surface_editor *e, void *star, uint32_t t)
 {
     (void)e;
     mw__star_track_renew(star, t);
 }
 
-static void facet_link(const mw_surface_editor *e, void *star, uint32_t t)
+static void star_facet_link(const mw_surface_editor *e, void *star, uint32_t t)
 {
     (void)e;
     mw__star_track_link(star, t);
@@ -194,11 +194,11 @@ static void facets_follow(const mw_surface_editor *e, mw_star *star)
             mw__star_track_renew(star, i->triangle);
     for (uint32_t t = step->tri_count; t < e->surface->tri_count; t++)
         mw__star_track_renew(star, t);
-    triangles_moved(e, star, facet_renew);
+    triangles_moved(e, star, star_facet_renew);
     for (const mw_triangle_entry *i = first; i < end; i++)
         if (mw__surface_has_triangle(e, i->triangle)) mw__star_track_link(star, i->triangle);
     for (uint32_t t = step->tri_count; t < e->surface->tri_count; t++) mw__star_track_link(star, t);
-    triangles_moved(e, star, facet_link);
+    triangles_moved(e, star, star_facet_link);
     for (const mw_triangle_entry *i = first; i < end; i++)
         if (!mw__surface_has_triangle(e, i->triangle)) mw__star_track_drop(star, i->triangle);
 }
