@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { CALLERS = 3, LEVEL = 6 };
+enum { CALLERS = 3, LEVEL = 5 };
 
 typedef struct resampled {
     const mw_star *star;
