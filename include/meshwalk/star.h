@@ -109,8 +109,8 @@ typedef struct mw_star_update_options {
  * queries return MW_BAD. Where mw_star_update_options.moved lists few vertices, only the facets
  * round these are decided again. All facets are decided if edges were flipped, if the last update
  * failed or one was left out, and where facets have no area. A star that is attached to an editor
- * (mw_surface_editor_attach_star()) follows edits by itself; of such a star an update with a list of
- * no vertices takes O(1) if the surface is star-shaped.
+ * (mw_surface_editor_attach_star()) follows edits by itself; an update of it with a list of no
+ * vertices takes O(1) if the surface is star-shaped.
  *
  * @param star     the star
  * @param options  NULL selects the defaults
