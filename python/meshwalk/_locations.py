@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from meshwalk._borrowed import BorrowedMesh
     from meshwalk._core import Progress
     from meshwalk._mesh import Mesh
-    from meshwalk._surface import Surface
+    from meshwalk._space.surface import Surface
 
 LOCATION = _arrays.record_type(
     _core.LOCATION_LAYOUT,
@@ -307,7 +307,7 @@ class Locations:
     def _core_operator(self, threads: int, progress: Progress | None) -> _core.Operator:
         """The weights, for an `Operator`."""
         from meshwalk._mesh import Mesh
-        from meshwalk._surface import Surface
+        from meshwalk._space.surface import Surface
 
         records = np.ascontiguousarray(self._records).reshape(-1)
         if isinstance(self._mesh, Mesh):

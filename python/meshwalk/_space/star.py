@@ -11,7 +11,7 @@ from meshwalk import _arrays, _core
 from meshwalk._check import check_star
 from meshwalk._errors import InputError
 from meshwalk._locations import LOCATION, Locations
-from meshwalk._surface import Surface
+from meshwalk._space.surface import Surface
 
 if TYPE_CHECKING:
     from typing import Self
@@ -109,7 +109,7 @@ class Star(_core.Star):
                 error.defect = next((d for d in found.defects if d.kind != "flat triangle"), None)
                 raise
             star._centre = (x, y, z)
-            surface._kept.add(star)
+            surface._keep(star)
         return star
 
     def locate(

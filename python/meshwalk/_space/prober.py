@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 import numpy as np
 
 from meshwalk import _arrays, _core
-from meshwalk._surface import Surface
+from meshwalk._space.surface import Surface
 
 if TYPE_CHECKING:
     from typing import Self
@@ -332,7 +332,7 @@ class Prober(_core.Prober):
             prober = _core.prober_from_surface(cls, surface, boxes, guide, threads, progress)
             prober._boxes = boxes
             prober._guide = guide
-            surface._kept.add(prober)
+            surface._keep(prober)
         return prober
 
     def probe(
