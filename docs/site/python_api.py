@@ -33,7 +33,7 @@ def make(pages: Pages, package: Path) -> str:
     groups: dict[str, list[str]] = {}
     for node in ast.walk(tree):  # some are there for type checkers only
         if isinstance(node, ast.ImportFrom):
-            names = [a.name for a in node.names if a.name in meshwalk.__all__]
+            names = [a.name for a in node.names if a.name in dir(meshwalk)]
             if names:
                 groups.setdefault(node.module.rpartition("._")[2], []).extend(names)
     rows = []
