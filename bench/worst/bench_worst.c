@@ -127,7 +127,7 @@ static void worst_print_row(worst_run *r, int trap, size_t vertices, const trap_
     text_string(&r->table, "\n");
 }
 
-/* Drop those that took so long to build that they would take more than a minute at the next size. */
+/* Drop those that would take more than a minute to build at the next size. */
 static void worst_drop_slow(const trap_figures *f, double growth, uint32_t *set)
 {
     for (engine_id id = 0; id < ENGINES; id++)
