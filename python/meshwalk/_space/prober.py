@@ -101,7 +101,7 @@ class Found:
 
     def __init__(self, surface: Surface, records: NDArray[Any]) -> None:
         self.surface = surface
-        self.records = records
+        self.records = _arrays.frozen(records)
 
     @property
     def triangle(self) -> NDArray[np.int32]:
@@ -223,7 +223,7 @@ class TouchLists(Touches):
 
     def __init__(self, surface: Surface, records: NDArray[Any], offsets: NDArray[np.int64]) -> None:
         super().__init__(surface, records)
-        self.offsets = offsets
+        self.offsets = _arrays.frozen(offsets)
 
     @property
     def count(self) -> NDArray[np.int64]:
