@@ -68,8 +68,12 @@ endif()
 add_test(NAME arrows COMMAND ${PROJECT_SOURCE_DIR}/tools/check_arrows)
 add_test(NAME arrows_self_test COMMAND ${PROJECT_SOURCE_DIR}/tools/test_check_arrows)
 add_test(NAME calls COMMAND ${PROJECT_SOURCE_DIR}/tools/check_calls $<TARGET_FILE:meshwalk_static>)
-add_test(NAME man3 COMMAND ${PROJECT_SOURCE_DIR}/tools/check_man3 ${PROJECT_SOURCE_DIR}/include
-  ${PROJECT_BINARY_DIR}/man3)
+add_test(NAME man3 COMMAND ${PROJECT_SOURCE_DIR}/tools/check_man3
+  ${PROJECT_SOURCE_DIR}/include/meshwalk ${PROJECT_BINARY_DIR}/man3)
+if(MW_HAS_MPI)
+  add_test(NAME man3_mpi COMMAND ${PROJECT_SOURCE_DIR}/tools/check_man3
+    ${PROJECT_SOURCE_DIR}/mpi/include/meshwalk-mpi ${PROJECT_BINARY_DIR}/man3-mpi)
+endif()
 add_test(NAME citations COMMAND ${PROJECT_SOURCE_DIR}/tools/check_citations)
 add_test(NAME links COMMAND ${PROJECT_SOURCE_DIR}/tools/check_links)
 add_test(NAME columns COMMAND ${PROJECT_SOURCE_DIR}/tools/check_columns)

@@ -22,14 +22,20 @@ if(MW_HAS_MPI)
   install(DIRECTORY mpi/include/meshwalk-mpi DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 endif()
 
-# Manual pages of section 3 come from the comments of the headers.
-file(GLOB headers CONFIGURE_DEPENDS include/meshwalk/*.h)
-set(man3_dir ${PROJECT_BINARY_DIR}/man3)
-add_custom_command(OUTPUT ${man3_dir}/meshwalk-base.3
-  COMMAND ${PROJECT_SOURCE_DIR}/tools/make_man3 ${PROJECT_SOURCE_DIR}/include ${man3_dir}
-  DEPENDS ${headers} tools/make_man3 tools/man3.awk docs/man/meshwalk.1)
-add_custom_target(man3 ALL DEPENDS ${man3_dir}/meshwalk-base.3)
-install(DIRECTORY ${man3_dir}/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man3)
+# Manual pages of section 3 come from the comments of the headers: man3/ and man3-mpi/ of the build.
+function(add_man3 directory first)
+  set(pages ${PROJECT_BINARY_DIR}/${directory})
+  add_custom_command(OUTPUT ${pages}/${first}.3
+    COMMAND ${PROJECT_SOURCE_DIR}/tools/make_man3 ${pages} ${ARGN}
+    DEPENDS ${ARGN} tools/make_man3 tools/man3.awk docs/man/meshwalk.1)
+  add_custom_target(${directory} ALL DEPENDS ${pages}/${first}.3)
+  install(DIRECTORY ${pages}/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man3)
+endfunction()
+file(GLOB headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/include/meshwalk/*.h)
+add_man3(man3 meshwalk-base ${headers})
+if(MW_HAS_MPI)
+  add_man3(man3-mpi meshwalk-mpi ${PROJECT_SOURCE_DIR}/mpi/include/meshwalk-mpi/meshwalk-mpi.h)
+endif()
 
 set(needs_threads ON)
 if(MW_WASI)
