@@ -526,6 +526,9 @@ def remap_to_pixels(
     progress: Progress | None,
     /,
 ) -> _RawRemap: ...
+def seam_cut(
+    points: Buffer, triangles: Buffer, cells: Buffer | None, /
+) -> tuple[memoryview, memoryview, memoryview, float] | None: ...
 def sights(
     locator: Locator,
     heights: Buffer,
