@@ -93,7 +93,7 @@ static void points_own(double *points, size_t n, int rank, const mwp_mesh *mesh)
 
 /* --- rounds ----------------------------------------------------------------------------------- */
 
-static double processor_seconds(void)
+static double rank_processor_seconds(void)
 {
     struct timespec now;
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
@@ -110,10 +110,10 @@ static void rounds_run(mwp_mesh *mesh, const double *points, size_t n, int round
     MPI_Comm_size(MPI_COMM_WORLD, &ranks);
     for (int round = 0; round < rounds; round++) {
         MPI_Barrier(MPI_COMM_WORLD);
-        double wall = -MPI_Wtime(), used = -processor_seconds(), slowest, all;
+        double wall = -MPI_Wtime(), used = -rank_processor_seconds(), slowest, all;
         if (mwp_locate_batch(mesh, points, n, 2, NULL, at, &error)) stop(error.message);
         wall += MPI_Wtime();
-        used += processor_seconds();
+        used += rank_processor_seconds();
         MPI_Allreduce(&wall, &slowest, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
         MPI_Allreduce(&used, &all, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
         if (slowest >= best) continue;

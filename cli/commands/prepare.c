@@ -234,7 +234,7 @@ const command prepare_command = {
         "--tiles the mesh is cut into many such files, for machines with less memory than it "
         "takes.",
     .options = tables,
-    .essential = "border tiles fields crs output threads",
+    .essential = "border tiles fields crs output",
     .settings_size = sizeof(prepare_settings),
     .run = prepare_run,
 };
