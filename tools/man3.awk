@@ -2,9 +2,8 @@
 #
 # A comment /** ... */ belongs to the declaration that follows it; the one with @file is the page's
 # own. What a comment says goes into the page as it is: paragraphs, lists of lines that begin with
-# "- ", @param and @return. -v page: the name of the page; -v header: how the header is included;
-# -v library: what pkg-config calls the library; -v names: a file that receives the functions, a
-# line each.
+# "- ", @param and @return. -v page: its name; -v header: as programs include it; -v package: its
+# name for pkg-config; -v date; -v names: a file that receives the functions, a line each.
 
 function escape(text)
 {
@@ -141,7 +140,7 @@ function begin_page(    i, brief)
     print ".Sh SYNOPSIS"
     print ".In " header
     print ".Pp"
-    print (library ~ /-mpi$/ ? "mpicc" : "cc") " ... $(pkg-config --cflags --libs " library ")"
+    print (package ~ /-mpi$/ ? "mpicc" : "cc") " ... $(pkg-config --cflags --libs " package ")"
     print ".Sh DESCRIPTION"
     print_comment()
     print ".Sh INTERFACE"
