@@ -25,4 +25,13 @@ bool mw__star_corners_hold(const mw_star *star, const uint32_t v[3]);
  * the present part of the job. Returns false when out of memory, or cancelled. */
 bool mw__star_kernel_check(mw_star *star, mw_job *job, mw_defects *defects);
 
+/* Does the ray of the third condition lie to the left of the three edges of a facet that is
+ * counter-clockwise from outside? */
+bool mw__star_first_ray_meets(const mw_star *star, const uint32_t v[3]);
+
+/* Decide the same without memory, for a surface that has no flat facets but void ones: true, with
+ * star->area_count set. False: it is not star-shaped, or has flat facets, or the job is to stop.
+ * Nothing is oriented. A stage that takes the present part of the job. */
+bool mw__star_kernel_holds(mw_star *star, mw_job *job);
+
 #endif

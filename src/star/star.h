@@ -59,7 +59,7 @@ struct mw_star {
     /* For the upper bits of a curve key, a facet near there; see mw__star_guide_facet. */
     uint32_t *guide;
     uint32_t guide_bits;
-    mw_hilbert curve; /* of keys */
+    mw_hilbert *curve; /* of keys; NULL of a borrowed star */
     float near;       /* a query this near to a facet's cone starts there: see star_start.c */
     mw_star_hubs hubs;
     /* Per vertex: its representative, from the surface or own; NULL: no two coincide. */
@@ -81,6 +81,10 @@ struct mw_star {
     uint64_t shape;       /* and its shape */
     bool ready;           /* the last check found it star-shaped */
     bool angles;          /* `angle` is wanted */
+    /* Rays walk on the surface's own records (star/borrow): there are no arrays here. */
+    bool borrowed;
+    bool unchecked; /* and nothing was decided, so that the star is always ready */
+    bool has_flat;  /* or flat facets were found between others */
 };
 
 /* Corner k of a facet with vertices v. */
@@ -188,12 +192,18 @@ static MW_INLINE uint32_t mw__star_guide_bits(uint32_t facets)
     return bits;
 }
 
+/* The curve over the sphere. */
+static inline mw_hilbert mw__star_curve(void)
+{
+    return mw__hilbert((const double[2]){-1, -1}, (const double[2]){1, 1});
+}
+
 /* The key of the direction d, not zero, on the curve over the sphere. */
-static MW_INLINE uint32_t mw__star_curve_key(const mw_star *star, const double d[3])
+static MW_INLINE uint32_t mw__star_curve_key(const mw_hilbert *curve, const double d[3])
 {
     double x, y;
     mw__star_unfold(d, &x, &y);
-    return mw__hilbert_key(&star->curve, x, y);
+    return mw__hilbert_key(curve, x, y);
 }
 
 /* A facet near a key of the curve over the sphere. */
@@ -228,6 +238,17 @@ void mw__star_renew_angles(mw_star *star, mw_star_facet *facet);
  * a facet has lost its area, or memory is short. O(k log k) for the k facets round the vertices,
  * and O(n) when star->place is made. */
 bool mw__star_follow(mw_star *star, const uint32_t *moved, size_t count);
+
+/* The same where any vertex may have moved: all facets are decided, but stay where they are in
+ * memory. Returns false where all is to be made anew, also because the guide leads badly by now; or
+ * the job is to stop. The star is not ready then. A stage that takes the present part of the job.
+ * O(n) */
+bool mw__star_follow_all(mw_star *star, mw_job *job);
+
+/* --- star_create.c --- */
+
+/* About the largest coordinate relative to the centre. */
+double mw__star_measure_reach(const mw_star *star);
 
 /* --- star_walk_run.c --- */
 

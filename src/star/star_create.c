@@ -54,7 +54,7 @@ static void star_replace_voids(mw_star *star, uint32_t any)
     }
 }
 
-static double star_measure_reach(const mw_star *star)
+double mw__star_measure_reach(const mw_star *star)
 {
     double reach = 0;
     for (uint32_t v = 0; v < star->point_count; v++)
@@ -71,20 +71,26 @@ static uint32_t star_any_facet(const mw_star *star)
     return star->owner[v];
 }
 
-/* Check the polyhedron, and prepare star->tri for the layout. */
-static mw_status star_decide(mw_star *star, mw_job *job, mw_error *error)
+/* Check the polyhedron, whose triangles star->tri becomes, turned. */
+static mw_status star_check_kernel(mw_star *star, mw_job *job, mw_error *error)
 {
     mw_defects defects = {0};
-    star->coincident = star->surface->coincident;
-    star->freed_count = star->surface->freed_triangles;
     memcpy(star->tri, star->surface->tri, star->tri_count * sizeof *star->tri);
-    mw_job_span outer = mw__job_part(job, 0.5);
     mw_status status = mw__star_kernel_check(star, job, &defects) ? MW_OK : mw__fail_memory(error);
-    mw__job_part_end(job, outer);
     if (status == MW_OK && defects.count) status = star_refuse(&defects, error);
     mw__defects_release(&defects);
     if (status == MW_OK && star->area_count == 0)
         status = mw__fail(error, MW_ERROR_INPUT, "the polyhedron has no facet with an area");
+    return status;
+}
+
+/* Check the polyhedron, and prepare star->tri for the layout. */
+static mw_status star_decide(mw_star *star, mw_job *job, mw_error *error)
+{
+    star->coincident = star->surface->coincident;
+    mw_job_span outer = mw__job_part(job, 0.5);
+    mw_status status = star_check_kernel(star, job, error);
+    mw__job_part_end(job, outer);
     if (status) return status;
     if (star->area_count < star->tri_count) {
         if (!star_find_coincident(star)) return mw__fail_memory(error);
@@ -111,18 +117,46 @@ static void star_finish(mw_star *star)
     star->ready = true;
 }
 
+/* Run a decision that needs star->tri. */
+static mw_status star_with_triangles(mw_star *star, mw_job *job, mw_error *error,
+                                     mw_status (*decide)(mw_star *star, mw_job *job,
+                                                         mw_error *error))
+{
+    star->tri = mw__alloc(star->tri_count, sizeof *star->tri);
+    mw_status status = star->tri ? decide(star, job, error) : mw__fail_memory(error);
+    free(star->tri);
+    star->tri = NULL;
+    return status;
+}
+
+/* A borrowed star has nothing to fill in. Only if there are flat facets, or defects to be named,
+ * its check takes memory. */
+static mw_status star_prepare_borrowed(mw_star *star, mw_job *job, mw_error *error)
+{
+    mw_job_span outer = mw__job_part(job, 0.5);
+    star->has_flat = !star->unchecked && !mw__star_kernel_holds(star, job);
+    mw__job_part_end(job, outer);
+    outer = mw__job_part(job, 0.5);
+    mw_status status =
+        star->has_flat ? star_with_triangles(star, job, error, star_check_kernel) : MW_OK;
+    mw__job_part_end(job, outer);
+    star->version = star->surface->version;
+    star->shape = star->surface->shape;
+    star->ready = status == MW_OK;
+    return status;
+}
+
 /* Fill in everything that depends on coordinates and links. */
 static mw_status star_prepare(mw_star *star, mw_job *job, mw_error *error)
 {
     star->ready = false;
+    star->freed_count = star->surface->freed_triangles;
     free(star->place);
     star->place = NULL;
-    star->tri = mw__alloc(star->tri_count, sizeof *star->tri);
-    mw_status status = star->tri ? star_decide(star, job, error) : mw__fail_memory(error);
-    free(star->tri);
-    star->tri = NULL;
+    if (star->borrowed) return star_prepare_borrowed(star, job, error);
+    mw_status status = star_with_triangles(star, job, error, star_decide);
     if (status) return status;
-    star->reach = star_measure_reach(star);
+    star->reach = mw__star_measure_reach(star);
     if (star->angle) mw__star_fill_angles(star);
     star_finish(star);
     return MW_OK;
@@ -150,6 +184,8 @@ static void star_release_arrays(mw_star *star)
     free(star->owner);
     free(star->guide);
     free(star->angle);
+    free(star->curve);
+    star->curve = NULL;
     star->facet = NULL;
     star->owner = star->guide = NULL;
     star->angle = NULL;
@@ -162,12 +198,26 @@ static bool star_allocate(mw_star *star, bool angles)
     star->point_count = star->surface->point_count;
     star->fuel = star_fuel(star->tri_count);
     star->near = star_near(star->tri_count);
+    if (star->borrowed) return true;
+    star->curve = mw__alloc(1, sizeof *star->curve);
+    if (star->curve) *star->curve = mw__star_curve();
     star->facet = mw__alloc_lines(star->tri_count, sizeof *star->facet);
     star->owner = mw__alloc(star->point_count, sizeof *star->owner);
     star->guide_bits = mw__star_guide_bits(star->tri_count);
     star->guide = mw__alloc((size_t)1 << star->guide_bits, sizeof *star->guide);
     if (angles) star->angle = mw__alloc_lines(star->point_count, 2 * sizeof *star->angle);
-    return star->facet && star->owner && star->guide && (star->angle || !angles);
+    return star->curve && star->facet && star->owner && star->guide && (star->angle || !angles);
+}
+
+static mw_status star_check_options(const mw_star_options *options, mw_error *error)
+{
+    if (!mw__is_finite3(options->centre))
+        return mw__fail(error, MW_ERROR_ARGUMENT, "the centre is not finite");
+    if (options->unchecked && !options->borrow)
+        return mw__fail(error, MW_ERROR_ARGUMENT, "'unchecked' goes with 'borrow' only");
+    if (options->angles && options->borrow)
+        return mw__fail(error, MW_ERROR_ARGUMENT, "a borrowed star has no angles");
+    return MW_RESERVED_CHECK(mw_star_options, options, error);
 }
 
 mw_status mw_star_create(const mw_surface *surface, const mw_star_options *options, mw_star **out,
@@ -178,15 +228,14 @@ mw_status mw_star_create(const mw_surface *surface, const mw_star_options *optio
     *out = NULL;
     if (!surface) return mw__fail(error, MW_ERROR_ARGUMENT, "no surface");
     if (!options) options = &defaults;
-    if (!mw__is_finite3(options->centre))
-        return mw__fail(error, MW_ERROR_ARGUMENT, "the centre is not finite");
-    mw_status status = MW_RESERVED_CHECK(mw_star_options, options, error);
+    mw_status status = star_check_options(options, error);
     if (status) return status;
     mw_star *star = mw__calloc(1, sizeof *star);
     if (!star) return mw__fail_memory(error);
     star->surface = surface;
-    star->curve = mw__hilbert((const double[2]){-1, -1}, (const double[2]){1, 1});
     star->angles = options->angles != 0;
+    star->borrowed = options->borrow != 0;
+    star->unchecked = options->unchecked != 0;
     memcpy(star->centre, options->centre, sizeof star->centre);
     mw_job job = mw__job(options->threads, options->progress);
     status = star_allocate(star, options->angles) ? star_prepare(star, &job, error)
@@ -204,6 +253,7 @@ mw_status mw_star_create(const mw_surface *surface, const mw_star_options *optio
 static bool star_follow_counts(mw_star *star)
 {
     const mw_surface *surface = star->surface;
+    if (star->borrowed) return star_allocate(star, false);
     if (star->facet && star->tri_count == surface->tri_count &&
         star->point_count == surface->point_count)
         return true;
@@ -216,11 +266,38 @@ static bool star_follow_counts(mw_star *star)
     return false;
 }
 
+/* Has nothing changed but places of vertices, and are all facets such that they can be decided where
+ * they stand? */
+static bool star_keeps_shape(const mw_star *star)
+{
+    return star->ready && !star->borrowed && star->surface->shape == star->shape &&
+           star->area_count == star->tri_count;
+}
+
 /* Can the facets round the vertices that moved be decided alone? */
 static bool star_can_follow(const mw_star *star)
 {
-    return star->ready && star->surface->version - star->version <= 1 &&
-           star->surface->shape == star->shape && star->area_count == star->tri_count;
+    return star_keeps_shape(star) && star->surface->version - star->version <= 1;
+}
+
+/* Decide all facets: where they stand if that will do, else as for a new star. */
+static mw_status star_renew(mw_star *star, mw_job *job, mw_error *error)
+{
+    double left = 1;
+    if (star_keeps_shape(star)) {
+        mw_job_span outer = mw__job_part(job, 0.5);
+        bool done = mw__star_follow_all(star, job);
+        mw__job_part_end(job, outer);
+        if (done) {
+            star_finish(star);
+            return MW_OK;
+        }
+        left = 0.5;
+    }
+    mw_job_span outer = mw__job_part(job, left);
+    mw_status status = star_prepare(star, job, error);
+    mw__job_part_end(job, outer);
+    return status;
 }
 
 mw_status mw_star_update(mw_star *star, const mw_star_update_options *options, mw_error *error)
@@ -242,7 +319,7 @@ mw_status mw_star_update(mw_star *star, const mw_star_update_options *options, m
         return MW_OK;
     }
     mw_job job = mw__job(options->threads, options->progress);
-    return mw__job_end(&job, star_prepare(star, &job, error), error);
+    return mw__job_end(&job, star_renew(star, &job, error), error);
 }
 
 void mw_star_destroy(mw_star *star)
@@ -258,16 +335,18 @@ void mw_star_destroy(mw_star *star)
 void mw_star_describe(const mw_star *star, mw_star_info *info)
 {
     size_t coincident = star->own_coincident ? star->point_count * sizeof *star->own_coincident : 0;
-    size_t guide = ((size_t)1 << star->guide_bits) * sizeof *star->guide;
+    size_t guide = star->guide ? ((size_t)1 << star->guide_bits) * sizeof *star->guide : 0,
+           curve = star->curve ? sizeof *star->curve : 0;
     size_t angles = star->angle ? star->point_count * 2 * sizeof *star->angle : 0;
-    size_t facets = star->tri_count * sizeof *star->facet,
-           owners = star->point_count * sizeof *star->owner,
+    size_t facets = star->facet ? star->tri_count * sizeof *star->facet : 0,
+           owners = star->owner ? star->point_count * sizeof *star->owner : 0,
            places = star->place ? star->tri_count * sizeof *star->place : 0;
     *info = (mw_star_info){
-        .bytes = sizeof *star + facets + owners + places + guide + angles + coincident +
+        .bytes = sizeof *star + curve + facets + owners + places + guide + angles + coincident +
                  mw__star_hubs_bytes(&star->hubs),
         .angle_bytes = angles,
-        .flat_facets = star->tri_count - star->area_count - star->freed_count,
+        .flat_facets =
+            star->unchecked ? 0 : star->tri_count - star->area_count - star->freed_count,
         .centre = {star->centre[0], star->centre[1], star->centre[2]},
     };
 }

@@ -1,4 +1,5 @@
-/* star_follow.c - decides the facets round moved vertices anew, and no others.
+/* star_follow.c - decides the facets round moved vertices anew, and no others; or all facets where
+ * they stand.
  *
  * The star was star-shaped before, by the three conditions of kernel_check.h. It is still closed,
  * and its orientation is a matter of its links, which have not changed. So it remains to decide for
@@ -9,6 +10,7 @@
 #include "star/star_hubs.h"
 #include "topology/coincident.h"
 
+#include <stdatomic.h>
 #include <stdlib.h>
 
 /* If more than this part of the facets have moved, deciding all of them takes no longer. */
@@ -152,4 +154,59 @@ bool mw__star_follow(mw_star *star, const uint32_t *moved, size_t count)
     if (done) facets_renew(star, &list);
     free(list.item);
     return done;
+}
+
+/* --- all facets --- */
+
+typedef struct star_renewal {
+    mw_star *star;
+    atomic_bool fails;
+    atomic_uint_fast32_t met;
+} star_renewal;
+
+/* Decide some facets and set their planes. By any thread. */
+static void facets_decide(void *work, uint64_t from, uint64_t to)
+{
+    star_renewal *r = work;
+    uint32_t met = 0;
+    for (uint64_t i = from; i < to; i++) {
+        mw_star_facet *facet = &r->star->facet[i];
+        if (!facet_still_faces_out(r->star, facet)) {
+            atomic_store_explicit(&r->fails, true, memory_order_relaxed);
+            return;
+        }
+        met += mw__star_first_ray_meets(r->star, facet->v);
+        mw__star_set_planes(r->star, facet);
+        facet->user &= ~MW_SEAM;
+    }
+    atomic_fetch_add_explicit(&r->met, met, memory_order_relaxed);
+}
+
+/* Does the guide still lead near the facets? The order of facets is that of the curve as it was. */
+static bool guide_still_leads(const mw_star *star)
+{
+    enum { LOOKS = 256, FAR = 256 };
+    uint32_t step = star->tri_count / LOOKS + 1, looks = 0, far = 0;
+    for (uint32_t i = 0; i < star->tri_count; i += step, looks++) {
+        double d[3];
+        for (int k = 0; k < 3; k++)
+            d[k] = mw__star_corner_point(star, star->facet[i].v, 0)[k] / 2 - star->centre[k] / 2;
+        uint32_t led = mw__star_guide_facet(star, mw__star_curve_key(star->curve, d));
+        far += (led < i ? i - led : led - i) > FAR;
+    }
+    return 2 * far <= looks;
+}
+
+bool mw__star_follow_all(mw_star *star, mw_job *job)
+{
+    star_renewal r = {.star = star};
+    if (!guide_still_leads(star)) return false;
+    star->ready = false;
+    mw__job_stage(job, "looking at facets", 1);
+    if (!mw__job_ranges(job, star->tri_count, facets_decide, &r) || r.fails || r.met != 1)
+        return false;
+    star->reach = mw__star_measure_reach(star);
+    if (star->angle) mw__star_fill_angles(star);
+    mw__star_hubs_renew(star);
+    return true;
 }

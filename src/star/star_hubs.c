@@ -160,6 +160,14 @@ uint32_t mw__star_hub_facet(const mw_star *star, const mw_star_hub *hub, const d
 
 /* --- following moved facets --- */
 
+void mw__star_hubs_renew(mw_star *star)
+{
+    for (uint32_t i = 0; i < star->hubs.count; i++) {
+        mw_star_hub *hub = &star->hubs.hub[i];
+        hub_find_half(star, star->hubs.ring + hub->first, hub);
+    }
+}
+
 void mw__star_hubs_follow(mw_star *star, const uint32_t *facets, uint32_t count)
 {
     if (star->hubs.count == 0) return;

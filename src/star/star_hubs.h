@@ -19,6 +19,9 @@ size_t mw__star_hubs_bytes(const mw_star_hubs *hubs);
 /* Corners of some facets have moved: follow them. O(count log hubs + facets of the hubs there) */
 void mw__star_hubs_follow(mw_star *star, const uint32_t *facets, uint32_t count);
 
+/* The same where any facet may have moved. O(facets of hubs) */
+void mw__star_hubs_renew(mw_star *star);
+
 /* The hub that is corner k of a facet; NULL: that corner is none. */
 const mw_star_hub *mw__star_hub_at(const mw_star *star, uint32_t facet, uint32_t k);
 

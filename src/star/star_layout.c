@@ -29,7 +29,7 @@ static uint32_t facet_curve_key(const mw_star *star, const mw_triangle *t)
                         mw__star_corner_point(star, t->v, 2)[k] / 6;
         d[k] = middle - star->centre[k] / 2;
     }
-    return mw__star_curve_key(star, d);
+    return mw__star_curve_key(star->curve, d);
 }
 
 static void facets_key(void *work, uint64_t from, uint64_t to)
