@@ -206,10 +206,9 @@ static PyObject *prober_nearest(PyObject *self, PyObject *args)
         return NULL;
     options.progress = progress_begin(object->state, function, &progress);
     Py_BEGIN_ALLOW_THREADS
-    status =
-        mw_nearest_on_surface_batch(object->prober, batch.points.points, batch.points.count,
-                                    batch.points.stride, max_distance, &options, batch.out.buf,
-                                    &error);
+    status = mw_nearest_on_surface_batch(object->prober, batch.points.points, batch.points.count,
+                                         batch.points.stride, max_distance, &options, batch.out.buf,
+                                         &error);
     Py_END_ALLOW_THREADS
     buffer_release_batch(&batch);
     if (status) return errors_raise(object->state, &error);

@@ -1,6 +1,6 @@
-/* team_sort.c - the radix sort of hilbert.c by several threads. Each member counts the digits of its
- * part of the keys; from the counts of all it knows where each of its keys goes. Keys with equal
- * digits stay in order, so the result does not depend on the threads. */
+/* team_sort.c - the radix sort of hilbert.c by several threads. Each member counts the digits of
+ * its part of the keys; from the counts of all it knows where each of its keys goes. Keys with
+ * equal digits stay in order, so the result does not depend on the threads. */
 #include "base/team_sort.h"
 #include "base/threads.h"
 

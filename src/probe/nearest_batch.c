@@ -54,13 +54,12 @@ static void points_key(void *work, uint64_t from, uint64_t to)
 {
     const nearest_batch *b = work;
     for (uint64_t i = from; i < to; i++)
-        b->keys[i] =
-            (mw_key){point_place(&b->prober->bvh, b->points + i * b->stride), (uint32_t)i};
+        b->keys[i] = (mw_key){point_place(&b->prober->bvh, b->points + i * b->stride), (uint32_t)i};
 }
 
 /* --- the answers --- */
 
-static void chunk_answer(const nearest_batch *b, size_t first, size_t end)
+static void nearest_chunk_answer(const nearest_batch *b, size_t first, size_t end)
 {
     uint32_t guess = MW_NONE;
     for (size_t i = first; i < end; i++) {
@@ -78,13 +77,13 @@ static void batch_answer_chunk(void *work, uint64_t chunk, uint32_t member)
     (void)member;
     mw__surface_read_lock(b->prober->surface);
     bool current = mw__prober_is_current(b->prober);
-    if (current) chunk_answer(b, first, end);
+    if (current) nearest_chunk_answer(b, first, end);
     mw__surface_read_unlock(b->prober->surface);
     if (!current) atomic_store_explicit(&b->outdated, true, memory_order_relaxed);
 }
 
 /* The points of one block. False if the job is to stop. */
-static bool block_answer(nearest_batch *b, mw_job *job)
+static bool nearest_block_answer(nearest_batch *b, mw_job *job)
 {
     uint64_t chunks = b->n / CHUNK + (b->n % CHUNK != 0);
     if (b->keys) {
@@ -109,7 +108,7 @@ static mw_status batch_answer(nearest_batch *b, size_t n, mw_job *job, mw_error 
         b->points = points + done * b->stride;
         b->nearest = nearest + done;
         mw_job_span outer = mw__job_part(job, (double)b->n / (double)n);
-        bool goes_on = block_answer(b, job);
+        bool goes_on = nearest_block_answer(b, job);
         mw__job_part_end(job, outer);
         if (b->outdated) return mw__nearest_fail_outdated(error);
         if (!goes_on) break; /* cancelled */

@@ -60,7 +60,7 @@ struct mw_star {
     uint32_t *guide;
     uint32_t guide_bits;
     mw_hilbert *curve; /* of keys; NULL of a borrowed star */
-    float near;       /* a query this near to a facet's cone starts there: see star_start.c */
+    float near;        /* a query this near to a facet's cone starts there: see star_start.c */
     mw_star_hubs hubs;
     /* Per vertex: its representative, from the surface or own; NULL: no two coincide. */
     const uint32_t *coincident;

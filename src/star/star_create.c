@@ -72,7 +72,7 @@ static uint32_t star_any_facet(const mw_star *star)
 }
 
 /* Check the polyhedron, whose triangles star->tri becomes, turned. */
-static mw_status star_check_kernel(mw_star *star, mw_job *job, mw_error *error)
+static mw_status star_check_triangles(mw_star *star, mw_job *job, mw_error *error)
 {
     mw_defects defects = {0};
     memcpy(star->tri, star->surface->tri, star->tri_count * sizeof *star->tri);
@@ -89,7 +89,7 @@ static mw_status star_decide(mw_star *star, mw_job *job, mw_error *error)
 {
     star->coincident = star->surface->coincident;
     mw_job_span outer = mw__job_part(job, 0.5);
-    mw_status status = star_check_kernel(star, job, error);
+    mw_status status = star_check_triangles(star, job, error);
     mw__job_part_end(job, outer);
     if (status) return status;
     if (star->area_count < star->tri_count) {
@@ -138,7 +138,7 @@ static mw_status star_prepare_borrowed(mw_star *star, mw_job *job, mw_error *err
     mw__job_part_end(job, outer);
     outer = mw__job_part(job, 0.5);
     mw_status status =
-        star->has_flat ? star_with_triangles(star, job, error, star_check_kernel) : MW_OK;
+        star->has_flat ? star_with_triangles(star, job, error, star_check_triangles) : MW_OK;
     mw__job_part_end(job, outer);
     star->version = star->surface->version;
     star->shape = star->surface->shape;
@@ -266,8 +266,7 @@ static bool star_follow_counts(mw_star *star)
     return false;
 }
 
-/* Has nothing changed but places of vertices, and are all facets such that they can be decided where
- * they stand? */
+/* Has nothing changed but places of vertices, and can all facets be decided where they stand? */
 static bool star_keeps_shape(const mw_star *star)
 {
     return star->ready && !star->borrowed && star->surface->shape == star->shape &&
@@ -345,8 +344,7 @@ void mw_star_describe(const mw_star *star, mw_star_info *info)
         .bytes = sizeof *star + curve + facets + owners + places + guide + angles + coincident +
                  mw__star_hubs_bytes(&star->hubs),
         .angle_bytes = angles,
-        .flat_facets =
-            star->unchecked ? 0 : star->tri_count - star->area_count - star->freed_count,
+        .flat_facets = star->unchecked ? 0 : star->tri_count - star->area_count - star->freed_count,
         .centre = {star->centre[0], star->centre[1], star->centre[2]},
     };
 }

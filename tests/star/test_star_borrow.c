@@ -157,9 +157,9 @@ static void test_same_answers(void **state)
     (void)state;
     uint64_t random = environment_print_seed("borrowed stars", 61);
     for (int form = 0; form < 6; form++) {
-        star_shape p = form < 2 ? spiky(2 + 3 * (unsigned)form, &random)
+        star_shape p = form < 2   ? spiky(2 + 3 * (unsigned)form, &random)
                        : form < 4 ? poles(form == 2 ? 80 : 1500, &random)
-                                   : star_shape_octahedron(4);
+                                  : star_shape_octahedron(4);
         if (form == 4)
             for (uint32_t i = 0; i < 3 * p.points; i++) p.point[i] *= 64;
         for (uint32_t i = 0; form == 4 && i < 60; i++)
@@ -329,7 +329,8 @@ static void expect_meeting_or_none(const mw_star *star, const shape *s, const do
         assert_int_equal(at.where, MW_OUTSIDE);
         return;
     }
-    mw_location alone = star_oracle_locate(s->points, s->triangles + 3 * (size_t)at.triangle, 1, c, q);
+    mw_location alone =
+        star_oracle_locate(s->points, s->triangles + 3 * (size_t)at.triangle, 1, c, q);
     assert_int_equal(alone.triangle, 0);
     assert_int_equal(alone.where, at.where);
     for (int k = 0; k < 3; k++) assert_true(fabs(alone.weight[k] - at.weight[k]) <= 0x1p-34);
@@ -426,8 +427,8 @@ static void test_arguments_of_borrowed(void **state)
                          can ? MW_OK : MW_ERROR_ARGUMENT);
     }
     for (int start = 0; start < MW_STAR_START_COUNT; start++) {
-        bool can = !mw_star_start_has_index((mw_star_start_kind)start) &&
-                   start != MW_STAR_START_FRONT;
+        bool can =
+            !mw_star_start_has_index((mw_star_start_kind)start) && start != MW_STAR_START_FRONT;
         mw_star_query_options options = {.start = (mw_star_start_kind)start};
         assert_int_equal(mw_star_cursor_init(w.borrowed, &options, &cursor, &error),
                          can ? MW_OK : MW_ERROR_ARGUMENT);

@@ -877,9 +877,8 @@ static mw_status run_nearest_batch(const call_inputs *in, const call_setting *ho
     size_t n = in->ball.points / 2;
     mw_nearest_surface_point *at = malloc(n * sizeof *at);
     mw_nearest_options options = {.threads = how->threads, .progress = how->progress};
-    mw_status status =
-        mw_nearest_on_surface_batch(in->prober, in->ball.point, n, 6, INFINITY, &options, at,
-                                    error);
+    mw_status status = mw_nearest_on_surface_batch(in->prober, in->ball.point, n, 6, INFINITY,
+                                                   &options, at, error);
     for (size_t i = 0; i < n && !status; i++) {
         sum_add(sum, at[i].triangle);
         sum_add_number(sum, at[i].point[0]);

@@ -62,9 +62,9 @@ static void expect_as_single(const mw_prober *prober, const double *points, size
 {
     mw_error error;
     for (size_t i = 0; i < POINTS; i++)
-        expect_ok(mw_nearest_on_surface(prober, points + i * stride,
-                                        max_distance, &wanted[i], &error),
-                  "nearest", &error);
+        expect_ok(
+            mw_nearest_on_surface(prober, points + i * stride, max_distance, &wanted[i], &error),
+            "nearest", &error);
     for (uint32_t form = 0; form < 4; form++) {
         mw_nearest_options options = {.in_order = form % 2, .threads = 1 + form / 2};
         memset(found, 0xff, sizeof found);
@@ -118,8 +118,8 @@ static void test_blocks_of_points(void **state)
     assert_true(points && nearest);
     uint64_t random = 5;
     for (size_t i = 0; i < 3 * (size_t)MANY; i++) points[i] = 6 * random_unit(&random) - 1;
-    expect_ok(mw_nearest_on_surface_batch(prober, points, MANY, 0, INFINITY, NULL, nearest, NULL), "points",
-              NULL);
+    expect_ok(mw_nearest_on_surface_batch(prober, points, MANY, 0, INFINITY, NULL, nearest, NULL),
+              "points", NULL);
     for (size_t i = 0; i < MANY; i += i < MANY - 6000 ? 997 : 1) {
         expect_ok(mw_nearest_on_surface(prober, points + 3 * i, INFINITY, &one, NULL), "one", NULL);
         expect_nearest(&nearest[i], &one);
@@ -198,13 +198,10 @@ static void test_arguments_of_batch(void **state)
     assert_int_equal(ask(prober, NULL, 9, 0, 1), MW_ERROR_ARGUMENT);
     assert_int_equal(ask(prober, NULL, 0, 0, 1), MW_OK);
     assert_int_equal(ask(prober, points, 9, 2, 1), MW_ERROR_ARGUMENT);
-    assert_int_equal(ask(prober, points, 9, 0, -1),
+    assert_int_equal(ask(prober, points, 9, 0, -1), MW_ERROR_ARGUMENT);
+    assert_int_equal(ask(prober, points, 9, 0, NAN), MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_nearest_on_surface_batch(prober, points, 9, 0, 1, &wrong, found, NULL),
                      MW_ERROR_ARGUMENT);
-    assert_int_equal(ask(prober, points, 9, 0, NAN),
-                     MW_ERROR_ARGUMENT);
-    assert_int_equal(
-        mw_nearest_on_surface_batch(prober, points, 9, 0, 1, &wrong, found, NULL),
-        MW_ERROR_ARGUMENT);
     mw_surface_begin_update(surface);
     mw_surface_end_update(surface);
     assert_int_equal(ask(prober, points, 9, 0, 1), MW_ERROR_ARGUMENT); /* outdated */

@@ -43,8 +43,8 @@ static bool borrowed_star_is_close(const mw_star *star, const double d[3], uint3
     for (uint32_t i = 0; i < 3; i++)
         for (int k = 0; k < 3; k++)
             corner[i][k] = mw__surface_corner(star->surface, t, i)[k] - star->centre[k];
-    double longest = fmax(borrowed_star_apart(corner[0], corner[1]),
-                          borrowed_star_apart(corner[0], corner[2]));
+    double longest =
+        fmax(borrowed_star_apart(corner[0], corner[1]), borrowed_star_apart(corner[0], corner[2]));
     return borrowed_star_apart(corner[0], d) <= LENGTHS * LENGTHS * longest;
 }
 
@@ -168,8 +168,7 @@ static uint32_t borrowed_star_lowest(const mw_star *star, uint32_t t, const doub
  * takes it to do? */
 static bool borrowed_star_is_right(const mw_star_borrowed_walk *w)
 {
-    return !w->star->unchecked ||
-           mw__star_borrowed_facing(w->star, w->t) == (w->turned ? -1 : 1);
+    return !w->star->unchecked || mw__star_borrowed_facing(w->star, w->t) == (w->turned ? -1 : 1);
 }
 
 /* --- the query --- */
@@ -187,8 +186,7 @@ mw_location mw__star_borrowed_answer(const mw_star *star, const mw_star_cursor *
                                      const double q[3], uint32_t *last, uint64_t *random,
                                      mw_star_work *work, bool *scanned, mw_star_trace *trace)
 {
-    mw_star_borrowed_walk w = {
-        .star = star, .random = *random, .fuel = star->fuel, .trace = trace};
+    mw_star_borrowed_walk w = {.star = star, .random = *random, .fuel = star->fuel, .trace = trace};
     double area[3];
     borrowed_star_aim(&w, q);
     uint32_t number = MW_NONE;

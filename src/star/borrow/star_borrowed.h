@@ -6,9 +6,9 @@
  * came over:
  *
  *            S            The ray lies strictly to the left of the edge from A to B, seen from
- *           / \     *q    outside, as the facet does. So A, B and S turn left, whichever way the
- *          /   \          surface has them, and q is beyond BS where it lies to its right, or beyond
- *         A-----B         SA.
+ *           / \     *q    outside, as the facet does. So A, B and S turn left, whichever way
+ *          /   \          the surface has them, and q is beyond BS where it lies to its right,
+ *         A-----B         or beyond SA.
  *
  * A flat facet is crossed like any other: its three edges lie in one plane with the centre, so a
  * ray strictly beyond the edge that led there lies strictly beyond one of the two others. */
