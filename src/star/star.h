@@ -184,6 +184,9 @@ bool mw__star_lay_out(mw_star *star, mw_job *job);
 /* Set the planes of a facet by its corners. */
 void mw__star_set_planes(const mw_star *star, mw_star_facet *facet);
 
+/* About the largest coordinate relative to the centre, of the vertices with an owner. */
+double mw__star_measure_reach(const mw_star *star);
+
 /* The number of bits of the guide: an entry for 2 to 4 facets. */
 static MW_INLINE uint32_t mw__star_guide_bits(uint32_t facets)
 {
@@ -244,11 +247,6 @@ bool mw__star_follow(mw_star *star, const uint32_t *moved, size_t count);
  * the job is to stop. The star is not ready then. A stage that takes the present part of the job.
  * O(n) */
 bool mw__star_follow_all(mw_star *star, mw_job *job);
-
-/* --- star_create.c --- */
-
-/* About the largest coordinate relative to the centre. */
-double mw__star_measure_reach(const mw_star *star);
 
 /* --- star_walk_run.c --- */
 

@@ -54,15 +54,6 @@ static void star_replace_voids(mw_star *star, uint32_t any)
     }
 }
 
-double mw__star_measure_reach(const mw_star *star)
-{
-    double reach = 0;
-    for (uint32_t v = 0; v < star->point_count; v++)
-        for (int k = 0; k < 3 && star->owner[v] != MW_NONE; k++)
-            reach = fmax(reach, fabs(mw__surface_point(star->surface, v)[k] - star->centre[k]));
-    return reach;
-}
-
 /* Any facet with an area. */
 static uint32_t star_any_facet(const mw_star *star)
 {

@@ -106,6 +106,15 @@ static void facets_make(void *work, uint64_t from, uint64_t to)
             facet_make(layout->star, &layout->star->tri[layout->keys[i].item], layout->slot);
 }
 
+double mw__star_measure_reach(const mw_star *star)
+{
+    double reach = 0;
+    for (uint32_t v = 0; v < star->point_count; v++)
+        for (int k = 0; k < 3 && star->owner[v] != MW_NONE; k++)
+            reach = fmax(reach, fabs(mw__surface_point(star->surface, v)[k] - star->centre[k]));
+    return reach;
+}
+
 /* --- guide --- */
 
 /* For each section of the curve, enter the middle one of its facets; if it has none, the next
