@@ -45,7 +45,7 @@ static MW_INLINE uint32_t glide_first_facet(const mw_star *star, bool guided, co
                                             const glide_ray *ray, uint32_t last)
 {
     float least;
-    if (last < star->tri_count) {
+    if (last < star->facet_count) {
         if (!guided) return last;
         glide_farthest_edge(&star->facet[last], ray->f, &least);
         if (least > -star->near * ray->length) return last;

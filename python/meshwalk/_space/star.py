@@ -12,7 +12,7 @@ from meshwalk import _arrays, _core
 from meshwalk._check import check_star
 from meshwalk._errors import InputError
 from meshwalk._locations import LOCATION, Locations
-from meshwalk._surface import Surface
+from meshwalk._space.surface import Surface
 
 if TYPE_CHECKING:
     from typing import Self
@@ -55,7 +55,8 @@ class Star(_core.Star):
         Where the rays begin; the origin by default.
     borrow : bool, optional
         Keep nothing but the centre: walks follow the surface's own triangles. The answers are the
-        same, bit for bit, and take several times as long.
+        same, bit for bit, and take several times as long. It follows no `SurfaceEditor`: after
+        edits it answers again once `Surface.move` has been called, or at once if `unchecked`.
     unchecked : bool, optional
         With `borrow`: trust that the surface is star-shaped, now and after every change. Then
         making the star takes no time, and moves need no check. If it is not, a facet that is
@@ -128,7 +129,7 @@ class Star(_core.Star):
                 raise
             star._borrows = (borrow, unchecked)
             star._centre = (x, y, z)
-            surface._kept.add(star)
+            surface._keep(star)
         return star
 
     def locate(
@@ -173,7 +174,7 @@ class Star(_core.Star):
             rows, shape = _arrays.queries(points, "points", 3)
         records = np.empty(len(rows), LOCATION)
         self._locate(rows, records, walk, start, threads, progress)
-        return Locations(self.surface, records.reshape(shape))
+        return Locations._of(self.surface, records.reshape(shape))
 
     def project(
         self, points: ArrayLike, threads: int = 0, *, progress: Progress | None = None
@@ -205,7 +206,7 @@ class Star(_core.Star):
         out = np.empty((len(rows), 3))
         records = np.empty(len(rows), LOCATION)
         self._project(rows, out, records, threads, progress)
-        return out, Locations(self.surface, records)
+        return out, Locations._of(self.surface, records)
 
     def remesh(
         self,
@@ -279,7 +280,7 @@ class Star(_core.Star):
         triangles = np.empty((count, 3), np.uint32)
         records = np.empty(vertices, LOCATION)
         self._remesh(level, points, triangles, records, threads, progress)
-        return points, triangles, Locations(self.surface, records)
+        return points, triangles, Locations._of(self.surface, records)
 
     def _onto(
         self, onto: Surface, threads: int, progress: Progress | None
