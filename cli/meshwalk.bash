@@ -32,7 +32,7 @@ _meshwalk_options() {
             echo "--start --cells --layers --descent --format --stats --json $common"
             ;;
         star)
-            echo "--centre --lonlat --remesh --onto --deviation --format --nodata --walk --start --finish --sample --cells --levels --columns $stream $common"
+            echo "--centre --lonlat --remesh --onto --deviation --format --nodata --walk --start --finish --sample --cells --levels --borrow --columns $stream $common"
             ;;
         probe)
             echo "--max-distance --certain --extent --faces --min-distance --inside --start --guide --samples --iterations --race --weld --any --columns $stream $common"

@@ -264,7 +264,13 @@ class Prober:
         /,
     ) -> None: ...
     def _nearest(
-        self, points: Buffer, out: Buffer, max_distance: float, progress: Progress | None, /
+        self,
+        points: Buffer,
+        out: Buffer,
+        max_distance: float,
+        threads: int,
+        progress: Progress | None,
+        /,
     ) -> None: ...
     def _deviation(
         self, surface: Surface, threads: int, progress: Progress | None, /
@@ -407,6 +413,8 @@ def star_from_surface(
     x: float,
     y: float,
     z: float,
+    borrow: bool,
+    unchecked: bool,
     threads: int,
     progress: Progress | None,
     /,
