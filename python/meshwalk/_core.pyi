@@ -92,7 +92,6 @@ class Locator:
     def _nearest_border(
         self, x: float, y: float, /
     ) -> tuple[int, int, float, tuple[float, float], tuple[float, float, float]]: ...
-    def _holes(self) -> memoryview: ...
     def _describe(self) -> dict[str, Any]: ...
 
 class Operator:
@@ -598,6 +597,7 @@ def write_prepared(
     fields: list[tuple[bytes, Buffer]],
     triangle_fields: list[tuple[bytes, Buffer]],
     crs: str | None,
+    tiles: int,
     progress: Progress | None,
     /,
 ) -> None: ...
