@@ -211,7 +211,7 @@ class Locator(_core.Locator):
         first = None if hints is None else _arrays.hints(hints, "hints", shape)
         records = np.empty(len(points), LOCATION)
         self._locate(points, records, first, walk, start, tolerance, lanes, threads, progress)
-        return Locations(self.mesh, records.reshape(shape))
+        return Locations._of(self.mesh, records.reshape(shape))
 
     def prepare(self, path: str | os.PathLike[str], *, progress: Progress | None = None) -> None:
         """Write the mesh and this locator to a prepared file (``.mwm``), for `meshwalk.map`.
@@ -234,10 +234,14 @@ class Locator(_core.Locator):
             Pockets and holes of the mesh are open: make the locator with ``fill="yes"``; or the
             mesh is no embedding.
         """
+        self._write(_arrays.path(path), 0, progress)
+
+    def _write(self, path: bytes, tiles: int, progress: Progress | None) -> None:
+        """Write a prepared file, or, where `tiles` is not 0, a folder of tiles."""
         mesh = self.mesh
         fields = [(_arrays.field_name(name), v) for name, v in mesh.fields.items()]
         others = [(_arrays.field_name(name), v) for name, v in mesh.triangle_fields.items()]
-        _core.write_prepared(self, _arrays.path(path), fields, others, mesh.crs, progress)
+        _core.write_prepared(self, path, fields, others, mesh.crs, tiles, progress)
 
     def _check_tolerance(self, tolerance: float) -> None:
         if tolerance > 0 and not self._options["border"]:
