@@ -255,27 +255,6 @@ static PyObject *locator_describe(PyObject *self, PyObject *unused)
         PyBool_FromLong(info.unfilled), "void_promise", mw_locator_void_promise(locator));
 }
 
-/* _holes(): memory of two uint32 for each hole, a triangle and its edge at the hole */
-static PyObject *locator_holes(PyObject *self, PyObject *unused)
-{
-    locator_object *object = (locator_object *)self;
-    mw_locator_info info;
-    mw_error error;
-    mw_status status;
-    (void)unused;
-    mw_locator_describe(object->locator, &info);
-    mw_hole_edge *edges = malloc((info.holes + 1) * sizeof *edges);
-    if (!edges) return PyErr_NoMemory();
-    Py_BEGIN_ALLOW_THREADS
-    status = mw_locator_holes(object->locator, edges, &error);
-    Py_END_ALLOW_THREADS
-    if (status) {
-        free(edges);
-        return errors_raise(object->state, &error);
-    }
-    return memory_new(object->state, edges, info.holes * sizeof *edges);
-}
-
 static PyObject *locator_mesh(PyObject *self, void *unused)
 {
     (void)unused;
@@ -290,7 +269,6 @@ static PyMethodDef locator_methods[] = {
     {"_walk_path", locator_walk_path, METH_VARARGS, NULL},
     {"_segment", locator_segment, METH_VARARGS, NULL},
     {"_describe", locator_describe, METH_NOARGS, NULL},
-    {"_holes", locator_holes, METH_NOARGS, NULL},
     {NULL, NULL, 0, NULL},
 };
 

@@ -193,50 +193,26 @@ static PyObject *prober_lists(PyObject *self, PyObject *args)
     return status ? errors_raise(object->state, &error) : prober_wrap_lists(object->state, &lists);
 }
 
-/* The points that are nearest to several, one after the other. */
-typedef struct prober_search {
-    const mw_prober *prober;
-    const buffer_points *given;
-    double max_distance;
-    mw_nearest_surface_point *nearest;
-    const mw_progress *progress;
-} prober_search;
-
-static mw_status prober_search_run(const prober_search *s, mw_error *error)
-{
-    enum { REPORTS = 200 };
-    mw_status status = MW_OK;
-    size_t told = 0;
-    for (size_t i = 0; i < s->given->count && !status; i++) {
-        status = mw_nearest_on_surface(s->prober, s->given->points + i * s->given->stride,
-                                       s->max_distance, &s->nearest[i], error);
-        if (status || !s->progress || (i + 1) * REPORTS / s->given->count == told) continue;
-        told = (i + 1) * REPORTS / s->given->count;
-        if (s->progress->report(s->progress->context, "finding nearest points",
-                                (double)told / REPORTS) &&
-            told < REPORTS)
-            status = error->status = MW_CANCELLED;
-    }
-    return status;
-}
-
-/* _nearest(points, out, max_distance, progress) */
+/* _nearest(points, out, max_distance, threads, progress) */
 static PyObject *prober_nearest(PyObject *self, PyObject *args)
 {
     prober_object *object = (prober_object *)self;
     PyObject *points, *out, *function;
     mw_progress progress;
+    mw_nearest_options options = {0};
+    double max_distance;
     buffer_batch batch;
-    prober_search search = {.prober = object->prober, .given = &batch.points};
     mw_error error;
     mw_status status;
-    if (!PyArg_ParseTuple(args, "OOdO", &points, &out, &search.max_distance, &function) ||
+    if (!PyArg_ParseTuple(args, "OOdO&O", &points, &out, &max_distance, option_threads,
+                          &options.threads, &function) ||
         buffer_get_batch(points, 3, out, sizeof(mw_nearest_surface_point), Py_None, &batch))
         return NULL;
-    search.nearest = batch.out.buf;
-    search.progress = progress_begin(object->state, function, &progress);
+    options.progress = progress_begin(object->state, function, &progress);
     Py_BEGIN_ALLOW_THREADS
-    status = prober_search_run(&search, &error);
+    status = mw_nearest_on_surface_batch(object->prober, batch.points.points, batch.points.count,
+                                         batch.points.stride, max_distance, &options, batch.out.buf,
+                                         &error);
     Py_END_ALLOW_THREADS
     buffer_release_batch(&batch);
     if (status) return errors_raise(object->state, &error);

@@ -1,7 +1,7 @@
 /* star.c - Star: a mw_star as an object, which keeps its surface alive; longitude and latitude. */
 #include "core.h"
 
-/* star_from_surface(cls, surface, x, y, z, threads, progress) */
+/* star_from_surface(cls, surface, x, y, z, borrow, unchecked, threads, progress) */
 static PyObject *star_from_surface(PyObject *module, PyObject *args)
 {
     core_state *state = PyModule_GetState(module);
@@ -12,9 +12,10 @@ static PyObject *star_from_surface(PyObject *module, PyObject *args)
     mw_star *star;
     mw_error error;
     mw_status status;
-    if (!PyArg_ParseTuple(args, "OO!dddO&O", &class, state->surface_type, &surface,
+    if (!PyArg_ParseTuple(args, "OO!dddppO&O", &class, state->surface_type, &surface,
                           &options.centre[0], &options.centre[1], &options.centre[2],
-                          option_threads, &options.threads, &function))
+                          &options.borrow, &options.unchecked, option_threads, &options.threads,
+                          &function))
         return NULL;
     options.progress = progress_begin(state, function, &progress);
     Py_BEGIN_ALLOW_THREADS

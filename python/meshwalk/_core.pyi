@@ -98,7 +98,6 @@ class Locator:
     def _nearest_border(
         self, x: float, y: float, /
     ) -> tuple[int, int, float, tuple[float, float], tuple[float, float, float]]: ...
-    def _holes(self) -> memoryview: ...
     def _describe(self) -> dict[str, Any]: ...
 
 class Operator:
@@ -271,7 +270,13 @@ class Prober:
         /,
     ) -> None: ...
     def _nearest(
-        self, points: Buffer, out: Buffer, max_distance: float, progress: Progress | None, /
+        self,
+        points: Buffer,
+        out: Buffer,
+        max_distance: float,
+        threads: int,
+        progress: Progress | None,
+        /,
     ) -> None: ...
     def _deviation(
         self, surface: Surface, threads: int, progress: Progress | None, /
@@ -414,6 +419,8 @@ def star_from_surface(
     x: float,
     y: float,
     z: float,
+    borrow: bool,
+    unchecked: bool,
     threads: int,
     progress: Progress | None,
     /,
@@ -596,6 +603,7 @@ def write_prepared(
     fields: list[tuple[bytes, Buffer]],
     triangle_fields: list[tuple[bytes, Buffer]],
     crs: str | None,
+    tiles: int,
     progress: Progress | None,
     /,
 ) -> None: ...

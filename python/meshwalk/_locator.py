@@ -282,10 +282,14 @@ class Locator(_core.Locator):
             Pockets and holes of the mesh are open: make the locator with ``fill="yes"``; or the
             mesh is no embedding.
         """
+        self._write(_arrays.path(path), 0, progress)
+
+    def _write(self, path: bytes, tiles: int, progress: Progress | None) -> None:
+        """Write a prepared file, or, where `tiles` is not 0, a folder of tiles."""
         mesh = self.mesh
         fields = [(_arrays.field_name(name), v) for name, v in mesh.fields.items()]
         others = [(_arrays.field_name(name), v) for name, v in mesh.triangle_fields.items()]
-        _core.write_prepared(self, _arrays.path(path), fields, others, mesh.crs, progress)
+        _core.write_prepared(self, path, fields, others, mesh.crs, tiles, progress)
 
     def _check_tolerance(self, tolerance: float) -> None:
         if np.ndim(tolerance):

@@ -629,6 +629,7 @@ class Prober(_core.Prober):
         points: ArrayLike,
         max_distance: float = np.inf,
         *,
+        threads: int = 0,
         progress: Progress | None = None,
     ) -> NearestPoints:
         """Find the points of the surface that are nearest to points.
@@ -639,6 +640,8 @@ class Prober(_core.Prober):
             The points.
         max_distance : float, optional
             Look no farther.
+        threads : int, optional
+            How many threads answer; 0 lets the library choose. The answers are the same.
         progress : callable, optional
             As of `Locator.locate`.
 
@@ -653,7 +656,7 @@ class Prober(_core.Prober):
         """
         rows, shape = _arrays.queries(points, "points", 3)
         records = np.empty(len(rows), NEAREST)
-        self._nearest(rows, records, max_distance, progress)
+        self._nearest(rows, records, max_distance, threads, progress)
         return NearestPoints(self.surface, records.reshape(shape))
 
     def deviation(

@@ -83,6 +83,11 @@ class SurfaceInfo(NamedTuple):
     volume: float
 
 
+def follows_edits(follower: Any) -> bool:
+    """Whether it keeps something that can follow an editor: a borrowed star does not."""
+    return not getattr(follower, "_borrows", (False, False))[0]
+
+
 class Surface(_core.Surface):
     """A triangle mesh in space, with your numbering, whose vertices may move.
 
@@ -319,7 +324,7 @@ class Surface(_core.Surface):
         """What was made beside the surface is to be brought up to date with it."""
         self._kept.add(follower)
         editor = None if self._editor is None else self._editor()
-        if editor is not None:
+        if editor is not None and follows_edits(follower):
             editor._attach(follower)
 
     def check(self) -> Check:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from meshwalk import _arrays, _core
-from meshwalk._space.surface import Surface
+from meshwalk._space.surface import Surface, follows_edits
 
 if TYPE_CHECKING:
     from typing import Self
@@ -220,7 +220,8 @@ class SurfaceEditor(_core.SurfaceEditor):
                 cls, surface, 2**64 - 1 if undo == -1 else undo
             )
             for follower in surface._kept:
-                editor._attach(follower)
+                if follows_edits(follower):
+                    editor._attach(follower)
             surface._editor = weakref.ref(editor)
         return editor
 
