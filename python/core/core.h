@@ -17,8 +17,8 @@
 /* What the module owns; each object keeps a pointer to it, which its type keeps alive. */
 typedef struct core_state {
     PyTypeObject *mesh_type, *locator_type, *location_type, *memory_type;
-    PyTypeObject *surface_type, *star_type, *prober_type, *editor_type, *operator_type,
-        *polygons_type;
+    PyTypeObject *surface_type, *star_type, *prober_type, *editor_type, *surface_editor_type,
+        *operator_type, *polygons_type;
     PyObject *input_error, *limit_error;
     unsigned long main_thread; /* the one that imported the module */
     PyObject *where_members;   /* a tuple: the members of meshwalk.Where, by their numbers */
@@ -131,9 +131,19 @@ typedef struct buffer_mesh {
 int buffer_get_mesh(PyObject *points, PyObject *triangles, size_t width, buffer_mesh *mesh);
 void buffer_release_mesh(buffer_mesh *mesh);
 
-/* --- options.c: numbers, for "O&" --- */
+/* --- options.c: numbers, for "O&", and names --- */
 
 int option_uint32(PyObject *object, void *number);
+/* A number of threads, a uint32: the message names the argument. */
+int option_threads(PyObject *object, void *number);
+/* A ValueError that lists the names from name_of(0) to name_of(count - 1); returns NULL. */
+PyObject *option_raise_unknown(const char *what, const char *name, const char *(*name_of)(int),
+                               int count);
+/* Names of walks and starts in the plane by their numbers, for option_raise_unknown. */
+const char *option_walk_name(int walk);
+const char *option_start_name(int start);
+/* Add both lists to the module. */
+int options_init(PyObject *module);
 int option_uint64(PyObject *object, void *number);
 
 /* --- progress.c: long calls are watched --- */
@@ -192,6 +202,7 @@ int surface_init(PyObject *module, core_state *state);
 int star_init(PyObject *module, core_state *state);
 int prober_init(PyObject *module, core_state *state);
 int editor_init(PyObject *module, core_state *state);
+int surface_editor_init(PyObject *module, core_state *state);
 int operator_init(PyObject *module, core_state *state);
 /* An operator object that takes the operator over, also on failure. */
 PyObject *operator_new(core_state *state, mw_operator *weights);

@@ -9,10 +9,14 @@ LOCATION_LAYOUT: dict[str, int]
 TOUCH_LAYOUT: dict[str, int]
 NEAREST_LAYOUT: dict[str, int]
 CHANGED_LAYOUT: dict[str, int]
+CHANGED_VERTEX_LAYOUT: dict[str, int]
 PIECE_LAYOUT: dict[str, int]
 SIGHT_LAYOUT: dict[str, int]
+BORDER_LAYOUT: dict[str, int]
 MAX_TRIANGLES: int
 MESH_FORMATS: tuple[str, ...]
+WALK_NAMES: tuple[str, ...]
+START_NAMES: tuple[str, ...]
 version: str
 
 Buffer: TypeAlias = NDArray[Any]
@@ -66,6 +70,8 @@ class Location:
     def inside(self) -> bool:
         """True if a triangle contains the point, its border included."""
 
+def location_from_bytes(location: bytes, /) -> Location: ...
+
 class Locator:
     @property
     def mesh(self) -> Mesh: ...
@@ -88,10 +94,10 @@ class Locator:
     def _segment(
         self, ends: Buffer, threads: int, progress: Progress | None, /
     ) -> tuple[memoryview, memoryview]: ...
+    def _nearest_borders(self, points: Buffer, out: Buffer, /) -> None: ...
     def _nearest_border(
         self, x: float, y: float, /
     ) -> tuple[int, int, float, tuple[float, float], tuple[float, float, float]]: ...
-    def _holes(self) -> memoryview: ...
     def _describe(self) -> dict[str, Any]: ...
 
 class Operator:
@@ -212,6 +218,8 @@ class Surface:
 class Star:
     @property
     def surface(self) -> Surface: ...
+    @property
+    def ready(self) -> bool: ...
     def _locate(
         self,
         points: Buffer,
@@ -262,7 +270,13 @@ class Prober:
         /,
     ) -> None: ...
     def _nearest(
-        self, points: Buffer, out: Buffer, max_distance: float, progress: Progress | None, /
+        self,
+        points: Buffer,
+        out: Buffer,
+        max_distance: float,
+        threads: int,
+        progress: Progress | None,
+        /,
     ) -> None: ...
     def _deviation(
         self, surface: Surface, threads: int, progress: Progress | None, /
@@ -304,6 +318,34 @@ class Prober:
 
 _RawChange: TypeAlias = tuple[int, int, int, int, int, int, int, int, bytes | None]
 
+class SurfaceEditor:
+    @property
+    def surface(self) -> Surface: ...
+    def _attach(self, follower: Prober | Star, /) -> None: ...
+    def _detach(self, follower: Prober | Star, /) -> None: ...
+    def _apply(
+        self,
+        kind: int,
+        triangle: int,
+        v0: int,
+        v1: int,
+        v2: int,
+        x: float,
+        y: float,
+        z: float,
+        path: Buffer | None,
+        other: Buffer | None,
+        /,
+    ) -> tuple[int, int, int, int, int, int, bytes, bytes]: ...
+    def _undo(self) -> tuple[int, int, int, int, int, int, bytes, bytes]: ...
+    def _compact(self, triangles: Buffer, vertices: Buffer, /) -> None: ...
+    def _describe(self) -> dict[str, Any]: ...
+    def _triangle(self, triangle: int, /) -> tuple[int, int, int] | None: ...
+    def _vertex(self, vertex: int, /) -> tuple[float, float, float] | None: ...
+    def _living(self, out: Buffer, /) -> None: ...
+    def _triangles_of(self, vertex: int, /) -> list[int]: ...
+    def _edge(self, a: int, b: int, /) -> list[int]: ...
+
 class Editor:
     def _apply(
         self, kind: int, vertex: int, other: int, field: int, x: float, y: float, value: float, /
@@ -340,6 +382,7 @@ class Editor:
     def _interpolate(self, field: int, locations: Buffer, out: Buffer, /) -> None: ...
 
 _Editor = TypeVar("_Editor", bound=Editor)
+_SurfaceEditor = TypeVar("_SurfaceEditor", bound=SurfaceEditor)
 
 def editor_from_mesh(
     cls: type[_Editor],
@@ -367,12 +410,17 @@ def surface_from_arrays(
     progress: Progress | None,
     /,
 ) -> _Surface: ...
+def surface_editor_from_surface(
+    cls: type[_SurfaceEditor], surface: Surface, undo: int, /
+) -> _SurfaceEditor: ...
 def star_from_surface(
     cls: type[_Star],
     surface: Surface,
     x: float,
     y: float,
     z: float,
+    borrow: bool,
+    unchecked: bool,
     threads: int,
     progress: Progress | None,
     /,
@@ -555,6 +603,7 @@ def write_prepared(
     fields: list[tuple[bytes, Buffer]],
     triangle_fields: list[tuple[bytes, Buffer]],
     crs: str | None,
+    tiles: int,
     progress: Progress | None,
     /,
 ) -> None: ...

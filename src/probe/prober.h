@@ -37,6 +37,10 @@ struct mw_prober {
  * did. False when out of memory; then nothing has changed. */
 bool mw__prober_rebuild(mw_prober *prober, mw_job *job);
 
+/* The same; *former is what the prober was. Release its boxes, or put it back and release the new
+ * ones. */
+bool mw__prober_remake(mw_prober *prober, mw_job *job, mw_prober *former);
+
 /* --- probe_touch.c --- */
 
 /* Does the line touch the triangle, at any distance: does it meet the triangle, and does m point at
@@ -84,6 +88,14 @@ uint32_t mw__probe_certain(const mw_prober *prober, const mw_line *line, double 
 /* The distance of q from a triangle that has an area and finite corners, rounded as that of
  * mw_nearest_on_surface. q is finite. */
 double mw__distance_to_triangle(const mw_surface *surface, uint32_t triangle, const double q[3]);
+
+/* The answer of mw_nearest_on_surface, with current boxes. `guess`: a triangle to be looked at
+ * first, or MW_NONE; the answer does not depend on it. */
+void mw__nearest_find(const mw_prober *prober, const double point[3], double max_distance,
+                      uint32_t guess, mw_nearest_surface_point *nearest);
+/* Refuse a prober without boxes, and a distance that is none. */
+mw_status mw__nearest_check(const mw_prober *prober, double max_distance, mw_error *error);
+mw_status mw__nearest_fail_outdated(mw_error *error);
 
 /* --- inside.c --- */
 

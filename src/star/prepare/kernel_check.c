@@ -1,9 +1,10 @@
 /* kernel_check.c - decides whether a centre lies in the kernel of a closed surface [thesis App. F,
  * sec. 1]. */
-#include "star/kernel_check.h"
+#include "star/prepare/kernel_check.h"
 
 #include "topology/coincident.h"
 
+#include <stdatomic.h>
 #include <stdlib.h>
 
 /* The kinds of facets. */
@@ -238,17 +239,16 @@ static void facet_turn(mw_triangle *t)
 
 /* Exchanging vertices 1 and 2 of a facet exchanges its edges 0 and 2, in the facet and in the links
  * of its neighbours. */
-static void facets_orient(kernel_check *s)
+void mw__facets_turn(mw_star *star, const int8_t *turned)
 {
-    mw_star *star = s->star;
     for (uint32_t i = 0; i < star->tri_count; i++)
         for (uint32_t k = 0; k < 3; k++) {
             uint32_t link = star->tri[i].link[k];
-            if (link == MW_NONE || s->turned[mw__link_triangle(link)] <= 0) continue;
+            if (link == MW_NONE || turned[mw__link_triangle(link)] <= 0) continue;
             star->tri[i].link[k] = mw__link(mw__link_triangle(link), 2 - mw__link_edge(link));
         }
     for (uint32_t i = 0; i < star->tri_count; i++)
-        if (s->turned[i] > 0) facet_turn(&star->tri[i]);
+        if (turned[i] > 0) facet_turn(&star->tri[i]);
 }
 
 /* --- one ray --- */
@@ -273,18 +273,23 @@ static bool ray_is_left(const mw_star *star, const double a[3], const double b[3
     return false;
 }
 
+bool mw__star_ray_meets(const mw_star *star, const uint32_t v[3])
+{
+    for (uint32_t k = 0; k < 3; k++)
+        if (!ray_is_left(star, mw__star_corner_point(star, v, k),
+                         mw__star_corner_point(star, v, mw__next(k))))
+            return false;
+    return true;
+}
+
 /* Mark the facets that the ray meets. By any thread. */
 static void kernel_meet(void *work, uint64_t from, uint64_t to)
 {
     kernel_check *s = work;
-    for (uint64_t i = from; i < to; i++) {
-        const uint32_t *v = s->star->tri[i].v;
-        bool meets = s->faces[i] != VOID && s->faces[i] != LEVEL;
-        for (uint32_t k = 0; k < 3 && meets; k++)
-            meets = ray_is_left(s->star, mw__star_corner_point(s->star, v, k),
-                                mw__star_corner_point(s->star, v, k + 1));
-        if (meets) s->faces[i] |= MET;
-    }
+    for (uint64_t i = from; i < to; i++)
+        if (s->faces[i] != VOID && s->faces[i] != LEVEL &&
+            mw__star_ray_meets(s->star, s->star->tri[i].v))
+            s->faces[i] |= MET;
 }
 
 /* Count the facets that the ray meets: at least one, if there are facets. Facets are oriented. */
@@ -307,8 +312,68 @@ static bool kernel_check_run(kernel_check *s)
     if (!kernel_look_at_facets(s) || !kernel_look_at_edges(s) || !kernel_look_at_components(s))
         return false;
     if (s->defects->count > before) return true;
-    facets_orient(s);
+    mw__facets_turn(s->star, s->turned);
     return kernel_look_along_ray(s);
+}
+
+/* --- without memory --- */
+
+/* Where each facet that does not vanish faces the centre or turns its back, it can be turned so
+ * that the centre lies behind it; and neighbours then agree if they agree now or face it unlike. So
+ * each facet can be asked by itself, in any order. */
+typedef struct kernel_glance {
+    const mw_star *star;
+    atomic_bool unsure;
+    atomic_uint_fast32_t areas, met;
+} kernel_glance;
+
+/* Does the neighbour at edge k, once both are turned outwards, agree? */
+static bool glance_edge_agrees(const mw_star *star, uint32_t t, uint32_t k, uint8_t facing)
+{
+    const mw_surface *surface = star->surface;
+    uint32_t link = surface->tri[t].link[k];
+    if (link == MW_NONE) return false;
+    if (mw__link_triangle(link) < t) return true; /* it asks */
+    uint8_t other = facet_facing(star, &surface->tri[mw__link_triangle(link)]);
+    return (other == facing) == mw__surface_orientations_agree(surface, t, k);
+}
+
+static bool glance_ray_meets(const mw_star *star, const uint32_t v[3], uint8_t facing)
+{
+    const uint32_t turned[3] = {v[0], v[2], v[1]};
+    return mw__star_ray_meets(star, facing == FRONT ? v : turned);
+}
+
+/* By any thread. */
+static void glance_range(void *work, uint64_t from, uint64_t to)
+{
+    kernel_glance *g = work;
+    uint32_t areas = 0, met = 0;
+    for (uint32_t t = (uint32_t)from; t < to; t++) {
+        const mw_triangle *facet = &g->star->surface->tri[t];
+        uint8_t facing = facet_facing(g->star, facet);
+        bool sure = facing != LEVEL && mw__star_corners_hold(g->star, facet->v);
+        for (uint32_t k = 0; k < 3 && sure && facing != VOID; k++)
+            sure = glance_edge_agrees(g->star, t, k, facing);
+        if (!sure) {
+            atomic_store_explicit(&g->unsure, true, memory_order_relaxed);
+            return;
+        }
+        if (facing == VOID) continue;
+        areas++;
+        met += glance_ray_meets(g->star, facet->v, facing);
+    }
+    atomic_fetch_add_explicit(&g->areas, areas, memory_order_relaxed);
+    atomic_fetch_add_explicit(&g->met, met, memory_order_relaxed);
+}
+
+bool mw__star_kernel_holds(mw_star *star, mw_job *job)
+{
+    kernel_glance g = {.star = star};
+    mw__job_stage(job, "looking at facets", 1);
+    if (!mw__job_ranges(job, star->tri_count, glance_range, &g)) return false;
+    star->area_count = (uint32_t)g.areas;
+    return !g.unsure && g.met == 1;
 }
 
 bool mw__star_kernel_check(mw_star *star, mw_job *job, mw_defects *defects)

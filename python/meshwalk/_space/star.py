@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import math
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -11,7 +12,7 @@ from meshwalk import _arrays, _core
 from meshwalk._check import check_star
 from meshwalk._errors import InputError
 from meshwalk._locations import LOCATION, Locations
-from meshwalk._surface import Surface
+from meshwalk._space.surface import Surface
 
 if TYPE_CHECKING:
     from typing import Self
@@ -22,25 +23,39 @@ if TYPE_CHECKING:
 
 
 class StarInfo(NamedTuple):
-    """What a star keeps beside its surface: the answer of `Star.describe`."""
+    """What a star keeps beside its surface: the answer of `Star.describe`.
+
+    Attributes
+    ----------
+    bytes : int
+        All memory of the star, the surface not counted.
+    angle_bytes : int
+        Of it, spherical coordinates.
+    flat_facets : int
+        Facets without area.
+    centre : tuple[float, float, float]
+        Where the rays begin.
+    """
 
     bytes: int
-    """All memory of the star, the surface not counted."""
     angle_bytes: int
-    """Of it, spherical coordinates."""
     flat_facets: int
-    """Facets without area."""
     centre: tuple[float, float, float]
-    """Where the rays begin."""
 
 
 class Remeshed(NamedTuple):
-    """A polyhedron sampled anew: the answer of `Star.remesh`."""
+    """A polyhedron sampled anew: the answer of `Star.remesh`.
+
+    Attributes
+    ----------
+    surface : Surface
+        The new mesh, with the fields of the polyhedron.
+    hit : Locations
+        The facet and the weights of each new vertex, for other values.
+    """
 
     surface: Surface
-    """The new mesh, with the fields of the polyhedron."""
     hit: Locations
-    """The facet and the weights of each new vertex, for other values."""
 
 
 class Star(_core.Star):
@@ -52,6 +67,14 @@ class Star(_core.Star):
         A closed polyhedron, star-shaped about the centre: each ray meets it once.
     centre : array_like, shape (3,), optional
         Where the rays begin; the origin by default.
+    borrow : bool, optional
+        Keep nothing but the centre: walks follow the surface's own triangles. The answers are the
+        same, bit for bit, and take several times as long. It follows no `SurfaceEditor`: after
+        edits it answers again once `Surface.move` has been called, or at once if `unchecked`.
+    unchecked : bool, optional
+        With `borrow`: trust that the surface is star-shaped, now and after every change. Then
+        making the star takes no time, and moves need no check. If it is not, a facet that is
+        answered meets the ray, but may not be the lowest that does.
     threads : int, optional
         How many threads prepare the star; 0 lets the library choose. The star is the same.
     progress : callable, optional
@@ -79,9 +102,15 @@ class Star(_core.Star):
     array([0, 4], dtype=int32)
     >>> globe.locate([[45, 45], [-45, -45]], lonlat=True).triangle
     array([0, 7], dtype=int32)
+    >>> slim = meshwalk.Star(globe.surface, borrow=True)
+    >>> slim.locate([[1, 2, 3], [0, 0, -7]]).triangle
+    array([0, 4], dtype=int32)
+    >>> slim.describe().bytes < 500 < globe.describe().bytes
+    True
     """
 
-    __slots__ = ("__weakref__", "_centre")
+    __slots__ = ("__weakref__", "_borrows", "_centre")
+    _borrows: tuple[bool, bool]
     _centre: tuple[float, float, float]
     if TYPE_CHECKING:
         surface: Surface
@@ -91,6 +120,8 @@ class Star(_core.Star):
         surface: Surface,
         centre: ArrayLike = (0, 0, 0),
         *,
+        borrow: bool = False,
+        unchecked: bool = False,
         threads: int = 0,
         progress: Progress | None = None,
     ) -> Self:
@@ -102,14 +133,17 @@ class Star(_core.Star):
         x, y, z = (float(value) for value in place[0])
         with surface._lock:
             try:
-                star = _core.star_from_surface(cls, surface, x, y, z, threads, progress)
+                star = _core.star_from_surface(
+                    cls, surface, x, y, z, borrow, unchecked, threads, progress
+                )
             except InputError as error:
                 weld = surface._options[0]
                 found = check_star(surface.points, surface.triangles, (x, y, z), weld=weld)
                 error.defect = next((d for d in found.defects if d.kind != "flat triangle"), None)
                 raise
+            star._borrows = (borrow, unchecked)
             star._centre = (x, y, z)
-            surface._kept.add(star)
+            surface._keep(star)
         return star
 
     def locate(
@@ -154,7 +188,7 @@ class Star(_core.Star):
             rows, shape = _arrays.queries(points, "points", 3)
         records = np.empty(len(rows), LOCATION)
         self._locate(rows, records, walk, start, threads, progress)
-        return Locations(self.surface, records.reshape(shape))
+        return Locations._of(self.surface, records.reshape(shape))
 
     def project(
         self, points: ArrayLike, threads: int = 0, *, progress: Progress | None = None
@@ -186,7 +220,7 @@ class Star(_core.Star):
         out = np.empty((len(rows), 3))
         records = np.empty(len(rows), LOCATION)
         self._project(rows, out, records, threads, progress)
-        return out, Locations(self.surface, records)
+        return out, Locations._of(self.surface, records)
 
     def remesh(
         self,
@@ -260,7 +294,7 @@ class Star(_core.Star):
         triangles = np.empty((count, 3), np.uint32)
         records = np.empty(vertices, LOCATION)
         self._remesh(level, points, triangles, records, threads, progress)
-        return points, triangles, Locations(self.surface, records)
+        return points, triangles, Locations._of(self.surface, records)
 
     def _onto(
         self, onto: Surface, threads: int, progress: Progress | None
@@ -286,7 +320,9 @@ class Star(_core.Star):
         return f"<Star of {self.surface!r} about {self._centre}>"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return type(self), (self.surface, self._centre)
+        borrow, unchecked = self._borrows
+        make = functools.partial(type(self), borrow=borrow, unchecked=unchecked)
+        return make, (self.surface, self._centre)
 
 
 def _ray_length(centre: tuple[float, float, float]) -> float:

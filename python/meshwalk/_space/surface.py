@@ -22,43 +22,70 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from meshwalk._core import Progress
+    from meshwalk._space.surface_editor import SurfaceEditor
 
 
 class SurfaceInfo(NamedTuple):
-    """What kind of surface it is: the answer of `Surface.describe`."""
+    """What kind of surface it is: the answer of `Surface.describe`.
+
+    Attributes
+    ----------
+    vertices : int
+        Number of vertices.
+    triangles : int
+        Number of triangles.
+    unused_vertices : int
+        Vertices of no triangle.
+    flat_triangles : int
+        Triangles without area.
+    clashing_edges : int
+        Inner edges whose two triangles are oriented differently.
+    pinched_vertices : int
+        Vertices in use where the triangles do not form one fan.
+    border_edges : int
+        Edges of one triangle only.
+    border_loops : int
+        Closed chains of border edges.
+    components : int
+        Pieces that share no vertex.
+    closed : bool
+        There are triangles, and no border edges.
+    oriented : bool
+        There are no clashing edges.
+    euler : int
+        Vertices in use - edges + triangles.
+    low : tuple[float, float, float]
+        Least coordinates of the vertices in use.
+    high : tuple[float, float, float]
+        Largest coordinates of the vertices in use.
+    area : float
+        Sum of the triangles' areas, rounded.
+    volume : float
+        Of a closed oriented surface: enclosed, positive if fronts face out; else NaN;
+        rounded.
+    """
 
     vertices: int
-    """Number of vertices."""
     triangles: int
-    """Number of triangles."""
     unused_vertices: int
-    """Vertices of no triangle."""
     flat_triangles: int
-    """Triangles without area."""
     clashing_edges: int
-    """Inner edges whose two triangles are oriented differently."""
     pinched_vertices: int
-    """Vertices in use where the triangles do not form one fan."""
     border_edges: int
-    """Edges of one triangle only."""
     border_loops: int
-    """Closed chains of border edges."""
     components: int
-    """Pieces that share no vertex."""
     closed: bool
-    """There are triangles, and no border edges."""
     oriented: bool
-    """There are no clashing edges."""
     euler: int
-    """Vertices in use - edges + triangles."""
     low: tuple[float, float, float]
-    """Least coordinates of the vertices in use."""
     high: tuple[float, float, float]
-    """Largest coordinates of the vertices in use."""
     area: float
-    """Sum of the triangles' areas, rounded."""
     volume: float
-    """Of a closed oriented surface: enclosed, positive if fronts face out; else NaN; rounded."""
+
+
+def follows_edits(follower: Any) -> bool:
+    """Whether it keeps something that can follow an editor: a borrowed star does not."""
+    return not getattr(follower, "_borrows", (False, False))[0]
 
 
 class Surface(_core.Surface):
@@ -91,6 +118,7 @@ class Surface(_core.Surface):
     --------
     Star : which facet a ray from a centre meets.
     Prober : which triangle a probe touches, and the nearest point.
+    SurfaceEditor : splits, cuts and sews a surface.
 
     Notes
     -----
@@ -110,7 +138,8 @@ class Surface(_core.Surface):
     2
     """
 
-    __slots__ = ("__weakref__", "_fields", "_kept", "_lock", "_options")
+    __slots__ = ("__weakref__", "_editor", "_fields", "_kept", "_lock", "_options")
+    _editor: weakref.ref[SurfaceEditor] | None
     _fields: dict[str, NDArray[np.float64]]
     _kept: weakref.WeakSet[Any]
     _lock: threading.RLock
@@ -135,6 +164,7 @@ class Surface(_core.Surface):
             raise
         surface._fields = _arrays.fields(fields, len(rows))
         surface._options = (weld, tolerant)
+        surface._editor = None
         surface._kept = weakref.WeakSet()
         surface._lock = threading.RLock()
         return surface
@@ -290,6 +320,13 @@ class Surface(_core.Surface):
         with self._lock:
             self._flip(triangle, edge, list(self._kept), 0)
 
+    def _keep(self, follower: Any) -> None:
+        """What was made beside the surface is to be brought up to date with it."""
+        self._kept.add(follower)
+        editor = None if self._editor is None else self._editor()
+        if editor is not None and follows_edits(follower):
+            editor._attach(follower)
+
     def check(self) -> Check:
         """Find every defect of the surface.
 
@@ -339,6 +376,11 @@ class Surface(_core.Surface):
     def __reduce__(self) -> tuple[Any, ...]:
         with self._lock:
             arrays = (self.points, self.triangles, self._fields)
+        triangles = arrays[1]
+        if not self._options[1] and (triangles[:, 0] == triangles[:, 1]).any():
+            raise TypeError(
+                "edits have freed triangles: SurfaceEditor.copy() pickles, or compact()"
+            )
         return _restore, (type(self), *arrays, *self._options)
 
 
