@@ -82,7 +82,7 @@ int gdal_raster_check(const char *path, const char *driver)
         return END_USAGE;
     }
     if (driver_writes_rasters(gdal, gdal->GDALGetDriverByName(name)))
-        return files_try_output(path, NULL);
+        return gdal_directory_check(path);
     complain("%s: this GDAL does not write rasters as '%.60s'", path, name);
     return END_USAGE;
 }

@@ -358,11 +358,15 @@ static void nearest_look_into(nearest_search *s, mw_bvh_stack *stack, uint32_t v
             mw__bvh_push(stack, floor, (mw_bvh_visit){mw__float_down(distance[i]), node->child[i]});
 }
 
-static void nearest_search_bvh(nearest_search *s)
+/* `guess` is looked at first. The answer is the same: of all triangles at the smallest distance the
+ * lowest. */
+static void nearest_search_bvh(nearest_search *s, uint32_t guess)
 {
     const mw_prober *prober = s->prober;
     s->width = mw__bvh_aim(&prober->bvh, s->point, prober->slack, s->q);
     nearest_set_reach(s, s->max_distance);
+    if (guess < prober->surface->tri_count && mw__corners_finite(prober->surface, guess))
+        nearest_look_at_triangle(s, guess);
     mw_bvh_stack stack;
     stack.count = 1;
     stack.visit[0] = (mw_bvh_visit){0, 0};
@@ -372,6 +376,34 @@ static void nearest_search_bvh(nearest_search *s)
     }
 }
 
+void mw__nearest_find(const mw_prober *prober, const double point[3], double max_distance,
+                      uint32_t guess, mw_nearest_surface_point *hit)
+{
+    *hit = (mw_nearest_surface_point){MW_NONE, NAN, {NAN, NAN, NAN}, {NAN, NAN, NAN}};
+    if (!mw__is_finite3(point)) return;
+    nearest_search s = {.prober = prober,
+                        .point = point,
+                        .max_distance = max_distance,
+                        .nearest = {.triangle = MW_NONE, .distance = INFINITY}};
+    nearest_search_bvh(&s, guess);
+    if (s.nearest.triangle != MW_NONE) *hit = s.nearest;
+}
+
+mw_status mw__nearest_check(const mw_prober *prober, double max_distance, mw_error *error)
+{
+    if (!prober->has_bvh)
+        return mw__fail(error, MW_ERROR_ARGUMENT,
+                        "the nearest point needs a prober with options.boxes");
+    if (!(max_distance >= 0))
+        return mw__fail(error, MW_ERROR_ARGUMENT, "the distance must be at least 0");
+    return MW_OK;
+}
+
+mw_status mw__nearest_fail_outdated(mw_error *error)
+{
+    return mw__fail(error, MW_ERROR_ARGUMENT, "the boxes are not up to date: mw_prober_update");
+}
+
 mw_status mw_nearest_on_surface(const mw_prober *prober, const double point[3], double max_distance,
                                 mw_nearest_surface_point *hit, mw_error *error)
 {
@@ -379,22 +411,11 @@ mw_status mw_nearest_on_surface(const mw_prober *prober, const double point[3], 
         return mw__fail(error, MW_ERROR_ARGUMENT,
                         "the prober, the point or the pointer to the result is NULL");
     *hit = (mw_nearest_surface_point){MW_NONE, NAN, {NAN, NAN, NAN}, {NAN, NAN, NAN}};
-    if (!prober->has_bvh)
-        return mw__fail(error, MW_ERROR_ARGUMENT,
-                        "the nearest point needs a prober with options.boxes");
-    if (!(max_distance >= 0))
-        return mw__fail(error, MW_ERROR_ARGUMENT, "the distance must be at least 0");
-    if (!mw__is_finite3(point)) return MW_OK;
-    nearest_search s = {.prober = prober,
-                        .point = point,
-                        .max_distance = max_distance,
-                        .nearest = {.triangle = MW_NONE, .distance = INFINITY}};
+    mw_status status = mw__nearest_check(prober, max_distance, error);
+    if (status) return status;
     mw__surface_read_lock(prober->surface);
-    bool current = prober->version == prober->surface->version;
-    if (current) nearest_search_bvh(&s);
+    bool current = mw__prober_is_current(prober);
+    if (current) mw__nearest_find(prober, point, max_distance, MW_NONE, hit);
     mw__surface_read_unlock(prober->surface);
-    if (!current)
-        return mw__fail(error, MW_ERROR_ARGUMENT, "the boxes are not up to date: mw_prober_update");
-    if (s.nearest.triangle != MW_NONE) *hit = s.nearest;
-    return MW_OK;
+    return current || !mw__is_finite3(point) ? MW_OK : mw__nearest_fail_outdated(error);
 }

@@ -81,7 +81,7 @@ static bool star_is_current(const mw_star *star)
  * its vertices. */
 static bool star_follow_update(mw_star *star, const mw_star_update_options *options)
 {
-    if (!options->moved || !star_is_current(star)) return false;
+    if (!options->moved || star->borrowed || !star_is_current(star)) return false;
     if (options->moved_count == 0 && star->track.on) return true;
     if (!star->ready || mw__star_has_flats(star)) return false;
     if (!star->track.on && !mw__star_track_begin(star)) return false;
@@ -119,6 +119,7 @@ static mw_status star_check_moved(const mw_star *star, const mw_star_update_opti
 static bool star_follow_counts(mw_star *star)
 {
     const mw_surface *surface = star->surface;
+    if (star->borrowed) return mw__star_allocate(star, false);
     if (star->facet && star->tri_room >= surface->tri_count &&
         star->point_room >= surface->point_count) {
         mw__star_take_counts(star);
