@@ -381,6 +381,12 @@ static void corners_from_line(const mw_line *line, const mw_corners s, double fr
     }
 }
 
+/* The larger one of two; a if b is NaN. The library's fmax is a call. */
+static MW_INLINE double larger_of(double a, double b)
+{
+    return b > a ? b : a;
+}
+
 /* Magnitudes of the sides from there, with a bound of their errors: that of mw__side_rounded is
  * about doubled by 2u for each coordinate, and q adds FAR_ERROR of the coordinates. */
 #define FAR_ERROR 0x1p-96
@@ -392,12 +398,12 @@ static double near_sides(const mw_line *line, const mw_corners s, double side[3]
     for (int k = 0; k < 3; k++) {
         double bound;
         side[k] = fabs(mw__side_rounded(&through, from[(k + 1) % 3], from[(k + 2) % 3], &bound));
-        most = fmax(most, bound);
+        most = larger_of(most, bound);
         length += fabs(line->m[k]);
-        farthest = fmax(farthest, fabs(line->q[k]));
+        farthest = larger_of(farthest, fabs(line->q[k]));
         for (int i = 0; i < 3; i++) {
-            extent = fmax(extent, fabs(from[i][k]));
-            farthest = fmax(farthest, fabs(s[i][k]));
+            extent = larger_of(extent, fabs(from[i][k]));
+            farthest = larger_of(farthest, fabs(s[i][k]));
         }
     }
     return 2 * most + length * extent * farthest * FAR_ERROR;
@@ -417,7 +423,7 @@ void mw__hit_sides(const mw_line *line, const mw_corners s, double side[3])
         }
         sum += side[k];
     }
-    double most = fmax(fmax(bound[0], bound[1]), bound[2]);
+    double most = larger_of(larger_of(bound[0], bound[1]), bound[2]);
     if (most <= WEIGHT_FINE * sum && sum >= LEAST_SUM && sum <= MOST_SUM) return;
     most = near_sides(line, s, near);
     sum = 0;

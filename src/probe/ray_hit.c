@@ -50,7 +50,7 @@ static int hit_after(const double from[3], const mw_corners c, mw_ray_side side)
     return n == 0 ? 0 : (n < 0) == (side == MW_RAY_FRONT) ? 1 : -1;
 }
 
-static bool ray_reaches(const mw_ray_query *ray, const mw_corners c, mw_ray_side side)
+bool mw__ray_reaches(const mw_ray_query *ray, const mw_corners c, mw_ray_side side)
 {
     if (ray->extent != MW_PROBE_LINE && hit_after(ray->line.q, c, side) < 0) return false;
     if (ray->extent == MW_PROBE_SEGMENT && hit_after(ray->end, c, side) > 0) return false;
@@ -58,13 +58,21 @@ static bool ray_reaches(const mw_ray_query *ray, const mw_corners c, mw_ray_side
     return isinf(ray->greatest) || mw__compare_hit_to(&ray->line, c, ray->greatest) <= 0;
 }
 
-mw_ray_side mw__ray_meets(const mw_ray_query *ray, const mw_corners c)
+/* The sign of the distance is exact. */
+bool mw__ray_reaches_at(const mw_ray_query *ray, const mw_corners c, mw_ray_side side,
+                        double distance)
+{
+    bool limited = ray->least > 0 || !isinf(ray->greatest) || ray->extent == MW_PROBE_SEGMENT;
+    if (ray->extent == MW_PROBE_RAY && distance < 0) return false;
+    return !limited || mw__ray_reaches(ray, c, side);
+}
+
+mw_ray_side mw__ray_crosses(const mw_ray_query *ray, const mw_corners c)
 {
     mw_ray_side side = line_meets(&ray->line, c);
-    if (side == MW_RAY_MISSES || (ray->faces == MW_PROBE_FRONT && side != MW_RAY_FRONT) ||
-        (ray->faces == MW_PROBE_BACK && side != MW_RAY_BACK))
-        return MW_RAY_MISSES;
-    return ray_reaches(ray, c, side) ? side : MW_RAY_MISSES;
+    bool counts = ray->faces == MW_PROBE_BOTH ||
+                  side == (ray->faces == MW_PROBE_FRONT ? MW_RAY_FRONT : MW_RAY_BACK);
+    return counts ? side : MW_RAY_MISSES;
 }
 
 int mw__ray_place_order(const mw_surface *surface, const mw_ray_query *ray, uint32_t s,
