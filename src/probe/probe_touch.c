@@ -248,18 +248,20 @@ static mw_touch touch_make(uint32_t triangle, double distance, const double side
 }
 
 mw_touch mw__touch_at(const mw_line *line, uint32_t triangle, const mw_corners corners,
-                      double distance)
+                      const mw_line_estimate *e, double distance)
 {
     double side[3];
-    mw__hit_sides(line, corners, side);
+    mw__hit_sides_noted(line, corners, e, side);
     return touch_make(triangle, distance, side);
 }
 
 mw_touch mw__touch_of(const mw_surface *surface, const mw_line *line, uint32_t triangle)
 {
     mw_corners c;
+    double side[3];
     triangle_corners_of(surface, triangle, c);
-    return mw__touch_at(line, triangle, c, mw__hit_distance(line, c));
+    mw__hit_sides(line, c, side);
+    return touch_make(triangle, mw__hit_distance(line, c), side);
 }
 
 mw_touch mw__touch_of_lowest(const mw_surface *surface, const mw_line *line, uint32_t triangle)

@@ -61,9 +61,9 @@ uint32_t mw__lowest_touched(const mw_surface *surface, const mw_line *line, uint
 /* The answer for a triangle that is touched, and the answer for none: MW_TOUCH_NONE, _LIMIT,
  * _BAD. */
 mw_touch mw__touch_of(const mw_surface *surface, const mw_line *line, uint32_t triangle);
-/* The same with the corners and the mw__hit_distance of the triangle. */
+/* The same with the corners, the full estimate and the mw__hit_distance of the triangle. */
 mw_touch mw__touch_at(const mw_line *line, uint32_t triangle, const mw_corners corners,
-                      double distance);
+                      const mw_line_estimate *e, double distance);
 mw_touch mw__touch_none(mw_touch_state state);
 
 /* The answer for the lowest-numbered of the triangles touched at the point where `triangle` is. */

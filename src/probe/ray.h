@@ -32,8 +32,8 @@ bool mw__probe_ray(const mw_probe_options *options, const double q[3], const dou
 /* --- ray_hit.c --- */
 
 /* Does the line of the ray meet the triangle, on a face that counts? Exact. A triangle along the
- * line is not met, nor is one with a vertex that is not finite. */
-mw_ray_side mw__ray_crosses(const mw_ray_query *ray, const mw_corners corners);
+ * line is not met, nor is one with a vertex that is not finite. Notes the sides. */
+mw_ray_side mw__ray_crosses(const mw_ray_query *ray, const mw_corners corners, mw_line_estimate *e);
 /* Is that within the extent and the limits of the ray? Exact. */
 bool mw__ray_reaches(const mw_ray_query *ray, const mw_corners corners, mw_ray_side side);
 /* The same, faster, with the mw__hit_distance of the triangle. */
@@ -71,6 +71,7 @@ struct mw_ray_search {
     mw_ray_side side;   /* of that */
     mw_corners nearest_corners;
     double distance;
+    mw_line_estimate estimate, nearest_estimate; /* of the one looked at, and of the nearest */
     uint64_t boxes, triangles, hits;
     /* The node that is visited, MW_NONE at the end: which children the beam meets, nodes and
      * triangles, as bits, and from where on. */

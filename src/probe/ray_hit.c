@@ -28,11 +28,11 @@ static mw_ray_side line_meets_exactly(const mw_line *line, const mw_corners c)
 
 /* All three sides at once: most triangles in a box are missed, and a branch at each side would be
  * guessed wrong. */
-static MW_INLINE mw_ray_side line_meets(const mw_line *line, const mw_corners c)
+static MW_INLINE mw_ray_side line_meets(const mw_line *line, const mw_corners c,
+                                        mw_line_estimate *e)
 {
-    double bound[3], side[3] = {mw__side_rounded(line, c[0], c[1], &bound[0]),
-                                mw__side_rounded(line, c[1], c[2], &bound[1]),
-                                mw__side_rounded(line, c[2], c[0], &bound[2])};
+    const double *side = e->side, *bound = e->bound;
+    mw__estimate_sides(line, c, e);
     int right = (side[0] < -bound[0]) + (side[1] < -bound[1]) + (side[2] < -bound[2]),
         left = (side[0] > bound[0]) + (side[1] > bound[1]) + (side[2] > bound[2]);
     if (right && left) return MW_RAY_MISSES;
@@ -67,9 +67,9 @@ bool mw__ray_reaches_at(const mw_ray_query *ray, const mw_corners c, mw_ray_side
     return !limited || mw__ray_reaches(ray, c, side);
 }
 
-mw_ray_side mw__ray_crosses(const mw_ray_query *ray, const mw_corners c)
+mw_ray_side mw__ray_crosses(const mw_ray_query *ray, const mw_corners c, mw_line_estimate *e)
 {
-    mw_ray_side side = line_meets(&ray->line, c);
+    mw_ray_side side = line_meets(&ray->line, c, e);
     bool counts = ray->faces == MW_PROBE_BOTH ||
                   side == (ray->faces == MW_PROBE_FRONT ? MW_RAY_FRONT : MW_RAY_BACK);
     return counts ? side : MW_RAY_MISSES;

@@ -33,6 +33,7 @@ static void ray_search_keep(mw_ray_search *s, uint32_t triangle, mw_ray_side sid
     s->nearest = triangle;
     s->side = side;
     s->distance = distance;
+    s->nearest_estimate = s->estimate;
     for (int k = 0; k < 3; k++) s->nearest_corners[k] = s->corners[k];
     ray_search_limit(s, reach < greatest ? reach : greatest);
 }
@@ -40,7 +41,7 @@ static void ray_search_keep(mw_ray_search *s, uint32_t triangle, mw_ray_side sid
 /* The line meets the triangle that is looked at. */
 static void ray_search_look_nearest(mw_ray_search *s, uint32_t triangle, mw_ray_side side)
 {
-    double distance = mw__hit_distance(&s->ray->line, s->corners);
+    double distance = mw__hit_distance_noted(&s->ray->line, s->corners, &s->estimate);
     if (!mw__ray_reaches_at(s->ray, s->corners, side, distance)) return;
     s->hits++;
     if (ray_search_improves(s, triangle, distance)) ray_search_keep(s, triangle, side, distance);
@@ -62,7 +63,8 @@ bool mw__ray_found_any(mw_ray_search *s, uint32_t triangle, mw_ray_side side)
 mw_touch mw__ray_touch_found(const mw_ray_search *s)
 {
     if (s->nearest == MW_NONE) return mw__touch_none(MW_TOUCH_NONE);
-    mw_touch touch = mw__touch_at(&s->ray->line, s->nearest, s->nearest_corners, s->distance);
+    mw_touch touch = mw__touch_at(&s->ray->line, s->nearest, s->nearest_corners,
+                                  &s->nearest_estimate, s->distance);
     touch.back = s->side == MW_RAY_BACK;
     return touch;
 }
@@ -85,7 +87,7 @@ static MW_INLINE bool ray_search_look(mw_ray_search *s, uint32_t t, const uint32
 {
     for (int k = 0; k < 3; k++) s->corners[k] = mw__surface_point(s->prober->surface, v[k]);
     if (nearest_is_repeated(s, t)) return true;
-    mw_ray_side side = mw__ray_crosses(s->ray, s->corners);
+    mw_ray_side side = mw__ray_crosses(s->ray, s->corners, &s->estimate);
     if (side == MW_RAY_MISSES) return true;
     if (s->found == mw__ray_found_nearest) {
         ray_search_look_nearest(s, t, side);
