@@ -62,10 +62,8 @@ const option bench_options[] = {
      "to G3",
      NULL},
     {"engines", 0, OPTION_TEXT, offsetof(bench_settings, engines), "LIST",
-     "engines that peers and scale measure, as in meshwalk,geos (default: all there are; of scale, "
-     "meshwalk; of edit "
-     "see "
-     "above):",
+     "engines that peers, scale and worst measure, as in meshwalk,geos (default: all there are; of "
+     "scale, meshwalk; of worst, three libraries; of edit see above):",
      &engine_choices},
     {"tasks", 0, OPTION_TEXT, offsetof(bench_settings, tasks), "LIST",
      "what peers and scale measure (default: the first five; of scale, random and the last two; of "
@@ -101,8 +99,8 @@ const option bench_options[] = {
 static int run_measurement(size_t i, const bench_settings *s, const char *table)
 {
     if (!measurements[i].compares && (s->engines || s->tasks || s->rounds)) {
-        complain("bench %s: --engines, --tasks and --rounds are for 'bench peers', 'bench scale' "
-                 "and 'bench edit'",
+        complain("bench %s: --engines, --tasks and --rounds are for 'bench peers', 'bench scale', "
+                 "'bench worst' and 'bench edit'",
                  measurements[i].name);
         return END_USAGE;
     }

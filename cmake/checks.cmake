@@ -68,16 +68,21 @@ endif()
 add_test(NAME arrows COMMAND ${PROJECT_SOURCE_DIR}/tools/check_arrows)
 add_test(NAME arrows_self_test COMMAND ${PROJECT_SOURCE_DIR}/tools/test_check_arrows)
 add_test(NAME calls COMMAND ${PROJECT_SOURCE_DIR}/tools/check_calls $<TARGET_FILE:meshwalk_static>)
-add_test(NAME man3 COMMAND ${PROJECT_SOURCE_DIR}/tools/check_man3 ${PROJECT_SOURCE_DIR}/include
-  ${PROJECT_BINARY_DIR}/man3)
+add_test(NAME man3 COMMAND ${PROJECT_SOURCE_DIR}/tools/check_man3 ${PROJECT_BINARY_DIR}/man3
+  ${public_headers})
 add_test(NAME citations COMMAND ${PROJECT_SOURCE_DIR}/tools/check_citations)
 add_test(NAME links COMMAND ${PROJECT_SOURCE_DIR}/tools/check_links)
 add_test(NAME columns COMMAND ${PROJECT_SOURCE_DIR}/tools/check_columns)
 add_test(NAME names COMMAND ${PROJECT_SOURCE_DIR}/tools/check_names)
 add_test(NAME recipes COMMAND ${PROJECT_SOURCE_DIR}/tools/check_recipes)
 add_test(NAME symbols COMMAND ${PROJECT_SOURCE_DIR}/tools/check_symbols
-  ${PROJECT_SOURCE_DIR}/include
-  $<TARGET_FILE:meshwalk_shared> $<TARGET_FILE:meshwalk_static>)
+  ${PROJECT_SOURCE_DIR}/include $<TARGET_FILE:meshwalk_shared>
+  ${PROJECT_SOURCE_DIR}/packaging/debian/libmeshwalk0.symbols $<TARGET_FILE:meshwalk_static>)
+if(MW_HAS_MPI)
+  add_test(NAME mpi_symbols COMMAND ${PROJECT_SOURCE_DIR}/tools/check_symbols
+    ${PROJECT_SOURCE_DIR}/mpi/include $<TARGET_FILE:meshwalk_mpi>
+    ${PROJECT_SOURCE_DIR}/packaging/debian/libmeshwalk-mpi0.symbols)
+endif()
 if(MW_BUILD_CLI)
   add_test(NAME posix COMMAND ${CMAKE_COMMAND} -E env CC=${CMAKE_C_COMPILER}
     ${PROJECT_SOURCE_DIR}/tools/check_posix ${PROJECT_BINARY_DIR})

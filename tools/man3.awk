@@ -2,8 +2,8 @@
 #
 # A comment /** ... */ belongs to the declaration that follows it; the one with @file is the page's
 # own. What a comment says goes into the page as it is: paragraphs, lists of lines that begin with
-# "- ", @param and @return. -v name: the header's name without ".h"; -v names: a file that receives
-# the functions, a line each.
+# "- ", @param and @return. -v page: its name; -v header: as programs include it; -v package: its
+# name for pkg-config; -v date; -v names: a file that receives the functions, a line each.
 
 function escape(text)
 {
@@ -132,15 +132,15 @@ function begin_page(    i, brief)
         if (doc[i] !~ /^@file/) brief = doc[i]
     sub(/\.( .*)?$/, "", brief)
     print ".Dd " date
-    print ".Dt MESHWALK-" toupper(name) " 3"
+    print ".Dt " toupper(page) " 3"
     print ".Os meshwalk"
     print ".Sh NAME"
-    print ".Nm meshwalk-" name
+    print ".Nm " page
     print ".Nd " tolower(substr(brief, 1, 1)) substr(brief, 2)
     print ".Sh SYNOPSIS"
-    print ".In meshwalk/" name ".h"
+    print ".In " header
     print ".Pp"
-    print "cc ... $(pkg-config --cflags --libs meshwalk)"
+    print "cc ... $(pkg-config --cflags --libs " package ")"
     print ".Sh DESCRIPTION"
     print_comment()
     print ".Sh INTERFACE"

@@ -1,5 +1,5 @@
-/* surface_edit_rate - edits of a surface whose boxes follow: how many a second, and what the next
- * probe takes.
+/* surface_edit_rate - edits of a surface whose boxes and star follow: how many a second, and what
+ * the next probe takes.
  *     surface_edit_rate [TRIANGLES [EDITS [ROUNDS]]]    (default: 1e6 1e6 5)
  *
  * The surface is a wavy torus. A pair of edits splits an edge and collapses it again, or flips an
@@ -7,7 +7,11 @@
  * beside it (local), or take random triangles (scattered). Shown is processor time, the least of
  * all rounds, in turns: ns an edit without boxes, with boxes, and with boxes, undo of a thousand
  * edits and a report. Then certain probes at random triangles: ns of one, and of one right after an
- * edit of the triangle that it touches; the medians of 20,000 single calls. */
+ * edit of the triangle that it touches; the medians of 20,000 single calls.
+ *
+ * Then the same edits of an icosphere of at least as many triangles, without a star and with one
+ * that follows; and what the star takes to be brought up to date as a whole. */
+#include <meshwalk/remesh.h>
 #include <meshwalk/surface_edit.h>
 
 #include <math.h>
@@ -16,11 +20,12 @@
 #include <string.h>
 #include <time.h>
 
-enum { WAYS = 3, PROBES = 20000 };
+enum { WAYS = 5, TORUS_WAYS = 3, STAR_WAY = 4, PROBES = 20000 };
 
 typedef struct edit_scene {
     mw_surface *surface;
     mw_prober *prober; /* NULL: without boxes */
+    mw_star *star;     /* NULL: none */
     mw_surface_editor *editor;
     mw_surface_change change;
     uint32_t triangles, at; /* where the local edits are */
@@ -79,15 +84,43 @@ static mw_surface *make_torus(uint32_t triangles)
     return surface;
 }
 
-/* way 0: without boxes; 1: with them; 2: with undo and a report, too. */
+static mw_surface *make_sphere(uint32_t least)
+{
+    uint32_t level = 0, vertices, triangles = 0;
+    mw_surface *surface;
+    mw_error error;
+    for (; triangles < least; level++)
+        scene_require(mw_icosphere_size(level, &vertices, &triangles, &error), &error);
+    double *points = malloc(3 * sizeof *points * vertices);
+    uint32_t *corners = malloc(3 * sizeof *corners * triangles);
+    if (!points || !corners) exit(1);
+    scene_require(mw_icosphere_create(level - 1, NULL, points, corners, &error), &error);
+    mw_arrays arrays = {.points = points,
+                        .point_count = vertices,
+                        .triangles = corners,
+                        .triangle_count = triangles};
+    scene_require(mw_surface_create(&arrays, NULL, &surface, &error), &error);
+    free(points);
+    free(corners);
+    return surface;
+}
+
+/* way 0: without boxes; 1: with them; 2: with undo and a report, too. Of a sphere: 3: without a
+ * star; 4: with one. */
 static void scene_make(edit_scene *s, uint32_t triangles, int way)
 {
     mw_error error;
-    *s = (edit_scene){.surface = make_torus(triangles), .random = 88172645463325252u};
+    *s = (edit_scene){.surface = way < TORUS_WAYS ? make_torus(triangles) : make_sphere(triangles),
+                      .random = 88172645463325252u};
     mw_prober_options boxes = {.boxes = 1};
-    if (way) scene_require(mw_prober_create(s->surface, &boxes, &s->prober, &error), &error);
+    if (way == 1 || way == 2)
+        scene_require(mw_prober_create(s->surface, &boxes, &s->prober, &error), &error);
     mw_surface_editor_options options = {.prober = s->prober, .undo = way == 2 ? 1000 : 0};
     scene_require(mw_surface_editor_create(s->surface, &options, &s->editor, &error), &error);
+    if (way == STAR_WAY) {
+        scene_require(mw_star_create(s->surface, NULL, &s->star, &error), &error);
+        scene_require(mw_surface_editor_attach_star(s->editor, s->star, &error), &error);
+    }
     s->triangles = mw_surface_triangle_count(s->surface);
     s->reported = way == 2;
 }
@@ -96,6 +129,7 @@ static void scene_release(edit_scene *s)
 {
     mw_surface_editor_destroy(s->editor);
     mw_prober_destroy(s->prober);
+    mw_star_destroy(s->star);
     mw_surface_destroy(s->surface);
 }
 
@@ -189,6 +223,17 @@ static void scene_measure_probes(edit_scene *s)
     printf("probe 99 %%,%.0f,%.0f\n", before[PROBES * 99 / 100], after[PROBES * 99 / 100]);
 }
 
+/* The star must be right after all these edits, and is then decided as a whole. */
+static void scene_measure_star(edit_scene *s)
+{
+    mw_star_update_options one = {.threads = 1};
+    mw_error error;
+    if (!mw_star_ready(s->star)) fprintf(stderr, "the star is not up to date\n");
+    double begin = processor_seconds();
+    scene_require(mw_star_update(s->star, &one, &error), &error);
+    printf("star as a whole,%.0f\n", 1e9 * (processor_seconds() - begin));
+}
+
 int main(int argc, char **argv)
 {
     uint32_t triangles = argc > 1 ? (uint32_t)atof(argv[1]) : 1000000;
@@ -212,6 +257,11 @@ int main(int argc, char **argv)
                least[scattered][1], least[scattered][2]);
     printf("calls,before an edit,after an edit\n");
     scene_measure_probes(&scene[1]);
+    printf("edits of a sphere,without a star,with a star\n");
+    for (int scattered = 0; scattered < 2; scattered++)
+        printf("%s,%.0f,%.0f\n", scattered ? "scattered" : "local", least[scattered][3],
+               least[scattered][STAR_WAY]);
+    scene_measure_star(&scene[STAR_WAY]);
     for (int way = 0; way < WAYS; way++) scene_release(&scene[way]);
     return 0;
 }

@@ -69,46 +69,63 @@ static int trap_fail(const trap_entry *trap, const mw_error *error)
 /* Answer n queries, either way. Returns an exit code. */
 typedef int trap_answer(void *self, size_t n, bool alone);
 
+/* The ways to answer that are timed; after these two, one for each peer. */
+enum { TRAP_BATCH, TRAP_ALONE, TRAP_PEERS, TRAP_MOST = TRAP_PEERS + ENGINES };
+
 typedef struct trap_clock {
     trap_answer *answer;
     void *self;
-    size_t queries, count[2]; /* that there are; that are answered in a batch, and alone */
+    size_t queries;          /* that there are */
+    size_t count[TRAP_MOST]; /* that each way answers */
+    trap_peers *peers;       /* NULL: none */
+    const double *points;    /* their queries */
 } trap_clock;
 
-static int trap_clock_run(void *self, size_t entry, size_t round, double *figures)
+static int trap_clock_ask(trap_clock *c, size_t way, size_t n, double *seconds)
+{
+    if (way >= TRAP_PEERS)
+        return trap_peers_locate(c->peers, way - TRAP_PEERS, c->points, n, seconds);
+    double begin = monotonic_seconds();
+    int end = c->answer(c->self, n, way == TRAP_ALONE);
+    *seconds = monotonic_seconds() - begin;
+    return end;
+}
+
+static int trap_clock_run(void *self, size_t way, size_t round, double *figures)
 {
     trap_clock *c = self;
     (void)round;
-    double begin = monotonic_seconds();
-    int end = c->answer(c->self, c->count[entry], entry == 1);
-    figures[0] = (monotonic_seconds() - begin) * 1e6 / (double)c->count[entry];
+    int end = trap_clock_ask(c, way, c->count[way], figures);
+    figures[0] *= 1e6 / (double)c->count[way];
     return end;
 }
 
 /* As many queries as take about a tenth of a second, so that a slow trap ends. */
-static int trap_clock_choose(trap_clock *c, size_t entry)
+static int trap_clock_choose(trap_clock *c, size_t way)
 {
     static const double LONG = 0.1;
-    int end = 0;
+    double seconds;
     for (size_t n = 16;; n *= 4) {
-        c->count[entry] = n < c->queries ? n : c->queries;
-        double begin = monotonic_seconds();
-        end = c->answer(c->self, c->count[entry], entry == 1);
-        if (end || n >= c->queries || monotonic_seconds() - begin > LONG / 4) return end;
+        c->count[way] = n < c->queries ? n : c->queries;
+        int end = trap_clock_ask(c, way, c->count[way], &seconds);
+        if (end || n >= c->queries || seconds > LONG / 4) return end;
     }
 }
 
 static int trap_take_times(trap_clock *c, const trap_plan *plan, trap_figures *f)
 {
     rounds_results results = {0};
-    rounds_plan rounds = {.entries = 2, .figures = 1, .rounds = plan->rounds};
-    int end = trap_clock_choose(c, 0);
-    if (end == 0) end = trap_clock_choose(c, 1);
+    const size_t peers = c->peers ? c->peers->count : 0;
+    rounds_plan rounds = {.entries = TRAP_PEERS + peers, .figures = 1, .rounds = plan->rounds};
+    int end = 0;
+    for (size_t way = 0; way < rounds.entries && end == 0; way++) end = trap_clock_choose(c, way);
     if (end == 0) end = rounds_measure(&rounds, trap_clock_run, c, &results);
     if (end == 0) {
-        f->batch = rounds_median(&results, 0, 0);
-        f->alone = rounds_median(&results, 1, 0);
+        f->batch = rounds_median(&results, TRAP_BATCH, 0);
+        f->alone = rounds_median(&results, TRAP_ALONE, 0);
     }
+    for (size_t k = 0; k < peers && end == 0; k++)
+        f->peers[c->peers->peers[k].id].query = rounds_median(&results, TRAP_PEERS + k, 0);
     rounds_release(&results);
     return end;
 }
@@ -124,6 +141,7 @@ typedef struct trap_scene {
     mw_index *index;
     double *queries;
     mw_location *locations;
+    trap_peers peers;
 } trap_scene;
 
 static void trap_scene_release(trap_scene *s)
@@ -132,6 +150,7 @@ static void trap_scene_release(trap_scene *s)
     mw_locator_destroy(s->own);
     mw_editor_destroy(s->editor);
     mw_mesh_destroy(s->mesh);
+    trap_peers_release(&s->peers);
     free(s->queries);
     free(s->locations);
 }
@@ -186,6 +205,19 @@ static int trap_scene_count(trap_scene *s, size_t n, double *steps)
     return 0;
 }
 
+/* All queries once more, by this library, and those of each peer that were timed. */
+static int trap_scene_judge(trap_scene *s, const trap_clock *clock, trap_figures *f)
+{
+    int end = trap_scene_locate(s, clock->count[TRAP_BATCH], false);
+    for (size_t k = 0; k < s->peers.count && end == 0; k++) {
+        size_t n = clock->count[TRAP_PEERS + k];
+        if (n > clock->count[TRAP_BATCH]) n = clock->count[TRAP_BATCH];
+        f->peers[s->peers.peers[k].id].wrong =
+            trap_peers_wrong(&s->peers, k, s->queries, n, s->locations);
+    }
+    return end;
+}
+
 static int trap_scene_measure(trap_scene *s, const trap_plan *plan, trap_figures *f)
 {
     mw_locator_info info;
@@ -197,9 +229,11 @@ static int trap_scene_measure(trap_scene *s, const trap_plan *plan, trap_figures
     for (size_t i = 0; i < 2 * n && s->editor; i++) s->queries[i] = 0; /* where the hub is */
     mw_locator_describe(s->locator, &info);
     f->bytes = (double)info.bytes;
-    trap_clock clock = {trap_scene_locate, s, n, {0, 0}};
-    int end = trap_take_times(&clock, plan, f);
-    return end ? end : trap_scene_count(s, clock.count[0], &f->steps);
+    trap_clock clock = {trap_scene_locate, s, n, {0}, &s->peers, s->queries};
+    int end = s->editor ? 0 : trap_peers_build(&s->peers, plan->engines, s->mesh, n, f->peers);
+    if (end == 0) end = trap_take_times(&clock, plan, f);
+    if (end == 0) end = trap_scene_judge(s, &clock, f);
+    return end ? end : trap_scene_count(s, clock.count[TRAP_BATCH], &f->steps);
 }
 
 static int trap_in_plane(const trap_entry *trap, const trap_plan *plan, trap_figures *f)
@@ -327,7 +361,8 @@ static int trap_of_star(const trap_entry *trap, const trap_plan *plan, trap_figu
     s.locations = malloc(n * sizeof *s.locations);
     if (end == 0 && (!s.queries || !s.locations)) end = fail_memory();
     for (size_t i = 0; i < 3 * n && end == 0; i++) s.queries[i] = 2 * dataset_unit(&random) - 1;
-    if (end == 0) end = trap_take_times(&(trap_clock){trap_star_locate, &s, n, {0, 0}}, plan, f);
+    if (end == 0)
+        end = trap_take_times(&(trap_clock){trap_star_locate, &s, n, {0}, NULL, NULL}, plan, f);
     trap_surface_release(&s);
     return end;
 }
@@ -385,7 +420,7 @@ static int trap_of_probe(const trap_entry *trap, const trap_plan *plan, trap_fig
         for (int k = 0; k < 6; k++) q[k] = k < 3 ? 0.4 * dataset_unit(&random) : 0;
         q[5] = 1;
     }
-    if (end == 0) end = trap_take_times(&(trap_clock){trap_probe, &s, n, {0, 0}}, plan, f);
+    if (end == 0) end = trap_take_times(&(trap_clock){trap_probe, &s, n, {0}, NULL, NULL}, plan, f);
     trap_surface_release(&s);
     return end;
 }
@@ -395,10 +430,17 @@ static int trap_of_probe(const trap_entry *trap, const trap_plan *plan, trap_fig
 static int trap_of_delaunay(const trap_entry *trap, const trap_plan *plan, trap_figures *f)
 {
     mw_mesh *mesh = NULL;
+    mw_error error;
+    trap_mesh m;
+    mw_delaunay_options options = {.threads = 1};
+    int end = trap->make(&m, plan->vertices, plan->seed) ? 0 : fail_memory();
     double begin = monotonic_seconds();
-    int end = trap_make_mesh(trap, plan, &mesh);
+    if (end == 0 && mw_delaunay(m.points, m.point_count, 2, &options, NULL, NULL, &mesh, &error))
+        end = trap_fail(trap, &error);
     f->build = monotonic_seconds() - begin;
+    if (end == 0) trap_peers_triangulate(plan->engines, m.points, m.point_count, f->peers);
     mw_mesh_destroy(mesh);
+    trap_mesh_release(&m);
     return end;
 }
 
@@ -436,6 +478,7 @@ static int trap_of_segments(const trap_entry *trap, const trap_plan *plan, trap_
 
 int trap_measure(int trap, const trap_plan *plan, trap_figures *figures)
 {
-    *figures = (trap_figures){NAN, NAN, NAN, NAN, NAN};
+    *figures = (trap_figures){.build = NAN, .batch = NAN, .alone = NAN, .steps = NAN, .bytes = NAN};
+    for (size_t i = 0; i < ENGINES; i++) figures->peers[i] = (trap_peer_figures){NAN, NAN, NAN};
     return traps[trap].kind(&traps[trap], plan, figures);
 }

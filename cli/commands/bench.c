@@ -84,7 +84,9 @@ const command bench_command = {
                    "mesh, may be slow: strips whose steps shrink, fans and hubs, extents near the "
                    "ends of the doubles, points on vertices and edges. It prints seconds to "
                    "build, microseconds a query in a batch and alone, on one thread, the "
-                   "triangles that a query visits, and bytes beside the mesh. TRAP is a name of "
+                   "triangles that a query visits, and bytes beside the mesh; then what other "
+                   "libraries take in the same mesh, where the program was built with them, and "
+                   "the share of their answers that is wrong. TRAP is a name of "
                    "its first column, or several with commas between.",
     .options = bench_command_options,
     .essential = "sizes queries data rounds format",

@@ -321,7 +321,8 @@ static int raster_run(const void *settings, const char *const *operands)
         .crs = s->crs,
         .max_edge = s->max_edge,
         .over_time = s->time != NULL,
-        .border = s->outside == OUTSIDE_NEAREST};
+        .border = s->outside == OUTSIDE_NEAREST,
+        .cut = s->mean};
     int end = raster_check_settings(s, operands[0], &w);
     if (end == 0) end = raster_like_read(&w.like, s->like);
     if (end == 0) end = raster_mesh_read(&w.mesh, operands[0], &w.wish);

@@ -6,6 +6,7 @@
 #include "cli/output/prj_output.h"
 #include "src/base/posix.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -61,10 +62,11 @@ static bool mesh_output_holds_crs(const char *output, int format)
 }
 
 /* What a format has a place for. `field` and `triangle_field` are the only ones that it keeps;
- * NULL: it keeps all if `fields`, `triangle_fields` are set. */
+ * NULL: it keeps all if `fields`, `triangle_fields` are set. `whole`: it keeps the triangle field
+ * only if that has whole numbers. */
 typedef struct format_places {
     const char *format, *field, *triangle_field, *second_triangle_field;
-    bool fields, triangle_fields, marks;
+    bool fields, triangle_fields, whole, marks;
 } format_places;
 
 static const format_places *format_find_places(const char *format)
@@ -75,7 +77,7 @@ static const format_places *format_find_places(const char *format)
         {.format = "node", .fields = true},
         {.format = "netcdf", .fields = true, .triangle_fields = true},
         {.format = "csv", .fields = true},
-        {.format = "vtk", .fields = true},
+        {.format = "vtk", .fields = true, .triangle_fields = true},
         {.format = "vtu", .fields = true, .triangle_fields = true},
         {.format = "fort.14", .field = "depth", .fields = true, .marks = true},
         {.format = "gr3", .field = "depth", .fields = true, .marks = true},
@@ -88,6 +90,8 @@ static const format_places *format_find_places(const char *format)
         {.format = "msh",
          .triangle_field = "physical",
          .second_triangle_field = "material",
+         .whole = true,
+         .fields = true,
          .triangle_fields = true,
          .marks = true},
         {0},
@@ -97,11 +101,27 @@ static const format_places *format_find_places(const char *format)
     return p;
 }
 
+static size_t names_find(char *const *names, size_t count, const char *name)
+{
+    size_t i = 0;
+    while (i < count && strcmp(names[i], name) != 0) i++;
+    return i;
+}
+
 static bool names_hold(char *const *names, size_t count, const char *name)
 {
-    for (size_t i = 0; i < count; i++)
-        if (strcmp(names[i], name) == 0) return true;
-    return false;
+    return names_find(names, count, name) < count;
+}
+
+/* Has the triangle field of that name, if there is one, whole numbers of 32 bits? */
+static bool triangle_field_is_whole(const mw_mesh_file *file, const char *name)
+{
+    size_t f = names_find(file->triangle_field_names, file->triangle_field_count, name);
+    if (f == file->triangle_field_count) return true;
+    const double *values = file->triangle_fields[f];
+    for (size_t t = 0; t < file->triangle_count; t++)
+        if (!(fabs(values[t]) < 0x1p31 && values[t] == floor(values[t]))) return false;
+    return true;
 }
 
 /* Warn of names that are lost: all but `kept`, NULL for none. */
@@ -138,7 +158,9 @@ static void warn_of_fields(const char *output, const char *format, const format_
     const char *first = p->triangle_field;
     if (first && !names_hold(file->triangle_field_names, file->triangle_field_count, first))
         first = p->second_triangle_field;
-    if (!p->triangle_fields || first)
+    const bool some = !p->triangle_fields || first;
+    if (first && p->whole && !triangle_field_is_whole(file, first)) first = NULL;
+    if (some)
         warn_of_lost(output, format, "these values of triangles", file->triangle_field_names,
                      file->triangle_field_count, first, "vtu has one");
 }

@@ -48,7 +48,7 @@ static int grid_fail_size(const raster_grid_wish *wish)
 int raster_grid_complete(raster_grid *g)
 {
     g->x = malloc(g->columns * sizeof *g->x);
-    g->y = malloc(g->rows * sizeof *g->y);
+    g->y = calloc((size_t)g->rows + RASTER_GRID_SPARE, sizeof *g->y);
     if (!g->x || !g->y) return fail_memory();
     bool sorted = true;
     for (uint32_t i = 0; i < g->columns; i++) {

@@ -13,6 +13,9 @@ typedef struct raster_grid {
     double *x, *y;          /* the centres of columns, rising, and of rows, falling; owned */
 } raster_grid;
 
+/* Rows are read in fours: behind the last there are so many more, which mean nothing. */
+enum { RASTER_GRID_SPARE = 3 };
+
 /* What the user asks for. All zero selects the defaults. */
 typedef struct raster_grid_wish {
     double resolution;  /* 0: not given */

@@ -2,7 +2,9 @@
 #include "cli/frame/files.h"
 #include "cli/frame/message.h"
 #include "cli/frame/progress.h"
+#include "cli/gdal/gdal_crs.h"
 #include "cli/gdal/mesh_crs.h"
+#include "cli/input/mesh_seam.h"
 #include "cli/output/border_peel.h"
 
 #include <math.h>
@@ -13,7 +15,9 @@ void raster_mesh_release(raster_mesh *m)
 {
     mw_locator_destroy(m->locator);
     mw_mesh_destroy(m->mesh);
+    mw_operator_destroy(m->seam);
     free(m->values);
+    free(m->own);
     free(m->numbers);
     free(m->faces);
     free(m->crs);
@@ -72,7 +76,9 @@ static int raster_mesh_locate(raster_mesh *m, const char *path, const raster_mes
         .border = s->border, .threads = s->common->threads, .progress = progress_of_call()};
     if (mw_locator_create(m->mesh, &options, &m->locator, &error) == MW_OK) return 0;
     int end = fail_mesh(path, &error);
-    if (end == END_INPUT)
+    if (end == END_INPUT && m->seam)
+        mesh_seam_explain(path, &(mw_seam_pieces){.west = m->west});
+    else if (end == END_INPUT)
         complain("'meshwalk check %s' lists every defect, 'meshwalk view' shows it", path);
     return end;
 }
@@ -110,6 +116,51 @@ double raster_mesh_area(const raster_mesh *m)
     return area;
 }
 
+/* --- the seam of longitudes ------------------------------------------------------------------- */
+
+/* The values at the vertices of the file, or room for them. */
+static int raster_mesh_keep_own(raster_mesh *m, const char *path, const mw_mesh_file *file,
+                                const raster_mesh_settings *s)
+{
+    if (!s->over_time) return mesh_field_copy(path, file, &s->field, &m->own);
+    m->own = malloc(file->point_count * sizeof *m->own + 1);
+    return m->own ? 0 : fail_memory();
+}
+
+static int raster_mesh_cut(raster_mesh *m, const char *path, mw_mesh_file *file,
+                           const raster_mesh_settings *s)
+{
+    const mw_arrays arrays = mw_mesh_file_arrays(file);
+    mw_seam_pieces pieces = {0};
+    m->file_vertices = file->point_count;
+    if (!s->cut || !m->crs || !crs_is_lonlat(m->crs) || !mw_seam_crosses(&arrays)) return 0;
+    if (s->max_edge > 0) {
+        complain("%s: crosses the meridian of 180 degrees, or a pole: --max-edge cannot be used "
+                 "there with --mean",
+                 path);
+        return END_INPUT;
+    }
+    int end = raster_mesh_keep_own(m, path, file, s);
+    if (end == 0) end = mesh_seam_cut(file, path, &pieces);
+    m->seam = pieces.values;
+    m->west = pieces.west;
+    pieces.values = NULL;
+    mw_seam_pieces_release(&pieces);
+    return end;
+}
+
+int raster_mesh_spread(raster_mesh *m)
+{
+    mw_error error;
+    const mw_value_table table = {.values = m->own, .type = MW_FLOAT64, .count = 1};
+    const mw_operator_apply_options options = {.threads = 1};
+    if (!m->seam || mw_operator_apply(m->seam, &table, &options, m->values, &error) == MW_OK)
+        return 0;
+    return fail_query(&error);
+}
+
+/* --- values ----------------------------------------------------------------------------------- */
+
 /* Room for values that come later. */
 static int raster_mesh_leave_values(raster_mesh *m, const mw_mesh_file *file)
 {
@@ -124,11 +175,12 @@ static int raster_mesh_leave_values(raster_mesh *m, const mw_mesh_file *file)
 static int raster_mesh_take_values(raster_mesh *m, const char *path, const mw_mesh_file *file,
                                    const raster_mesh_settings *s)
 {
-    int end = mesh_field_load(m->mesh, path, file, &s->field);
+    int end = m->seam ? 0 : mesh_field_load(m->mesh, path, file, &s->field);
     if (end) return end;
     size_t size = (size_t)mw_mesh_vertex_count(m->mesh) * sizeof *m->values;
     m->values = malloc(size + 1);
     if (!m->values) return fail_memory();
+    if (m->seam) return raster_mesh_spread(m);
     memcpy(m->values, mw_mesh_field(m->mesh, s->field.field), size);
     return 0;
 }
@@ -141,6 +193,7 @@ int raster_mesh_read(raster_mesh *m, const char *path, const raster_mesh_setting
     if (end) return end;
     end = mesh_crs_settle(path, s->crs, file.crs, s->common->quiet, &m->crs);
     progress_phase("preparing", path);
+    if (end == 0) end = raster_mesh_cut(m, path, &file, s);
     if (end == 0) end = raster_mesh_create(m, path, &file, s);
     if (end == 0)
         end = s->over_time ? raster_mesh_leave_values(m, &file)

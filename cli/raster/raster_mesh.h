@@ -12,12 +12,17 @@ typedef struct raster_mesh_settings {
     double max_edge; /* 0: not given */
     bool over_time;  /* the file's own values are not asked for: `values` is empty */
     bool border;     /* the nearest point of the border will be asked for */
+    bool cut;        /* a mesh that goes round the globe is cut */
 } raster_mesh_settings;
 
 typedef struct raster_mesh {
     mw_mesh *mesh;
     mw_locator *locator;
     double *values;    /* one for each vertex, NaN where it is missing */
+    mw_operator *seam; /* makes them of `own` where the mesh was cut (mesh_seam.h); else NULL */
+    double *own;       /* one for each vertex of the file, then */
+    double west;       /* where the longitudes of the pieces begin */
+    size_t file_vertices;
     uint32_t *numbers; /* in the file, of the triangles that --max-edge has left; NULL: the same */
     double *cells;     /* one for each face of the file, where those are asked for; not owned */
     uint32_t *faces;   /* in the file, of its triangles; NULL: triangle i is face i */
@@ -38,6 +43,9 @@ static inline uint32_t raster_mesh_face(const raster_mesh *m, uint32_t triangle)
 /* Returns 0, or an exit code after a complaint; release it in both cases. */
 int raster_mesh_read(raster_mesh *m, const char *path, const raster_mesh_settings *settings);
 void raster_mesh_release(raster_mesh *m);
+
+/* Make the values of those at the file's vertices, if the mesh was cut. */
+int raster_mesh_spread(raster_mesh *m);
 
 /* The area of the triangles. */
 double raster_mesh_area(const raster_mesh *m);

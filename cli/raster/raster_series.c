@@ -45,8 +45,7 @@ int raster_series_open(raster_series *s, const series_request *request, const ra
                        bool quiet)
 {
     *s = (raster_series){0};
-    int end =
-        series_choose(&s->choice, request, mw_mesh_vertex_count(mesh->mesh), mesh->face_count);
+    int end = series_choose(&s->choice, request, mesh->file_vertices, mesh->face_count);
     if (end) return end;
     const mw_series_info *info = s->choice.info;
     if (!quiet && *info->time_unit)
@@ -81,9 +80,10 @@ int raster_series_read(raster_series *s, raster_mesh *mesh, uint32_t band, bool 
     size_t fields = s->choice.field_count, k = band % fields,
            step = s->choice.first + band / fields;
     *cells = series_field(&s->choice, k)->location == MW_SERIES_FACE;
-    mw_status status = mw_series_read(s->choice.series, s->choice.field[k], step,
-                                      *cells ? mesh->cells : mesh->values, &error);
-    return status == MW_OK ? 0 : fail_reading(&error);
+    double *values = *cells ? mesh->cells : mesh->seam ? mesh->own : mesh->values;
+    if (mw_series_read(s->choice.series, s->choice.field[k], step, values, &error) != MW_OK)
+        return fail_reading(&error);
+    return *cells ? 0 : raster_mesh_spread(mesh);
 }
 
 int raster_series_write(raster_series *s, raster_bands *b, raster_mesh *mesh, gdal_raster *raster)

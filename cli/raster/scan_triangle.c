@@ -1,4 +1,6 @@
 #include "cli/raster/scan_triangle.h"
+#include "cli/raster/scan_crossing.h"
+#include "cli/raster/scan_plane.h"
 
 #include <math.h>
 
@@ -34,13 +36,6 @@ typedef struct scan_side {
     bool is_left;  /* of the triangle's pixels */
 } scan_side;
 
-/* The plane of the values: a value is base + east * (x - x[0]) + north * (y - y[0]). */
-typedef struct scan_plane {
-    double base, east, north;
-    double error; /* bound for the difference of what the plane has from what mw_interpolate has;
-                   * infinite: the plane cannot be used */
-} scan_plane;
-
 typedef struct scan_triangle {
     uint32_t number;
     bool reversed;     /* the user gave it clockwise */
@@ -67,28 +62,31 @@ static void triangle_find_limits(scan_triangle *t, double area)
     t->plain = area > 0x1p-800 && area < 0x1p800 && 6e-15 * box < 0x1p-43 * area;
 }
 
-static void triangle_find_sides(scan_triangle *t, const raster_grid *g)
+static void triangle_find_sides(scan_triangle *t, const scan_strip *s)
 {
+    const raster_grid *g = s->grid;
     const double u = 0x1p-53, reach = fmax(fabs(g->x[0]), fabs(g->x[g->columns - 1]));
-    const double height = t->north - t->south;
+    const double height = t->north - t->south, per_width = s->per_width;
     for (int k = 0; k < 3; k++) {
         int n = k == 2 ? 0 : k + 1;
-        double dy = t->y[n] - t->y[k];
+        const double dy = t->y[n] - t->y[k], each = 1 / dy;
         scan_side *side = &t->sides[k];
-        *side = (scan_side){.from = {t->x[k], t->y[k]},
-                            .to = {t->x[n], t->y[n]},
-                            .south = dy > 0 ? t->y[k] : t->y[n],
-                            .north = dy > 0 ? t->y[n] : t->y[k],
-                            .start = (t->x[k] - g->west) / g->width - 0.5,
-                            .slope = (t->x[n] - t->x[k]) / dy / g->width,
-                            .is_left = dy < 0};
-        /* Fewer than twelve roundings, each of at most u of one of these. */
-        side->unsure = 32 * u *
-                       (fabs(side->slope) * height + (fabs(t->x[k]) + reach + g->width) / g->width +
-                        g->columns);
+        side->from[0] = t->x[k];
+        side->from[1] = t->y[k];
+        side->to[0] = t->x[n];
+        side->to[1] = t->y[n];
+        side->south = dy > 0 ? t->y[k] : t->y[n];
+        side->north = dy > 0 ? t->y[n] : t->y[k];
+        side->start = (t->x[k] - g->west) * per_width - 0.5;
+        side->slope = (t->x[n] - t->x[k]) * each * per_width;
+        side->is_left = dy < 0;
+        /* Fewer than sixteen roundings, each of at most u of one of these. */
+        side->unsure =
+            32 * u *
+            (fabs(side->slope) * height + (fabs(t->x[k]) + reach) * per_width + 1 + g->columns);
         /* The area between a side and a point is the height of the side times the distance along
          * the row. It must be above `least` as computed, so twice that is enough. */
-        side->margin = side->unsure + 2 * t->least / fabs(dy) / g->width;
+        side->margin = side->unsure + 2 * t->least * fabs(each) * per_width;
     }
 }
 
@@ -126,6 +124,8 @@ static void triangle_find_plane(scan_triangle *t, double area)
     double bx = t->x[1] - t->x[0], cx = t->x[2] - t->x[0];
     double by = t->y[1] - t->y[0], cy = t->y[2] - t->y[0];
     for (int k = 0; k < 3; k++) largest = fabs(f[k]) > largest ? fabs(f[k]) : largest;
+    t->plane.x = t->x[0];
+    t->plane.y = t->y[0];
     t->plane.base = 0 + f[0];
     t->plane.east = (bf * cy - cf * by) * each;
     t->plane.north = (cf * bx - bf * cx) * each;
@@ -159,7 +159,7 @@ static bool triangle_load(scan_triangle *t, const scan_strip *s, uint32_t number
     t->south = scan_least(t->y[0], t->y[1], t->y[2]);
     t->north = scan_greatest(t->y[0], t->y[1], t->y[2]);
     triangle_find_limits(t, fabs(area));
-    triangle_find_sides(t, s->grid);
+    triangle_find_sides(t, s);
     triangle_name_sides(t, fabs(area));
     if (s->rounded) triangle_find_plane(t, fabs(area));
     return true;
@@ -213,16 +213,6 @@ static int64_t side_first(const scan_side *side, const raster_grid *g, double y)
     return first;
 }
 
-/* The same if no centre is within the margin of the crossing; otherwise -1. */
-static int64_t side_first_clear(const scan_side *side, const raster_grid *g, double y)
-{
-    double column = side->start + (y - side->from[1]) * side->slope;
-    int64_t low = column_above(column - side->margin, g->columns),
-            high = column_above(column + side->margin, g->columns);
-    bool known = low == high && side->margin < 0x1p-4;
-    return !known ? -1 : low < 0 ? 0 : low;
-}
-
 /* --- pixels of a row -------------------------------------------------------------------------- */
 
 /* Values of pixels well within the triangle: the arithmetic of the library, in its order. */
@@ -249,22 +239,13 @@ static void triangle_values(const scan_triangle *t, double py, const double *res
     }
 }
 
-/* The same, rounded to floats. If all doubles that are as near to the plane as the library's value
- * round to one float, it is the float of that value. */
-static void triangle_rounded(const scan_triangle *t, double py, const double *restrict px,
-                             float *restrict result, int64_t count)
+/* The same, rounded to floats: by the plane, where that is sure of them. `room`: pixels of the row
+ * from the first on. */
+static SCAN_INLINE void triangle_rounded(const scan_triangle *t, double py, const double *px,
+                                         float *result, int64_t count, int64_t room)
 {
-    const scan_plane *f = &t->plane;
-    const double base = f->base + f->north * (py - t->y[0]), x0 = t->x[0], east = f->east;
-    const double error = f->error;
-    bool sure = true;
+    if (scan_plane_fill(&t->plane, py, px, result, count, room)) return;
     for (int64_t i = 0; i < count; i++) {
-        double value = base + east * (px[i] - x0);
-        float low = (float)(value - error), high = (float)(value + error);
-        result[i] = low;
-        sure &= low == high;
-    }
-    for (int64_t i = 0; !sure && i < count; i++) {
         double value;
         triangle_values(t, py, px + i, &value, 1);
         result[i] = (float)value;
@@ -272,13 +253,15 @@ static void triangle_rounded(const scan_triangle *t, double py, const double *re
 }
 
 /* Pixels first .. last of a row belong to the triangle, and are far enough from its sides. */
-static inline void triangle_fill_row(const scan_triangle *t, const scan_strip *s, int64_t row,
-                                     int64_t first, int64_t last)
+static SCAN_INLINE void triangle_fill_row(const scan_triangle *t, const scan_strip *s, int64_t row,
+                                          int64_t first, int64_t last)
 {
     const raster_grid *g = s->grid;
     const size_t begin = (size_t)(row - s->first) * g->columns + (size_t)first;
     const int64_t count = last - first + 1;
-    if (s->rounded) triangle_rounded(t, g->y[row], g->x + first, s->rounded + begin, count);
+    if (s->rounded)
+        triangle_rounded(t, g->y[row], g->x + first, s->rounded + begin, count,
+                         (int64_t)g->columns - first);
     if (s->result) triangle_values(t, g->y[row], g->x + first, s->result + begin, count);
     for (int64_t i = 0; s->triangles && i < count; i++) s->triangles[begin + (size_t)i] = t->number;
 }
@@ -338,19 +321,57 @@ static void triangle_test_row(const scan_triangle *t, const scan_strip *s, int64
     if (first < end) triangle_fill_tested(t, s, row, first, end - 1);
 }
 
-/* A row by the crossings of two sides; false: it needs exact tests. */
-static inline bool triangle_clear_row(const scan_triangle *t, const scan_strip *s, int64_t row)
+/* --- rows of a triangle ----------------------------------------------------------------------- */
+
+static scan_crossing side_crossing(const scan_side *side)
 {
-    const double y = s->grid->y[row];
-    if (y >= t->middle[0] && y <= t->middle[1]) return false;
-    const scan_side *other = y > t->middle[1] ? t->upper : t->lower;
-    const int64_t a = side_first_clear(t->across, s->grid, y),
-                  b = side_first_clear(other, s->grid, y);
-    if (a < 0 || b < 0) return false;
-    const int64_t first = t->across->is_left ? a : b, end = t->across->is_left ? b : a;
-    if (first < end) triangle_fill_row(t, s, row, first, end - 1);
-    return true;
+    return scan_crossing_make(side->from[1], side->start, side->slope, side->margin);
 }
+
+/* Rows first .. last of the strip. */
+static SCAN_INLINE void triangle_fill_rows(const scan_triangle *t, const scan_strip *s,
+                                           int64_t first, int64_t last)
+{
+    scan_crossings c; /* its arrays are filled row by row */
+    c.across = side_crossing(t->across);
+    c.upper = side_crossing(t->upper);
+    c.lower = side_crossing(t->lower);
+    c.middle[0] = t->middle[0];
+    c.middle[1] = t->middle[1];
+    c.columns = s->grid->columns;
+    const bool is_left = t->across->is_left;
+    const int32_t *begin = is_left ? c.on_across : c.on_other,
+                  *end = is_left ? c.on_other : c.on_across;
+    for (; first <= last; first += SCAN_ROWS) {
+        const int64_t left = last - first + 1, count = left < SCAN_ROWS ? left : SCAN_ROWS;
+        scan_crossings_find(&c, s->grid->y + first, count);
+        for (int64_t i = 0; s->rounded && i < count; i++)
+            __builtin_prefetch(
+                s->rounded + (size_t)(first + i - s->first) * s->grid->columns + begin[i], 1);
+        for (int64_t i = 0; i < count; i++) {
+            if (!c.sure[i])
+                triangle_test_row(t, s, first + i);
+            else if (begin[i] < end[i])
+                triangle_fill_row(t, s, first + i, begin[i], end[i] - 1);
+        }
+    }
+}
+
+static void triangle_fill_rows_portable(const scan_triangle *t, const scan_strip *s, int64_t first,
+                                        int64_t last)
+{
+    triangle_fill_rows(t, s, first, last);
+}
+
+#ifdef __x86_64__
+
+__attribute__((target("avx2"))) static void
+triangle_fill_rows_avx2(const scan_triangle *t, const scan_strip *s, int64_t first, int64_t last)
+{
+    triangle_fill_rows(t, s, first, last);
+}
+
+#endif
 
 void scan_triangle_fill(const scan_strip *s, uint32_t number, const scan_vertex *const corner[3])
 {
@@ -359,6 +380,11 @@ void scan_triangle_fill(const scan_strip *s, uint32_t number, const scan_vertex 
     row_range rows = rows_between(s->grid, t.south, t.north);
     if (rows.first < s->first) rows.first = s->first;
     if (rows.last > s->last) rows.last = s->last;
-    for (int64_t row = rows.first; row <= rows.last; row++)
-        if (!triangle_clear_row(&t, s, row)) triangle_test_row(&t, s, row);
+#ifdef __x86_64__
+    if (__builtin_cpu_supports("avx2")) {
+        triangle_fill_rows_avx2(&t, s, rows.first, rows.last);
+        return;
+    }
+#endif
+    triangle_fill_rows_portable(&t, s, rows.first, rows.last);
 }

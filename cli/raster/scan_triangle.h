@@ -27,6 +27,7 @@ typedef struct scan_strip {
     const double *values; /* of the vertices of the mesh */
     const raster_grid *grid;
     mw_cursor *cursor;
+    double per_width;    /* one over the width of a pixel */
     int64_t first, last; /* rows */
     double *result;      /* these three receive values, the same values rounded to floats, and */
     float *rounded;      /* triangles; NULL: not wanted */

@@ -5,7 +5,7 @@
 #include "cli/gdal/gdal_crs.h"
 #include "cli/gdal/gdal_raster.h"
 #include "cli/gdal/mesh_crs.h"
-#include "cli/remap/seam_cut.h"
+#include "cli/input/mesh_seam.h"
 #include "src/base/posix.h"
 
 #include <math.h>
@@ -56,9 +56,12 @@ static int cells_read_mesh(remap_cells *c, const char *path, const char *crs,
     int end = files_read_mesh(path, &file);
     if (end) return end;
     end = mesh_crs_settle(path, crs, file.crs, common->quiet, &c->crs);
-    c->cut = end == 0 && c->crs && crs_is_lonlat(c->crs) && seam_crosses(&file);
-    if (c->cut) end = seam_cut(&file, path, &c->west);
-    const mw_arrays arrays = mw_mesh_file_arrays(&file);
+    mw_seam_pieces pieces = {0};
+    mw_arrays arrays = mw_mesh_file_arrays(&file);
+    c->cut = end == 0 && c->crs && crs_is_lonlat(c->crs) && mw_seam_crosses(&arrays);
+    if (c->cut) end = mesh_seam_cut(&file, path, &pieces);
+    c->west = pieces.west;
+    arrays = mw_mesh_file_arrays(&file);
     const mw_mesh_options options = {.threads = common->threads, .progress = progress_of_call()};
     const mw_locator_options fill = {.threads = common->threads, .progress = progress_of_call()};
     progress_phase("preparing", path);
@@ -66,9 +69,7 @@ static int cells_read_mesh(remap_cells *c, const char *path, const char *crs,
                      mw_locator_create(c->mesh, &fill, &c->locator, &error) != MW_OK)) {
         end = fail_mesh(path, &error);
         if (end == END_INPUT && c->cut)
-            complain("%s: goes round the globe. Its triangles are counted as they were cut at the "
-                     "meridian of %g degrees; edges are straight in longitude and latitude",
-                     path, c->west);
+            mesh_seam_explain(path, &pieces);
         else if (end == END_INPUT)
             complain("'meshwalk check %s' lists every defect, 'meshwalk view' shows it", path);
     }
@@ -76,6 +77,7 @@ static int cells_read_mesh(remap_cells *c, const char *path, const char *crs,
     c->face_count = file.face_count;
     file.faces = NULL;
     mw_mesh_file_release(&file);
+    mw_seam_pieces_release(&pieces);
     return end;
 }
 

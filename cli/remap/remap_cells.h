@@ -11,7 +11,7 @@ typedef struct remap_cells {
     mw_locator *locator;
     uint32_t *face; /* the face of each triangle; NULL: they are the triangles */
     size_t face_count;
-    bool cut; /* it goes round the globe, and was cut at the longitude `west` (seam_cut.h) */
+    bool cut; /* it goes round the globe, and was cut at the longitude `west` (remap.h) */
     double west;
     mw_remap_pixels pixels;
     char *crs; /* NULL: not known */

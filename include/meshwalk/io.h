@@ -119,13 +119,15 @@ typedef struct mw_file_options {
  *   Attributes become fields "attribute1", ..., unless a comment "# attributes: NAME, NAME" at the
  *   top names them; one named z is the height
  * - fort.14 of ADCIRC (.14, .grd) and .gr3, .ll of SCHISM: the depth, positive downwards, becomes
- *   the field "depth"; open and land boundaries mark edges; .ll is in longitudes and latitudes
+ *   the field "depth"; open and land boundaries, and both sides of barriers, mark edges; .ll is in
+ *   longitudes and latitudes
  * - 2DM of SMS: triangles and quadrilaterals, counted in the order of their numbers; the material
  *   becomes the triangle field "material"
  * - Selafin of TELEMAC (.slf): either byte order, single and double precision; the variables at the
  *   first time become fields
  * - MSH of Gmsh, 2.2, 4.0 and 4.1: text and binary; physical groups of faces become the triangle
- *   field "physical", those of lines mark edges
+ *   field "physical", those of lines mark edges; $NodeData and $ElementData of the first time
+ *   become fields and triangle fields
  * - VTK: legacy unstructured grids and polydata, text and binary; VTU: text, base64 and raw, with
  *   zlib or without. Values of points become fields, those of cells triangle fields
  * - SU2 in the plane; markers mark edges
@@ -237,7 +239,8 @@ MW_API int mw_constraints_known(const char *path);
  *   because their vertices have further values
  * - "2dm": SMS. The height is z; without z the negative field "depth". The material is the triangle
  *   field "material", else "physical", else 1
- * - "msh": Gmsh 2.2 as text. Physical groups as above, else 0; marked edges are lines in groups
+ * - "msh": Gmsh 2.2 as text. Physical groups as above where these are whole numbers, else 0;
+ *   marked edges are lines in groups; fields are $NodeData
  *
  * Faces that were cut into triangles (`faces`) are written as they were: quadrilaterals in gr3, 2dm
  * and msh, all polygons in vtu.
@@ -245,7 +248,8 @@ MW_API int mw_constraints_known(const char *path);
  * PLY and netCDF keep the coordinate system; other formats do not. netCDF, vtk and vtu keep values
  * per triangle; 2dm and msh keep some of them. fort.14, gr3 and msh keep marked edges. Vertices,
  * triangles, z and fields keep their order and every bit, except the sign of a NaN and the vertices
- * of STL and csv, which have corners only. Names of fields become single words.
+ * of STL and csv, which have corners only. Names of fields become single words, except in vtu and
+ * msh.
  *
  * The two files of "node" are complete before .ele and then .node get their names. A program that
  * is stopped between these two steps leaves a new .ele without a .node, or with an old one.

@@ -82,8 +82,8 @@ typedef struct mw_remap {
  *         holes are open or whose mesh is not an embedding, or a cell number out of range;
  *         MW_ERROR_INPUT for latitudes beyond 90 degrees, longitudes beyond 720 or that go round
  *         the sphere more than once, and a triangle whose longitudes differ by more than 180
- *         degrees, as one across the meridian of 180 may; MW_ERROR_LIMIT for coordinates of 2^300
- *         and more; MW_ERROR_MEMORY, MW_CANCELLED.
+ *         degrees, as one across the meridian of 180 may: mw_seam_cut() cuts it; MW_ERROR_LIMIT for
+ *         coordinates of 2^300 and more; MW_ERROR_MEMORY, MW_CANCELLED.
  *
  * Thread-safe. The result is the same, bit for bit, for any number of threads. Time is proportional
  * to the number of triangles and of their common parts. Memory: 16 bytes a common part, and twice
@@ -112,6 +112,60 @@ MW_API mw_status mw_remap_to_pixels(const mw_remap_mesh *source, const mw_remap_
 
 /** Release weights and areas. Zero-initialised ones are allowed. */
 MW_API void mw_remap_release(mw_remap *remap);
+
+/**
+ * A mesh of longitudes and latitudes in pieces that lie in the plane: mw_seam_cut(). Release with
+ * mw_seam_pieces_release().
+ */
+typedef struct mw_seam_pieces {
+    double *points;      /**< x, y of each vertex, packed: those of the mesh, then new ones */
+    uint32_t *triangles; /**< 3 vertices of each piece */
+    uint32_t *faces;     /**< of each piece, the face of the mesh that it is a part of */
+    size_t point_count, triangle_count;
+    /** What a field has at `points`, from what it has at the mesh's vertices: a row for each of the
+     * former, a column for each of the latter (mw_operator_apply()). */
+    mw_operator *values;
+    double west; /**< longitudes of the pieces are from here to 360 degrees more: -180 or 0 */
+} mw_seam_pieces;
+
+/**
+ * Does a triangle have longitudes that differ by more than 180 degrees, or a pole as a vertex? Then
+ * the mesh has to be cut before it is remapped.
+ *
+ * @param mesh  longitudes and latitudes, in degrees; numbers of type uint32_t that exist
+ * @return 1 or 0; 0 if a coordinate is not finite.
+ *
+ * Thread-safe. O(n).
+ */
+MW_API int mw_seam_crosses(const mw_arrays *mesh);
+
+/**
+ * Cut a mesh of longitudes and latitudes where it crosses the meridian of 180 degrees, or that of 0
+ * if no longitude is negative, and at the poles, so that it can be remapped with `degrees`.
+ *
+ * Edges are straight in longitude and latitude, and go the short way round. A triangle with a pole
+ * as a vertex, and a face with one inside, reaches up to the latitude of the pole over all its
+ * longitudes. At the pole a field has what it has at that vertex, and inside of a face the mean of
+ * the vertices round the face.
+ *
+ * @param mesh    longitudes from -180 to 180 or from 0 to 360, and latitudes; numbers of type
+ *                uint32_t
+ * @param faces   the face of each triangle; those of a face follow each other. NULL: each triangle
+ *                is one
+ * @param pieces  receives the pieces, which lie in the plane if the mesh's triangles do not overlap
+ *                with such edges; empty on failure
+ * @param error   NULL, or receives the message of a failure
+ * @return MW_OK; MW_ERROR_ARGUMENT for NULL or numbers of another type; MW_ERROR_INPUT for a
+ *         vertex that does not exist or is not finite, and for longitudes out of range;
+ *         MW_ERROR_LIMIT for more than 134 million vertices or triangles; MW_ERROR_MEMORY.
+ *
+ * Thread-safe. O(n); 40 bytes for each vertex beside the arrays.
+ */
+MW_API mw_status mw_seam_cut(const mw_arrays *mesh, const uint32_t *faces, mw_seam_pieces *pieces,
+                             mw_error *error);
+
+/** Release pieces. Zero-initialised ones are allowed. */
+MW_API void mw_seam_pieces_release(mw_seam_pieces *pieces);
 
 #ifdef __cplusplus
 }

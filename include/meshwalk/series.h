@@ -81,8 +81,9 @@ typedef struct mw_series_options {
  * "v-vel", fort.73 "pressure", fort.74 "windx" and "windy", maxele.63 "zeta_max", maxvel.63
  * "vel_max"; the mesh is in fort.14. SMS .dat, text and binary: one dataset over the vertices of a
  * .2dm, or over its faces if the name of the file contains "_els"; a vector becomes "NAME_x" and
- * "NAME_y". Files of these kinds are read once for their times. Reading a step before the latest
- * one starts again at the beginning of the file. One step of all fields is kept in memory.
+ * "NAME_y"; flags of dry elements are skipped. Files of these kinds are read once for their times.
+ * Reading a step before the latest one starts again at the beginning of the file. One step of all
+ * fields is kept in memory.
  *
  * @param path     the file; a file compressed by gzip is decompressed in memory
  * @param options  NULL = all zero

@@ -108,7 +108,9 @@ typedef struct mw_star_update_options {
  * Decides again whether the surface is star-shaped about the centre. Until this succeeds, all
  * queries return MW_BAD. Where mw_star_update_options.moved lists few vertices, only the facets
  * round these are decided again. All facets are decided if edges were flipped, if the last update
- * failed or one was left out, and where facets have no area.
+ * failed or one was left out, and where facets have no area. A star that is attached to an editor
+ * (mw_surface_editor_attach_star()) follows edits by itself; an update of it with a list of no
+ * vertices takes O(1) if the surface is star-shaped.
  *
  * @param star     the star
  * @param options  NULL selects the defaults
@@ -116,11 +118,14 @@ typedef struct mw_star_update_options {
  * @return as mw_star_create(); also MW_ERROR_ARGUMENT if `moved` has a number that is no vertex.
  *         After a failure the star answers MW_BAD until an update succeeds.
  *
- * O(n), or O(k log k) for the k facets round the moved vertices; the first such update takes O(n)
- * and 4 bytes a facet. Not thread-safe.
+ * O(n), or O(k log k) for the k facets round the moved vertices; the first such update takes O(n),
+ * 5 bytes a facet and 4 a vertex. Not thread-safe.
  */
 MW_API mw_status mw_star_update(mw_star *star, const mw_star_update_options *options,
                                 mw_error *error);
+
+/** 1 if the star is up to date and answers queries; 0 if they return MW_BAD. O(1). Thread-safe. */
+MW_API int mw_star_ready(const mw_star *star);
 
 /** Sizes of a star. */
 typedef struct mw_star_info {

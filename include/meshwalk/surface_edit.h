@@ -4,8 +4,9 @@
  *
  * An editor changes a surface in place: it splits, flips and collapses edges, adds and removes
  * triangles and vertices, cuts the surface along a path of edges, and sews borders. The cost of an
- * edit depends on the triangles that it touches, not on the size of the surface. Boxes of a prober
- * follow each edit, so that certain probes are right at once.
+ * edit depends on the triangles that it touches, not on the size of the surface. Probers and stars
+ * that are attached to the editor follow each edit, so that certain probes and rays from a centre
+ * are right at once.
  *
  * Numbers of vertices and triangles are handles. An edit renumbers only what it touches. Freed
  * numbers are not used again before mw_surface_editor_compact().
@@ -21,6 +22,7 @@
 
 #include <meshwalk/edit.h>
 #include <meshwalk/probe.h>
+#include <meshwalk/star.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -31,8 +33,8 @@ typedef struct mw_surface_editor mw_surface_editor;
 
 /** Options of an editor of a surface. Zero-initialised options select the defaults. */
 typedef struct mw_surface_editor_options {
-    /** NULL, or a prober of the surface whose boxes follow each edit. It must outlive the editor.
-     * Other probers of the surface, and its stars, are out of date after an edit, until
+    /** NULL, or a prober of the surface to be attached, as mw_surface_editor_attach_prober() does.
+     * Probers that are not attached, and stars, are out of date after an edit, until
      * mw_prober_update() or mw_star_update(). */
     mw_prober *prober;
     /** How many edits can be undone; each takes 40 bytes for each triangle that it touches.
@@ -64,9 +66,65 @@ MW_API mw_status mw_surface_editor_create(mw_surface *surface,
                                           const mw_surface_editor_options *options,
                                           mw_surface_editor **out, mw_error *error);
 
-/** Destroy an editor. The surface and the prober stay as they are, but freed vertices count as
- * vertices of no triangle from now on. NULL is allowed. */
+/** Destroy an editor. The surface, its probers and its stars stay as they are, but freed vertices
+ * count as vertices of no triangle from now on. NULL is allowed. */
 MW_API void mw_surface_editor_destroy(mw_surface_editor *editor);
+
+/* --- what follows ----------------------------------------------------------------------------- */
+
+/**
+ * Attach a prober: its boxes follow each edit from now on.
+ *
+ * Any number of probers may be attached. The cost of an edit grows with each. A prober without
+ * boxes need not follow: it is always up to date. Attaching a prober twice changes nothing.
+ *
+ * @param editor  the editor
+ * @param prober  a prober of its surface, which must outlive the editor or be detached before
+ * @param error   NULL, or receives the message of a failure
+ * @return MW_OK; MW_ERROR_ARGUMENT for NULL or a prober of another surface; MW_ERROR_MEMORY, and
+ *         nothing has changed.
+ *
+ * Belongs to the updating thread. On a shared surface other threads may query meanwhile. O(n);
+ * O(n log n) if edits were made that the prober did not follow: its boxes are then made anew.
+ */
+MW_API mw_status mw_surface_editor_attach_prober(mw_surface_editor *editor, mw_prober *prober,
+                                                 mw_error *error);
+
+/** Detach a prober. It is out of date after the next edit. A prober that is not attached is
+ * allowed. Belongs to the updating thread. */
+MW_API void mw_surface_editor_detach_prober(mw_surface_editor *editor, const mw_prober *prober);
+
+/**
+ * Attach a star: it follows each edit from now on.
+ *
+ * After an edit the star answers as one made anew. If the surface is not star-shaped then, as when
+ * a triangle has been removed, all queries of the star return MW_BAD until further edits make the
+ * surface star-shaped again; mw_star_ready() tells, and mw_star_update() names a defect. A
+ * surface with a facet without area is an exception. The star answers MW_BAD, though the surface
+ * may be star-shaped: mw_star_update() then decides, in O(n). After that the star does not follow
+ * until another call of it finds no such facet.
+ *
+ * An edit within an update (mw_surface_begin_update()) is followed, too; call mw_star_update()
+ * before the end, with the vertices that the edits did not move but the caller did.
+ *
+ * @param editor  the editor
+ * @param star    a star of its surface, which must outlive the editor or be detached before; it may
+ *                be out of date
+ * @param error   NULL, or receives the message of a failure
+ * @return MW_OK, also if the surface is not star-shaped; MW_ERROR_ARGUMENT for NULL or a star of
+ *         another surface; MW_ERROR_MEMORY: the star does not follow.
+ *
+ * Belongs to the updating thread. On a shared surface other threads may query meanwhile. O(n), O(n
+ * log n) for a star that is out of date; 5 bytes a facet and 4 a vertex, and room for half as many
+ * facets and vertices more once edits make some. The cost of an edit then grows in proportion to
+ * the facets that it touches, and to those round a vertex there that has 64 or more.
+ */
+MW_API mw_status mw_surface_editor_attach_star(mw_surface_editor *editor, mw_star *star,
+                                               mw_error *error);
+
+/** Detach a star. It is out of date after the next edit. A star that is not attached is allowed.
+ * Belongs to the updating thread. */
+MW_API void mw_surface_editor_detach_star(mw_surface_editor *editor, mw_star *star);
 
 /* --- edits ------------------------------------------------------------------------------------ */
 
@@ -128,8 +186,8 @@ typedef struct mw_surface_change {
  *
  * Between mw_surface_begin_update() and mw_surface_end_update() an edit is a part of that update:
  * call mw_prober_update() before its end, with a distance of 0 if only edits moved vertices.
- * Elsewhere an edit is an update by itself, after which the editor's prober is up to date if it
- * was before.
+ * Elsewhere an edit is an update by itself, after which what is attached to the editor is up to
+ * date if it was before.
  *
  * @param editor  the editor
  * @param edit    the edit
@@ -346,7 +404,7 @@ MW_API mw_status mw_surface_edit_undo(mw_surface_editor *editor, mw_surface_chan
 /**
  * Renumber vertices and triangles without gaps, in the same order. Undo starts again.
  *
- * The boxes of the editor's prober are made anew.
+ * The boxes of attached probers are made anew; attached stars get the new numbers.
  *
  * @param editor     the editor
  * @param triangles  NULL, or an array of mw_surface_triangle_count() numbers: receives the new
@@ -369,7 +427,8 @@ typedef struct mw_surface_editor_info {
     uint32_t vertex_range, triangle_range;
     uint32_t border_edges; /**< edges of one triangle */
     size_t undoable;       /**< edits that can be undone */
-    /** Memory of the editor, with the room in the surface that edits will use, without the prober.
+    /** Memory of the editor, with the room in the surface that edits will use, without probers and
+     * stars.
      */
     size_t bytes;
     size_t undo_bytes; /**< of these, for undo */

@@ -7,7 +7,9 @@
 #include "cli/frame/message.h"
 #include "cli/frame/progress.h"
 #include "cli/frame/signals.h"
+#include "cli/gdal/library_versions.h"
 
+#include <meshwalk/base.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
@@ -31,7 +33,23 @@ static int main_print_help(void)
     for (size_t i = 0; i < COMMAND_COUNT; i++)
         text_printf(&t, "  %-8s %s\n           meshwalk-mpi %s [options] %s\n", commands[i]->name,
                     commands[i]->summary, commands[i]->name, commands[i]->operands);
-    text_string(&t, "\n'meshwalk-mpi COMMAND --help all' tells about its options.\n");
+    text_string(&t, "\n'meshwalk-mpi COMMAND --help all' tells about its options.\n"
+                    "'meshwalk-mpi --version' tells what is built in and what was found.\n");
+    return files_write_text(NULL, &t);
+}
+
+/* What MPI says of itself may have many lines; the first one names it. */
+static int main_print_version(void)
+{
+    text t = {0};
+    char mpi[MPI_MAX_LIBRARY_VERSION_STRING];
+    int length;
+    MPI_Get_library_version(mpi, &length);
+    mpi[strcspn(mpi, ",\n")] = 0;
+    for (char *tab = mpi; (tab = strchr(tab, '\t'));) *tab = ' ';
+    text_printf(&t, "meshwalk-mpi %s\n", mw_version());
+    library_version_line(&t, "MPI", mpi, "");
+    library_versions_write(&t);
     return files_write_text(NULL, &t);
 }
 
@@ -66,6 +84,7 @@ static int main_run(int count, char **arguments)
 {
     const char *word = count < 2 ? "--help" : arguments[1];
     if (strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0) return main_print_help();
+    if (strcmp(word, "--version") == 0) return main_print_version();
     for (size_t i = 0; i < COMMAND_COUNT; i++)
         if (strcmp(commands[i]->name, word) == 0)
             return command_run(commands[i], count - 2, arguments + 2);

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from conan import ConanFile
 from conan.tools.cmake import CMake, CMakeDeps, CMakeToolchain, cmake_layout
-from conan.tools.files import copy, rm, rmdir
+from conan.tools.files import copy, rmdir
 
 TREE = ("CMakeLists.txt", "LICENSE", "README.md", "CHANGELOG.md")
 FOLDERS = ("cmake", "docs/man", "include", "mpi", "src", "tools", "web/platform")
@@ -53,6 +53,8 @@ class Meshwalk(ConanFile):
             MW_BUILD_CLI=False,
             MW_BUILD_MPI=False,
             MW_BUILD_WEB=False,
+            MW_INSTALL_SHARED=bool(self.options.shared),
+            MW_INSTALL_STATIC=not self.options.shared,
             MW_WITH_ZLIB=bool(self.options.with_zlib),
             MW_WITH_JANSSON=bool(self.options.with_jansson),
         )
@@ -70,8 +72,6 @@ class Meshwalk(ConanFile):
         rmdir(self, str(Path(self.package_folder, "lib/cmake")))
         rmdir(self, str(Path(self.package_folder, "lib/pkgconfig")))
         rmdir(self, str(Path(self.package_folder, "share")))
-        unwanted = "*.a" if self.options.shared else "*.so*"
-        rm(self, unwanted, str(Path(self.package_folder, "lib")))
 
     def package_info(self):
         self.cpp_info.libs = ["meshwalk"]

@@ -15,11 +15,12 @@ static int core_exec(PyObject *module)
                    location_init(module, state) || locator_init(module, state) ||
                    surface_init(module, state) || star_init(module, state) ||
                    prober_init(module, state) || editor_init(module, state) ||
-                   operator_init(module, state) || polygons_init(module, state) ||
-                   check_init(module) || mend_init(module) || layouts_init(module) ||
-                   triangulation_init(module) || files_init(module) || points_init(module) ||
-                   borrowed_init(module) || segments_init(module) || overlap_init(module) ||
-                   sight_init(module) || prepared_init(module) || core_add_numbers(module)
+                   surface_editor_init(module, state) || operator_init(module, state) ||
+                   polygons_init(module, state) || check_init(module) || mend_init(module) ||
+                   layouts_init(module) || triangulation_init(module) || files_init(module) ||
+                   points_init(module) || borrowed_init(module) || segments_init(module) ||
+                   overlap_init(module) || sight_init(module) || prepared_init(module) ||
+                   core_add_numbers(module)
                ? -1
                : 0;
 }
@@ -34,6 +35,7 @@ static int core_traverse(PyObject *module, visitproc visit, void *arg)
     Py_VISIT(state->star_type);
     Py_VISIT(state->prober_type);
     Py_VISIT(state->editor_type);
+    Py_VISIT(state->surface_editor_type);
     Py_VISIT(state->operator_type);
     Py_VISIT(state->polygons_type);
     Py_VISIT(state->memory_type);
@@ -53,6 +55,7 @@ static int core_clear(PyObject *module)
     Py_CLEAR(state->star_type);
     Py_CLEAR(state->prober_type);
     Py_CLEAR(state->editor_type);
+    Py_CLEAR(state->surface_editor_type);
     Py_CLEAR(state->operator_type);
     Py_CLEAR(state->polygons_type);
     Py_CLEAR(state->memory_type);

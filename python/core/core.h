@@ -17,8 +17,8 @@
 /* What the module owns; each object keeps a pointer to it, which its type keeps alive. */
 typedef struct core_state {
     PyTypeObject *mesh_type, *locator_type, *location_type, *memory_type;
-    PyTypeObject *surface_type, *star_type, *prober_type, *editor_type, *operator_type,
-        *polygons_type;
+    PyTypeObject *surface_type, *star_type, *prober_type, *editor_type, *surface_editor_type,
+        *operator_type, *polygons_type;
     PyObject *input_error, *limit_error;
     unsigned long main_thread; /* the one that imported the module */
     PyObject *where_members;   /* a tuple: the members of meshwalk.Where, by their numbers */
@@ -192,6 +192,7 @@ int surface_init(PyObject *module, core_state *state);
 int star_init(PyObject *module, core_state *state);
 int prober_init(PyObject *module, core_state *state);
 int editor_init(PyObject *module, core_state *state);
+int surface_editor_init(PyObject *module, core_state *state);
 int operator_init(PyObject *module, core_state *state);
 /* An operator object that takes the operator over, also on failure. */
 PyObject *operator_new(core_state *state, mw_operator *weights);

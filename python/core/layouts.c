@@ -68,6 +68,15 @@ static int layout_add_changed(PyObject *module)
                                     "itemsize", (Py_ssize_t)sizeof(mw_changed_triangle)));
 }
 
+static int layout_add_changed_vertex(PyObject *module)
+{
+    return layout_add(module, "CHANGED_VERTEX_LAYOUT",
+                      Py_BuildValue("{s:n,s:n,s:n}",
+                                    LAYOUT_MEMBER(mw_changed_vertex, "vertex", vertex),
+                                    LAYOUT_MEMBER(mw_changed_vertex, "other", other), "itemsize",
+                                    (Py_ssize_t)sizeof(mw_changed_vertex)));
+}
+
 static int layout_add_sight(PyObject *module)
 {
     return layout_add(module, "SIGHT_LAYOUT",
@@ -80,8 +89,8 @@ static int layout_add_sight(PyObject *module)
 int layouts_init(PyObject *module)
 {
     return layout_add_location(module) || layout_add_touch(module) || layout_add_nearest(module) ||
-                   layout_add_changed(module) || layout_add_piece(module) ||
-                   layout_add_sight(module)
+                   layout_add_changed(module) || layout_add_changed_vertex(module) ||
+                   layout_add_piece(module) || layout_add_sight(module)
                ? -1
                : 0;
 }

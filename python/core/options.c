@@ -3,8 +3,11 @@
 
 int option_uint32(PyObject *object, void *number)
 {
-    const unsigned long value = PyLong_AsUnsignedLong(object);
+    PyObject *whole = PyNumber_Index(object); /* NumPy's integers, too */
+    if (!whole) return 0;
+    const unsigned long value = PyLong_AsUnsignedLong(whole);
     int large = value > UINT32_MAX;
+    Py_DECREF(whole);
     if (value == (unsigned long)-1 && PyErr_Occurred()) {
         if (!PyErr_ExceptionMatches(PyExc_OverflowError)) return 0;
         PyErr_Clear();
@@ -20,7 +23,10 @@ int option_uint32(PyObject *object, void *number)
 
 int option_uint64(PyObject *object, void *number)
 {
-    unsigned long long value = PyLong_AsUnsignedLongLong(object);
+    PyObject *whole = PyNumber_Index(object);
+    if (!whole) return 0;
+    unsigned long long value = PyLong_AsUnsignedLongLong(whole);
+    Py_DECREF(whole);
     if (value == (unsigned long long)-1 && PyErr_Occurred()) return 0;
     *(uint64_t *)number = value;
     return 1;

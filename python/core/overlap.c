@@ -212,12 +212,68 @@ static PyObject *overlap_remap_to_pixels(PyObject *module, PyObject *args)
     return status ? errors_raise(state, &error) : overlap_take_remap(state, &remap);
 }
 
+/* (points, triangles, cells, longitude where they begin); takes what is in `pieces`. */
+static PyObject *overlap_take_pieces(core_state *state, mw_seam_pieces *pieces)
+{
+    const mw_seam_pieces all = *pieces;
+    *pieces = (mw_seam_pieces){0};
+    mw_operator_destroy(all.values);
+    PyObject *part[3] = {
+        memory_new(state, all.points, 2 * all.point_count * sizeof *all.points),
+        memory_new(state, all.triangles, 3 * all.triangle_count * sizeof *all.triangles),
+        memory_new(state, all.faces, all.triangle_count * sizeof *all.faces),
+    };
+    PyObject *result = NULL;
+    if (part[0] && part[1] && part[2])
+        result = Py_BuildValue("(OOOd)", part[0], part[1], part[2], all.west);
+    for (int i = 0; i < 3; i++) Py_XDECREF(part[i]);
+    return result;
+}
+
+/* The pieces of a mesh, or None if it does not cross the seam. */
+static PyObject *overlap_cut(core_state *state, const mw_arrays *mesh, const uint32_t *cells)
+{
+    mw_seam_pieces pieces;
+    mw_error error;
+    mw_status status = MW_OK;
+    int crosses;
+    Py_BEGIN_ALLOW_THREADS
+    crosses = mw_seam_crosses(mesh);
+    if (crosses) status = mw_seam_cut(mesh, cells, &pieces, &error);
+    Py_END_ALLOW_THREADS
+    if (!crosses) Py_RETURN_NONE;
+    return status ? errors_raise(state, &error) : overlap_take_pieces(state, &pieces);
+}
+
+/* seam_cut(points, triangles as uint32, cell of each triangle or None): None if the mesh does not
+ * cross the seam of its longitudes; else the arrays of the pieces, packed, and where they begin */
+static PyObject *overlap_seam_cut(PyObject *module, PyObject *args)
+{
+    core_state *state = PyModule_GetState(module);
+    PyObject *points, *triangles, *cells, *result;
+    buffer_mesh mesh;
+    Py_buffer view = {0};
+    if (!PyArg_ParseTuple(args, "OOO", &points, &triangles, &cells) ||
+        buffer_get_mesh(points, triangles, 2, &mesh))
+        return NULL;
+    if (cells != Py_None &&
+        buffer_get_packed(cells, sizeof(uint32_t), mesh.arrays.triangle_count, &view)) {
+        buffer_release_mesh(&mesh);
+        return NULL;
+    }
+    result = overlap_cut(state, &mesh.arrays, view.buf);
+    if (cells != Py_None) PyBuffer_Release(&view);
+    buffer_release_mesh(&mesh);
+    return result;
+}
+
 static PyMethodDef overlap_functions[] = {
     {"volume_above", overlap_volume_above, METH_VARARGS, NULL},
     {"volume_between", overlap_volume_between, METH_VARARGS, NULL},
     {"surface_area", overlap_surface_area, METH_VARARGS, NULL},
     {"remap_to_mesh", overlap_remap_to_mesh, METH_VARARGS, NULL},
     {"remap_to_pixels", overlap_remap_to_pixels, METH_VARARGS, NULL},
+    {"seam_cut", overlap_seam_cut, METH_VARARGS, NULL},
     {NULL, NULL, 0, NULL},
 };
 

@@ -235,8 +235,20 @@ static PyMethodDef star_methods[] = {
     {NULL, NULL, 0, NULL},
 };
 
+static PyObject *star_ready(PyObject *self, void *unused)
+{
+    int ready;
+    (void)unused;
+    Py_BEGIN_ALLOW_THREADS
+    ready = mw_star_ready(((star_object *)self)->star);
+    Py_END_ALLOW_THREADS
+    return PyBool_FromLong(ready);
+}
+
 static PyGetSetDef star_members[] = {
     {"surface", star_surface, NULL, "The surface that rays meet.", NULL},
+    {"ready", star_ready, NULL, "Whether the surface is star-shaped now, and the star answers.",
+     NULL},
     {NULL, NULL, NULL, NULL, NULL},
 };
 

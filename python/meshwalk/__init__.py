@@ -64,7 +64,9 @@ if TYPE_CHECKING:
     from meshwalk._plot import explain, plot
     from meshwalk._polygons import PolygonHits, Polygons
     from meshwalk._prepared import map
-    from meshwalk._prober import (
+    from meshwalk._segments import Segments
+    from meshwalk._sight import Sights, SightState, visible
+    from meshwalk._space.prober import (
         Deviation,
         NearestPoints,
         Prober,
@@ -73,16 +75,15 @@ if TYPE_CHECKING:
         TouchLists,
         TouchState,
     )
-    from meshwalk._segments import Segments
-    from meshwalk._sight import Sights, SightState, visible
-    from meshwalk._star import (
+    from meshwalk._space.star import (
         Remeshed,
         Star,
         StarInfo,
         direction_to_lonlat,
         lonlat_to_direction,
     )
-    from meshwalk._surface import Surface, SurfaceInfo
+    from meshwalk._space.surface import Surface, SurfaceInfo
+    from meshwalk._space.surface_editor import SurfaceChange, SurfaceEditor, SurfaceEditorInfo
     from meshwalk._tiles import TileLocations, Tiles
     from meshwalk._tiling import prepare_tiles
     from meshwalk._triangulate import (
@@ -133,7 +134,7 @@ _MODULES = {
     "_plot": ("explain", "plot"),
     "_polygons": ("PolygonHits", "Polygons"),
     "_prepared": ("map",),
-    "_prober": (
+    "_space.prober": (
         "Deviation",
         "NearestPoints",
         "Prober",
@@ -144,8 +145,9 @@ _MODULES = {
     ),
     "_segments": ("Segments",),
     "_sight": ("SightState", "Sights", "visible"),
-    "_star": ("Remeshed", "Star", "StarInfo", "direction_to_lonlat", "lonlat_to_direction"),
-    "_surface": ("Surface", "SurfaceInfo"),
+    "_space.star": ("Remeshed", "Star", "StarInfo", "direction_to_lonlat", "lonlat_to_direction"),
+    "_space.surface": ("Surface", "SurfaceInfo"),
+    "_space.surface_editor": ("SurfaceChange", "SurfaceEditor", "SurfaceEditorInfo"),
     "_tiles": ("TileLocations", "Tiles"),
     "_tiling": ("prepare_tiles",),
     "_triangulate": (
@@ -203,6 +205,9 @@ __all__ = [
     "StarInfo",
     "Surface",
     "SurfaceAreaInfo",
+    "SurfaceChange",
+    "SurfaceEditor",
+    "SurfaceEditorInfo",
     "SurfaceInfo",
     "SurfaceSide",
     "TileLocations",

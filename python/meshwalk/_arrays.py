@@ -304,6 +304,36 @@ def record_type(layout: dict[str, int], members: dict[str, Any]) -> np.dtype[Any
     )
 
 
+def frozen(array: NDArray[Any]) -> NDArray[Any]:
+    """A view of the array that nobody can write, nor what it is a view of."""
+    view = array.view()
+    owner: Any = view
+    while isinstance(owner, np.ndarray):  # a view could be made writable again as its owner is
+        owner.flags.writeable = False
+        owner = owner.base
+    return view
+
+
+def records(given: NDArray[Any], kind: np.dtype[Any], count: int) -> NDArray[Any]:
+    """Answers that did not come from the library just now: a checked copy that nobody can write.
+
+    Their triangles must be numbers below `count`, or -1.
+    """
+    array = np.asarray(given)
+    if array.dtype != kind:
+        raise TypeError(f"records must be of the type that locate gives, not {array.dtype}")
+    # As bytes: NumPy copies records field by field, which takes ten times as long.
+    own = np.array(array.view((np.void, kind.itemsize)), order="C").view(kind)
+    triangle = own["triangle"]
+    wrong = (triangle < -1) | (triangle >= count)
+    if wrong.any():
+        raise ValueError(
+            f"{_place('records', wrong)} names triangle {triangle[wrong][0]}; the mesh has {count}"
+            " triangles: are these answers of another mesh?"
+        )
+    return frozen(own)
+
+
 def numbers(array: NDArray[np.uint32]) -> NDArray[np.int32] | NDArray[np.int64]:
     """Numbers of vertices or triangles as signed integers, -1 for none, without a copy."""
     signed: NDArray[np.int32] = array.view(np.int32)

@@ -196,7 +196,7 @@ class BorrowedMesh:
         points, shape = _arrays.queries(xy, "xy", 2)
         records = np.empty(len(points), LOCATION)
         self._run(points, records, False, walk, threads, progress)
-        return Locations(self, records.reshape(shape))
+        return Locations._of(self, records.reshape(shape))
 
     @property
     def fields(self) -> dict[str, NDArray[np.float64]]:

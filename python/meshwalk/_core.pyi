@@ -9,6 +9,7 @@ LOCATION_LAYOUT: dict[str, int]
 TOUCH_LAYOUT: dict[str, int]
 NEAREST_LAYOUT: dict[str, int]
 CHANGED_LAYOUT: dict[str, int]
+CHANGED_VERTEX_LAYOUT: dict[str, int]
 PIECE_LAYOUT: dict[str, int]
 SIGHT_LAYOUT: dict[str, int]
 MAX_TRIANGLES: int
@@ -212,6 +213,8 @@ class Surface:
 class Star:
     @property
     def surface(self) -> Surface: ...
+    @property
+    def ready(self) -> bool: ...
     def _locate(
         self,
         points: Buffer,
@@ -304,6 +307,34 @@ class Prober:
 
 _RawChange: TypeAlias = tuple[int, int, int, int, int, int, int, int, bytes | None]
 
+class SurfaceEditor:
+    @property
+    def surface(self) -> Surface: ...
+    def _attach(self, follower: Prober | Star, /) -> None: ...
+    def _detach(self, follower: Prober | Star, /) -> None: ...
+    def _apply(
+        self,
+        kind: int,
+        triangle: int,
+        v0: int,
+        v1: int,
+        v2: int,
+        x: float,
+        y: float,
+        z: float,
+        path: Buffer | None,
+        other: Buffer | None,
+        /,
+    ) -> tuple[int, int, int, int, int, int, bytes, bytes]: ...
+    def _undo(self) -> tuple[int, int, int, int, int, int, bytes, bytes]: ...
+    def _compact(self, triangles: Buffer, vertices: Buffer, /) -> None: ...
+    def _describe(self) -> dict[str, Any]: ...
+    def _triangle(self, triangle: int, /) -> tuple[int, int, int] | None: ...
+    def _vertex(self, vertex: int, /) -> tuple[float, float, float] | None: ...
+    def _living(self, out: Buffer, /) -> None: ...
+    def _triangles_of(self, vertex: int, /) -> list[int]: ...
+    def _edge(self, a: int, b: int, /) -> list[int]: ...
+
 class Editor:
     def _apply(
         self, kind: int, vertex: int, other: int, field: int, x: float, y: float, value: float, /
@@ -340,6 +371,7 @@ class Editor:
     def _interpolate(self, field: int, locations: Buffer, out: Buffer, /) -> None: ...
 
 _Editor = TypeVar("_Editor", bound=Editor)
+_SurfaceEditor = TypeVar("_SurfaceEditor", bound=SurfaceEditor)
 
 def editor_from_mesh(
     cls: type[_Editor],
@@ -367,6 +399,9 @@ def surface_from_arrays(
     progress: Progress | None,
     /,
 ) -> _Surface: ...
+def surface_editor_from_surface(
+    cls: type[_SurfaceEditor], surface: Surface, undo: int, /
+) -> _SurfaceEditor: ...
 def star_from_surface(
     cls: type[_Star],
     surface: Surface,
@@ -527,6 +562,9 @@ def remap_to_pixels(
     progress: Progress | None,
     /,
 ) -> _RawRemap: ...
+def seam_cut(
+    points: Buffer, triangles: Buffer, cells: Buffer | None, /
+) -> tuple[memoryview, memoryview, memoryview, float] | None: ...
 def sights(
     locator: Locator,
     heights: Buffer,

@@ -121,7 +121,7 @@ class Cursor:
         self.locator._locate(
             points, records, self._hints, "auto", "auto", tolerance, 0, threads, None
         )
-        return Locations(self.locator.mesh, records.reshape(shape))
+        return Locations._of(self.locator.mesh, records.reshape(shape))
 
     def __repr__(self) -> str:
         count = "any" if self._hints is None else str(self._hints.size)

@@ -554,7 +554,7 @@ class EditorLocations(Locations):
     __slots__ = ("_edits", "editor")
 
     def __init__(self, editor: Editor, records: NDArray[Any], edits: int) -> None:
-        self.records = records
+        self._records = _arrays.frozen(records)
         self.editor = editor
         self._edits = edits
 

@@ -310,9 +310,10 @@ def write(
         The file.
     mesh : Mesh
         The mesh; its field ``"z"`` is the third coordinate, others are written where the format has
-        values at the vertices (PLY, ``.node``, netCDF, VTK, CSV), and its `triangle_fields` where
-        it has values of faces (netCDF, VTK, VTU; ``"physical"`` in ``.msh``). PLY and netCDF keep
-        its coordinate system; beside files of other formats it goes to a ``.prj`` file.
+        values at the vertices (PLY, ``.node``, netCDF, VTK, VTU, ``.msh``, CSV), and its
+        `triangle_fields` where it has values of faces (netCDF, VTK, VTU; whole numbers
+        ``"physical"`` in ``.msh``). PLY and netCDF keep its coordinate system; beside files of
+        other formats it goes to a ``.prj`` file.
     format : str, optional
         One of `mesh_formats`; by default the ending of the path says it.
     progress : callable, optional

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from meshwalk._borrowed import BorrowedMesh
     from meshwalk._core import Progress
     from meshwalk._mesh import Mesh
-    from meshwalk._surface import Surface
+    from meshwalk._space.surface import Surface
 
 LOCATION = _arrays.record_type(
     _core.LOCATION_LAYOUT,
@@ -36,14 +36,8 @@ LOCATION = _arrays.record_type(
 class Locations:
     """Where points lie: the answer of `Locator.locate` or `Star.locate`, of the points' shape.
 
-    The attributes are views of the library's own answers: they cost nothing, and share memory.
-
-    Attributes
-    ----------
-    mesh : Mesh, Surface or BorrowedMesh
-        The mesh in which the points were located.
-    records : ndarray
-        All answers, as a structured array.
+    The attributes are views of the library's own answers: they cost nothing, share memory, and
+    cannot be written; ``hit.triangle.copy()`` can.
 
     Examples
     --------
@@ -62,13 +56,29 @@ class Locations:
     array([20., 20., nan])
     """
 
-    __slots__ = ("mesh", "records")
+    __slots__ = ("_mesh", "_records")
 
     def __init__(self, mesh: Mesh | Surface | BorrowedMesh, records: NDArray[Any]) -> None:
-        if records.dtype != LOCATION:
-            raise TypeError(f"records must be of the type that locate gives, not {records.dtype}")
-        self.mesh = mesh
-        self.records = records
+        self._mesh = mesh
+        self._records = _arrays.records(records, LOCATION, mesh.triangle_count)
+
+    @classmethod
+    def _of(cls, mesh: Mesh | Surface | BorrowedMesh, records: NDArray[Any]) -> Locations:
+        """Answers that the library has just given: they are taken as they are."""
+        hit = object.__new__(cls)
+        hit._mesh = mesh
+        hit._records = _arrays.frozen(records)
+        return hit
+
+    @property
+    def mesh(self) -> Mesh | Surface | BorrowedMesh:
+        """The mesh in which the points were located: a Mesh, Surface or BorrowedMesh."""
+        return self._mesh
+
+    @property
+    def records(self) -> NDArray[Any]:
+        """All answers, as a structured array."""
+        return self._records
 
     @property
     def triangle(self) -> NDArray[np.int32]:
@@ -76,12 +86,12 @@ class Locations:
 
         A point on an edge or a vertex belongs to the lowest-numbered triangle that contains it.
         """
-        return self.records["triangle"]
+        return self._records["triangle"]
 
     @property
     def where(self) -> NDArray[np.uint8]:
         """Where each point lies: the numbers of `Where`."""
-        return self.records["where"]
+        return self._records["where"]
 
     @property
     def weights(self) -> NDArray[np.float64]:
@@ -90,17 +100,17 @@ class Locations:
         They are not negative, sum up to 1 but for rounding, and are exactly 0 for the vertices off
         the edge that the point is on.
         """
-        return self.records["weights"]
+        return self._records["weights"]
 
     @property
     def hole(self) -> NDArray[np.int32]:
         """Number of the hole in which each point lies, -1 for none."""
-        return self.records["hole"]
+        return self._records["hole"]
 
     @property
     def local(self) -> NDArray[np.uint8]:
         """The local edge or vertex that a point is on; 255 for none."""
-        return self.records["local"]
+        return self._records["local"]
 
     @property
     def inside(self) -> NDArray[np.bool_]:
@@ -110,7 +120,7 @@ class Locations:
     @property
     def shape(self) -> tuple[int, ...]:
         """The shape of the points, without their coordinates."""
-        return self.records.shape
+        return self._records.shape
 
     def interpolate(
         self,
@@ -151,9 +161,9 @@ class Locations:
                [0., 1.]])
         """
         if isinstance(values, str):
-            array: NDArray[Any] = _arrays.named(self.mesh.fields, values)
+            array: NDArray[Any] = _arrays.named(self._mesh.fields, values)
         else:
-            array = _arrays.values(values, "values", self.mesh.vertex_count)
+            array = _arrays.values(values, "values", self._mesh.vertex_count)
         return self._interpolate_array(array, threads, progress)
 
     def of_triangles(self, values: ArrayLike | str, missing: Any = np.nan) -> NDArray[Any]:
@@ -186,9 +196,9 @@ class Locations:
         array([ 7,  8, -1])
         """
         if isinstance(values, str):
-            values = _arrays.named(getattr(self.mesh, "triangle_fields", {}), values, "triangle")
+            values = _arrays.named(getattr(self._mesh, "triangle_fields", {}), values, "triangle")
         array = np.asanyarray(values)
-        count = self.mesh.triangle_count
+        count = self._mesh.triangle_count
         if array.ndim == 0 or array.shape[0] != count:
             raise ValueError(
                 f"values must have a row for each of the {count} triangles; its shape is"
@@ -232,10 +242,10 @@ class Locations:
         weights = self.weights.reshape(-1, 3)
         there = self.triangle.reshape(-1) >= 0
         used = there[:, None] & (weights != 0)
-        corners = self.mesh.triangles[np.where(there, self.triangle.reshape(-1), 0)]
+        corners = self._mesh.triangles[np.where(there, self.triangle.reshape(-1), 0)]
         starts = np.zeros(len(weights) + 1, np.int64)
         np.cumsum(used.sum(1), out=starts[1:])
-        shape = (len(weights), self.mesh.vertex_count)
+        shape = (len(weights), self._mesh.vertex_count)
         return csr_array((weights[used], corners[used], starts), shape=shape)
 
     def to_esmf(self, path: str | os.PathLike[str]) -> None:
@@ -279,7 +289,7 @@ class Locations:
             ("frac_b", "f8", "n_b", sums),
             ("status_b", "i1", "n_b", self.where.reshape(-1).astype(np.int8)),
         ]
-        points = self.mesh.points
+        points = self._mesh.points
         if points.shape[1] == 2:
             sides += [(name, "f8", "n_a", points[:, k]) for k, name in enumerate(("xc_a", "yc_a"))]
         return sides
@@ -287,37 +297,36 @@ class Locations:
     def _interpolate_array(
         self, values: NDArray[Any], threads: int, progress: Progress | None
     ) -> NDArray[Any]:
-        records = np.ascontiguousarray(self.records).reshape(-1)
+        records = np.ascontiguousarray(self._records).reshape(-1)
 
         def interpolate(table: NDArray[Any], narrow: bool, out: NDArray[Any]) -> None:
-            self.mesh._interpolate_table(table, narrow, records, out, threads, progress)
+            self._mesh._interpolate_table(table, narrow, records, out, threads, progress)
 
         return _arrays.interpolated(values, self.shape, interpolate)
 
     def _core_operator(self, threads: int, progress: Progress | None) -> _core.Operator:
         """The weights, for an `Operator`."""
         from meshwalk._mesh import Mesh
-        from meshwalk._surface import Surface
+        from meshwalk._space.surface import Surface
 
-        records = np.ascontiguousarray(self.records).reshape(-1)
-        if isinstance(self.mesh, Mesh):
-            return _core.operator_from_locations(self.mesh, records, threads, progress)
-        if isinstance(self.mesh, Surface):
-            return self.mesh._operator("locations", records, threads, progress)
-        kind = type(self.mesh).__name__
+        records = np.ascontiguousarray(self._records).reshape(-1)
+        if isinstance(self._mesh, Mesh):
+            return _core.operator_from_locations(self._mesh, records, threads, progress)
+        if isinstance(self._mesh, Surface):
+            return self._mesh._operator("locations", records, threads, progress)
+        kind = type(self._mesh).__name__
         raise TypeError(f"points must be located in a Mesh or a Surface, not in a {kind}")
 
     def __getitem__(self, index: Any) -> Locations:
-        chosen = self.records[index]
-        return Locations(self.mesh, np.asarray(chosen))
+        return Locations._of(self._mesh, np.asarray(self._records[index]))
 
     def __len__(self) -> int:
-        return len(self.records)
+        return len(self._records)
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[Any]:
         if copy:
-            return self.records.astype(dtype or LOCATION)
-        return self.records if dtype is None else self.records.astype(dtype, copy=False)
+            return self._records.astype(dtype or LOCATION)
+        return self._records if dtype is None else self._records.astype(dtype, copy=False)
 
     def __repr__(self) -> str:
         counts = np.bincount(self.where.ravel(), minlength=len(Where))
@@ -327,4 +336,4 @@ class Locations:
         return f"<{type(self).__name__}: {size} {noun}{'; ' if kinds else ''}{kinds}>"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return Locations, (self.mesh, self.records)
+        return Locations, (self._mesh, self._records)

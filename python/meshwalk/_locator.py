@@ -211,7 +211,7 @@ class Locator(_core.Locator):
         first = None if hints is None else _arrays.hints(hints, "hints", shape)
         records = np.empty(len(points), LOCATION)
         self._locate(points, records, first, walk, start, tolerance, lanes, threads, progress)
-        return Locations(self.mesh, records.reshape(shape))
+        return Locations._of(self.mesh, records.reshape(shape))
 
     def prepare(self, path: str | os.PathLike[str], *, progress: Progress | None = None) -> None:
         """Write the mesh and this locator to a prepared file (``.mwm``), for `meshwalk.map`.

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
     from meshwalk._core import Progress
     from meshwalk._locations import Locations
-    from meshwalk._prober import Found
+    from meshwalk._space.prober import Found
 
 
 class Operator:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 import numpy as np
 
 from meshwalk import _arrays, _core, _esmf
+from meshwalk._errors import InputError
 from meshwalk._locator import Locator, filled
 from meshwalk._mesh import Mesh
 from meshwalk._operator import Operator
@@ -259,6 +260,10 @@ def remap(
     The value of a target cell is the mean, over its area, of what the source has there. Overlaps
     are decided exactly.
 
+    With ``degrees`` a mesh that crosses the meridian of 180 degrees (or that of 0, if its
+    longitudes are from 0 to 360), or a pole, is cut there as `meshwalk weights` does it; its cells
+    stay whole. Edges are straight in longitude and latitude. A `Locator` is taken as it is.
+
     Parameters
     ----------
     source : Mesh or Locator
@@ -269,7 +274,8 @@ def remap(
         Whether the source has a value for each triangle or cell, or at each vertex and linear in
         between.
     source_cells, target_cells : array_like of int, shape (m,), optional
-        The cell of each triangle, from 0, where cells are made of several triangles.
+        The cell of each triangle, from 0, where cells are made of several triangles; those of a
+        cell with a pole inside follow each other.
     degrees : bool, optional
         Coordinates are longitudes and latitudes, and areas those of the unit sphere.
     covered : bool, optional
@@ -290,7 +296,8 @@ def remap(
     InputError
         A mesh is no embedding; longitudes or latitudes are out of range.
     ValueError
-        A locator was made with ``fill="no"``; cell numbers or pixels that cannot be.
+        A locator was made with ``fill="no"``; cell numbers or pixels that cannot be; values at
+        vertices of a mesh that has to be cut.
 
     Examples
     --------
@@ -304,10 +311,9 @@ def remap(
     if values not in ("triangles", "vertices"):
         raise ValueError(f"values must be 'triangles' or 'vertices', not {values!r}")
     at_vertices = values == "vertices"
-    first = filled(source, "source")
     if at_vertices and source_cells is not None:
         raise ValueError("source_cells are for values of triangles")
-    given = (first, *_cells(source_cells, "source_cells", first.mesh))
+    given = _side(source, "source", source_cells, degrees, at_vertices)
     kind = (at_vertices, degrees, covered)
     if isinstance(target, Pixels):
         if target_cells is not None:
@@ -315,9 +321,8 @@ def remap(
         raw = _core.remap_to_pixels(*given, target, *kind, threads, progress)
         shape: tuple[int, ...] = (target.rows, target.columns)
     else:
-        second = filled(target, "target")
-        cells = _cells(target_cells, "target_cells", second.mesh)
-        raw = _core.remap_to_mesh(*given, second, *cells, *kind, threads, progress)
+        taker = _side(target, "target", target_cells, degrees, False)
+        raw = _core.remap_to_mesh(*given, *taker, *kind, threads, progress)
         shape = (raw[0].describe()[0],)
     weights = Operator._of(raw[0], shape, "vertices" if at_vertices else "cells")
     area, fraction = (np.frombuffer(part, np.float64) for part in raw[1:3])
@@ -325,6 +330,38 @@ def remap(
         np.frombuffer(part, np.float64).reshape(shape) for part in raw[3:5]
     )
     return Remap(weights, (area, fraction, target_area, target_fraction), raw[5:])
+
+
+def _side(
+    given: Mesh | Locator, name: str, cells: ArrayLike | None, degrees: bool, at_vertices: bool
+) -> tuple[Locator, NDArray[np.uint32] | None, int]:
+    """A locator; the cell of each of its triangles, and how many there are."""
+    mesh = given.mesh if isinstance(given, Locator) else given
+    if not isinstance(mesh, Mesh):
+        return filled(mesh, name), None, 0  # refused
+    numbers, count = _cells(cells, f"{name}_cells", mesh)
+    pieces = None
+    if degrees and mesh is given:
+        pieces = _core.seam_cut(mesh.points, mesh.triangles.astype(np.uint32), numbers)
+    if pieces is None:
+        return filled(given, name), numbers, count
+    if at_vertices:
+        raise ValueError(
+            f"{name} crosses the meridian of 180 degrees, or a pole: values='vertices' is not "
+            "possible there, but 'triangles' is"
+        )
+    points = np.frombuffer(pieces[0]).reshape(-1, 2)
+    triangles = np.frombuffer(pieces[1], np.uint32).reshape(-1, 3)
+    try:
+        locator = filled(Mesh(points, triangles), name)
+    except InputError as error:
+        error.add_note(
+            f"{name} goes round the globe: its triangles are counted as they were cut at the "
+            f"meridian of {pieces[3]:g} degrees; edges are straight in longitude and latitude"
+        )
+        raise
+    whole = count if numbers is not None else mesh.triangle_count
+    return locator, np.frombuffer(pieces[2], np.uint32), whole
 
 
 def _cells(given: ArrayLike | None, name: str, mesh: Mesh) -> tuple[NDArray[np.uint32] | None, int]:

@@ -46,9 +46,9 @@ class PolygonHits:
         border: NDArray[np.bool_],
     ) -> None:
         self.shape = shape
-        self.offsets = offsets
-        self.polygon = polygon
-        self.border = border
+        self.offsets = _arrays.frozen(offsets)
+        self.polygon = _arrays.frozen(polygon)
+        self.border = _arrays.frozen(border)
 
     @property
     def count(self) -> NDArray[np.int64]:

@@ -35,7 +35,7 @@ class Segments:
     `Locator.locate` finds for each of its points but finitely many. A part along an edge belongs
     to the lower-numbered triangle there, and parts outside the mesh to no piece. A segment that is
     a point has one piece, if it is in the mesh. All of this is exact; the attributes are views of
-    the library's own answers.
+    the library's own answers, which cannot be written.
 
     Attributes
     ----------
@@ -72,9 +72,9 @@ class Segments:
         records: NDArray[Any],
     ) -> None:
         self.mesh = mesh
-        self.ends = ends
-        self.offsets = offsets
-        self.records = records
+        self.ends = _arrays.frozen(ends)
+        self.offsets = _arrays.frozen(offsets)
+        self.records = _arrays.frozen(records)
 
     @property
     def segment(self) -> NDArray[np.int64]:

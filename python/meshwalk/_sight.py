@@ -56,7 +56,7 @@ class Sights:
     ) -> None:
         self.viewpoint = viewpoint
         self.targets = targets
-        self.records = records
+        self.records = _arrays.frozen(records)
 
     @property
     def state(self) -> NDArray[np.uint8]:

@@ -165,22 +165,23 @@ class Tiles:
             mapped = self._tile(number)
             found = mapped.locator.locate(points[chosen], threads=threads).records
             triangle = mapped.whole(found["triangle"])
-            found["triangle"] = triangle
             better = np.flatnonzero((triangle >= 0) & (triangle < best[chosen]))
             chosen = chosen[better]
             bytes_[chosen] = found.view(_BYTES)[better]
+            records["triangle"][chosen] = triangle[better]
             tile[chosen], best[chosen] = number, triangle[better]
         missing = np.flatnonzero(best == _NOBODY)
         if len(missing):
             records[missing] = self._locate_outside(points[missing], tolerance, threads)
-        return TileLocations(self, records.reshape(shape), tile.reshape(shape))
+        return TileLocations._in(self, records.reshape(shape), tile.reshape(shape))
 
     def _locate_outside(
         self, points: NDArray[np.float64], tolerance: float, threads: int
     ) -> NDArray[Any]:
         """Answer points in no triangle, by the overview."""
         overview = self._overview
-        found = overview.locator.locate(points, tolerance, threads=threads).records
+        hit = overview.locator.locate(points, tolerance, threads=threads)
+        found = hit.records.view(_BYTES).copy().view(LOCATION)
         found["triangle"] = overview.whole(found["triangle"])
         hole = found["hole"] >= 0
         found["hole"][hole] = self._index.holes[found["hole"][hole]]
@@ -283,7 +284,15 @@ class TileLocations(Locations):
     def __init__(self, tiles: Tiles, records: NDArray[Any], tile: NDArray[np.int32]) -> None:
         super().__init__(cast(Any, tiles), records)
         self.tiles = tiles
-        self.tile = tile
+        self.tile = _arrays.frozen(np.array(tile))
+
+    @classmethod
+    def _in(cls, tiles: Tiles, records: NDArray[Any], tile: NDArray[np.int32]) -> TileLocations:
+        """Answers that the tiles have just given: they are taken as they are."""
+        hit = cast(TileLocations, cls._of(cast(Any, tiles), records))
+        hit.tiles = tiles
+        hit.tile = _arrays.frozen(tile)
+        return hit
 
     def _by_tile(self) -> Iterator[tuple[NDArray[np.intp], _Tile, Locations]]:
         """Points of each tile: their places, and the same answers in the tile's own numbers."""
@@ -398,7 +407,7 @@ class TileLocations(Locations):
         raise TypeError("answers in tiles are not written for ESMF; locate in the whole mesh")
 
     def __getitem__(self, index: Any) -> TileLocations:
-        return TileLocations(
+        return TileLocations._in(
             self.tiles, np.asarray(self.records[index]), np.asarray(self.tile[index])
         )
 

@@ -37,16 +37,26 @@ static mw_status prober_make_boxes(mw_prober *prober, mw_job *job, mw_error *err
     return done ? MW_OK : mw__fail_memory(error);
 }
 
+bool mw__prober_remake(mw_prober *prober, mw_job *job, mw_prober *former)
+{
+    *former = *prober;
+    bool done = prober_make_boxes(prober, job, NULL) == MW_OK &&
+                (!former->bvh.parent || mw__bvh_follow(&prober->bvh, prober->surface));
+    if (!done) {
+        mw__bvh_release(&prober->bvh);
+        *prober = *former;
+        return false;
+    }
+    prober->closed = mw__surface_is_closed(prober->surface);
+    prober->edit_count = prober->surface->edit_count;
+    return true;
+}
+
 bool mw__prober_rebuild(mw_prober *prober, mw_job *job)
 {
-    mw_bvh former = prober->bvh;
-    bool done = prober_make_boxes(prober, job, NULL) == MW_OK &&
-                (!former.parent || mw__bvh_follow(&prober->bvh, prober->surface));
-    mw_bvh gone = done ? former : prober->bvh;
-    if (!done) prober->bvh = former;
-    mw__bvh_release(&gone);
-    if (done) prober->closed = mw__surface_is_closed(prober->surface);
-    if (done) prober->edit_count = prober->surface->edit_count;
+    mw_prober former;
+    bool done = mw__prober_remake(prober, job, &former);
+    if (done) mw__bvh_release(&former.bvh);
     return done;
 }
 

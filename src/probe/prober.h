@@ -37,6 +37,10 @@ struct mw_prober {
  * did. False when out of memory; then nothing has changed. */
 bool mw__prober_rebuild(mw_prober *prober, mw_job *job);
 
+/* The same; *former is what the prober was. Release its boxes, or put it back and release the new
+ * ones. */
+bool mw__prober_remake(mw_prober *prober, mw_job *job, mw_prober *former);
+
 /* --- probe_touch.c --- */
 
 /* Does the line touch the triangle, at any distance: does it meet the triangle, and does m point at

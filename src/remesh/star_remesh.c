@@ -54,14 +54,6 @@ static mw_status sampling_run(star_sampling *s, mw_job *job, mw_error *error)
     return status;
 }
 
-static bool star_is_current(const mw_star *star)
-{
-    mw__surface_read_lock(star->surface);
-    const bool current = star->ready && star->version == star->surface->version;
-    mw__surface_read_unlock(star->surface);
-    return current;
-}
-
 mw_status mw_star_remesh(const mw_star *star, uint32_t level, const mw_remesh_options *options,
                          double *points, uint32_t *triangles, mw_location *locations,
                          mw_error *error)
@@ -74,7 +66,7 @@ mw_status mw_star_remesh(const mw_star *star, uint32_t level, const mw_remesh_op
     mw_status status = MW_RESERVED_CHECK(mw_remesh_options, options, error);
     if (!status) status = mw_icosphere_size(level, &vertices, &count, error);
     if (status) return status;
-    if (!star_is_current(star))
+    if (!mw_star_ready(star))
         return mw__fail(error, MW_ERROR_ARGUMENT, "the star is not up to date: mw_star_update");
     const mw_star_query_options query = {.threads = options->threads};
     double *through = mw__alloc(vertices, 3 * sizeof *through);

@@ -39,18 +39,30 @@ typedef struct mw_star_facet {
 
 /* A vertex of many facets: see star_hubs.h. */
 typedef struct mw_star_hub {
-    uint32_t vertex;       /* its representative */
-    uint32_t first, count; /* its part of the ring */
-    uint32_t half;         /* the first of its half-edges to the right of its first one */
-    bool stale;            /* facets have moved, and `half` is to be found anew */
+    uint32_t *ring;       /* half-edges that start at the hub, counter-clockwise */
+    uint32_t count, room; /* of the ring */
+    uint32_t vertex;      /* its representative */
+    uint32_t half;        /* the first of its half-edges to the right of its first one */
+    bool stale;           /* the ring is to be found anew before a walk uses it */
 } mw_star_hub;
 
 typedef struct mw_star_hubs {
-    mw_star_hub *hub; /* by vertex; NULL: there is none */
-    uint32_t *ring;   /* half-edges that start at the hub, counter-clockwise */
-    uint32_t count;
-    uint32_t used; /* of the ring: less than 3 a facet */
+    mw_star_hub *hub; /* by vertex */
+    uint32_t count, room;
+    uint32_t stale; /* how many are */
 } mw_star_hubs;
+
+/* What a star knows of each facet by itself, so that it can follow single ones: star_track.h. */
+typedef struct mw_star_track {
+    uint8_t *state;   /* of each of the user's facets */
+    uint32_t *place;  /* of each of the user's facets: where it is in star->facet, or MW_NONE */
+    uint32_t *degree; /* of each vertex, in its representative: corners of facets */
+    uint32_t flat;    /* facets without area */
+    uint32_t unsound; /* facets through the centre, or with a corner that is not finite */
+    uint32_t wrong;   /* half-edges without a neighbour, or with one of another orientation */
+    uint32_t met;     /* facets that one ray meets */
+    bool on;          /* all this holds */
+} mw_star_track;
 
 struct mw_star {
     const mw_surface *surface;
@@ -66,22 +78,30 @@ struct mw_star {
     const uint32_t *coincident;
     uint32_t *own_coincident;
     uint32_t *owner; /* per vertex: the lowest facet that the ray through it meets, or MW_NONE */
-    /* NULL, or the place in `facet` of each of the user's facets: for updates of few vertices. */
-    uint32_t *place;
+    mw_star_track track;
     /* NULL, or longitude phi (-pi to pi) and polar angle theta (0 to pi) of each vertex. */
     double *angle;
     double centre[3];
-    double reach; /* about the largest coordinate relative to the centre */
-    uint32_t tri_count, point_count;
-    uint32_t area_count;  /* facets of the user with an area */
-    uint32_t freed_count; /* numbers of facets that an editor has freed */
-    uint32_t front;       /* the facet at phi = 0, theta = pi/2 */
-    uint32_t fuel;        /* step limit of walks that may not end */
-    uint64_t version;     /* version of the surface that all this is valid for */
-    uint64_t shape;       /* and its shape */
-    bool ready;           /* the last check found it star-shaped */
-    bool angles;          /* `angle` is wanted */
+    double reach;                    /* about the largest coordinate relative to the centre */
+    uint32_t tri_count, point_count; /* numbers of the surface */
+    uint32_t tri_room, point_room;   /* and how many there is memory for */
+    uint32_t facet_count;            /* stored facets: neither void nor freed */
+    uint32_t area_count;             /* facets of the user with an area */
+    uint32_t freed_count;            /* numbers of facets that an editor has freed */
+    uint32_t front;                  /* the facet at phi = 0, theta = pi/2 */
+    uint32_t fuel;                   /* step limit of walks that may not end */
+    uint64_t version;                /* version of the surface that all this is valid for */
+    uint64_t shape;                  /* and its shape */
+    bool ready;                      /* the last check found it star-shaped */
+    bool angles;                     /* `angle` is wanted */
+    bool attached;                   /* it follows an editor of the surface */
 };
+
+/* Is it up to date and star-shaped? Then it can be walked. */
+static MW_INLINE bool mw__star_is_current(const mw_star *star)
+{
+    return star->ready && star->version == star->surface->version;
+}
 
 /* Corner k of a facet with vertices v. */
 static MW_INLINE const double *mw__star_corner_point(const mw_star *star, const uint32_t *v,
@@ -173,9 +193,16 @@ static MW_INLINE void mw__star_unfold(const double d[3], double *x, double *y)
     *y = below ? copysign(1 - fabs(u), v) : v;
 }
 
-/* Fill in star->facet and star->guide from star->tri. Stages of the present part of the job.
- * Returns false when out of memory, or cancelled. */
+/* A facet in star->tri with this mark in `user` is not stored: it is void, or an editor has freed
+ * it. */
+#define MW_STAR_OMITTED MW_SURFACE_FREED
+
+/* Fill in star->facet, star->facet_count and star->guide from star->tri. Stages of the present part
+ * of the job. Returns false when out of memory, or cancelled. */
 bool mw__star_lay_out(mw_star *star, mw_job *job);
+
+/* Where on the curve the facet with these corners lies: its key. */
+uint32_t mw__star_facet_key(const mw_star *star, const uint32_t v[3]);
 
 /* Set the planes of a facet by its corners. */
 void mw__star_set_planes(const mw_star *star, mw_star_facet *facet);
@@ -196,10 +223,12 @@ static MW_INLINE uint32_t mw__star_curve_key(const mw_star *star, const double d
     return mw__hilbert_key(&star->curve, x, y);
 }
 
-/* A facet near a key of the curve over the sphere. */
+/* A facet near a key of the curve over the sphere. After edits, an entry of the guide may name a
+ * facet that is no more. */
 static MW_INLINE uint32_t mw__star_guide_facet(const mw_star *star, uint32_t key)
 {
-    return star->guide[key >> (32 - star->guide_bits)];
+    uint32_t facet = star->guide[key >> (32 - star->guide_bits)];
+    return MW_LIKELY(facet < star->facet_count) ? facet : facet % star->facet_count;
 }
 
 /* --- star_start.c, star_grid.c, star_octahedron.c --- */
@@ -219,15 +248,6 @@ void mw__star_fill_angles(mw_star *star);
 
 /* The same for one facet, whose corners may have moved. */
 void mw__star_renew_angles(mw_star *star, mw_star_facet *facet);
-
-/* --- star_follow.c --- */
-
-/* Bring a star up to date in which nothing has changed since but the places of `count` vertices;
- * all its facets have an area. Returns false, with nothing changed but star->place, where all
- * facets must be decided: because there are many vertices, the surface is not star-shaped any more,
- * a facet has lost its area, or memory is short. O(k log k) for the k facets round the vertices,
- * and O(n) when star->place is made. */
-bool mw__star_follow(mw_star *star, const uint32_t *moved, size_t count);
 
 /* --- star_walk_run.c --- */
 

@@ -49,6 +49,6 @@ void mw__star_renew_angles(mw_star *star, mw_star_facet *facet)
 void mw__star_fill_angles(mw_star *star)
 {
     for (uint32_t v = 0; v < star->point_count; v++) vertex_set_angles(star, v);
-    for (uint32_t t = 0; t < star->tri_count; t++)
+    for (uint32_t t = 0; t < star->facet_count; t++)
         if (facet_is_seam(star, &star->facet[t])) star->facet[t].user |= MW_SEAM;
 }

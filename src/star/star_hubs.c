@@ -13,52 +13,70 @@
 #include "topology/coincident.h"
 
 #include <stdlib.h>
-
-static uint32_t hub_link(const mw_star *star, uint32_t half)
-{
-    return star->facet[mw__link_triangle(half)].link[mw__link_edge(half)];
-}
+#include <string.h>
 
 static uint32_t hub_vertex(const mw_star *star, uint32_t facet, uint32_t k)
 {
     return mw__representative(star->coincident, star->facet[facet].v[k]);
 }
 
+/* Which hub a vertex is, or MW_NONE. */
+static uint32_t hub_number(const mw_star *star, uint32_t vertex)
+{
+    uint32_t low = 0, high = star->hubs.count;
+    while (low < high) {
+        uint32_t middle = low + (high - low) / 2;
+        if (star->hubs.hub[middle].vertex < vertex)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low < star->hubs.count && star->hubs.hub[low].vertex == vertex ? low : MW_NONE;
+}
+
 /* --- finding them --- */
 
-/* Count the facets of each vertex, and note a half-edge that starts there. Facets that stand for
- * void ones count twice, which does no harm. */
-static void hubs_count(const mw_star *star, uint32_t *degree, uint32_t *half)
+/* Count the facets of each vertex. */
+static void hubs_count(const mw_star *star, uint32_t *degree)
 {
     for (uint32_t v = 0; v < star->point_count; v++) degree[v] = 0;
-    for (uint32_t t = 0; t < star->tri_count; t++)
-        for (uint32_t k = 0; k < 3; k++) {
-            uint32_t v = hub_vertex(star, t, k);
-            degree[v]++;
-            half[v] = mw__link(t, k);
-        }
+    for (uint32_t t = 0; t < star->facet_count; t++)
+        for (uint32_t k = 0; k < 3; k++) degree[hub_vertex(star, t, k)]++;
 }
 
-/* The facet of a half-edge may stand for a void one; its neighbours are linked to the true one. */
-static uint32_t hub_true_half(const mw_star *star, uint32_t half)
+bool mw__star_hubs_create(mw_star_hubs *hubs, const mw_star *star)
 {
-    return hub_link(star, hub_link(star, half));
+    uint32_t n = star->point_count, count = 0, *degree = mw__alloc(n, sizeof *degree);
+    *hubs = (mw_star_hubs){0};
+    if (!degree) return false;
+    hubs_count(star, degree);
+    for (uint32_t v = 0; v < n; v++) count += degree[v] >= MW_STAR_HUB_FACETS;
+    if (count) hubs->hub = mw__alloc(count, sizeof *hubs->hub);
+    bool done = count == 0 || hubs->hub;
+    for (uint32_t v = 0; v < n && done; v++)
+        if (degree[v] >= MW_STAR_HUB_FACETS)
+            hubs->hub[hubs->count++] = (mw_star_hub){.vertex = v, .stale = true};
+    hubs->room = hubs->stale = hubs->count;
+    free(degree);
+    return done;
 }
 
-/* Room for the vertices with many facets. */
-static bool hubs_allocate(mw_star_hubs *hubs, const mw_star *star, const uint32_t *degree)
+void mw__star_hubs_release(mw_star_hubs *hubs)
 {
-    size_t count = 0, ring = 0;
-    for (uint32_t v = 0; v < star->point_count; v++)
-        if (degree[v] >= MW_STAR_HUB_FACETS) {
-            count++;
-            ring += degree[v];
-        }
-    if (count == 0) return true;
-    hubs->hub = mw__alloc(count, sizeof *hubs->hub);
-    hubs->ring = mw__alloc(ring, sizeof *hubs->ring);
-    return hubs->hub && hubs->ring;
+    for (uint32_t i = 0; i < hubs->count; i++) free(hubs->hub[i].ring);
+    free(hubs->hub);
+    *hubs = (mw_star_hubs){0};
 }
+
+size_t mw__star_hubs_bytes(const mw_star_hubs *hubs)
+{
+    size_t bytes = hubs->room * sizeof *hubs->hub;
+    for (uint32_t i = 0; i < hubs->count; i++)
+        bytes += hubs->hub[i].room * sizeof *hubs->hub[i].ring;
+    return bytes;
+}
+
+/* --- their rings --- */
 
 /* Is the end of a half-edge of the ring strictly to the right of the first one? */
 static bool hub_is_past_half(const mw_star *star, const uint32_t *ring, uint32_t i)
@@ -68,73 +86,70 @@ static bool hub_is_past_half(const mw_star *star, const uint32_t *ring, uint32_t
                            mw__star_corner_point(star, star->facet[t].v, k));
 }
 
-static void hub_find_half(const mw_star *star, const uint32_t *ring, mw_star_hub *hub)
+static void hub_find_half(const mw_star *star, mw_star_hub *hub)
 {
     hub->half = 1;
-    while (hub->half < hub->count && !hub_is_past_half(star, ring, hub->half)) hub->half++;
+    while (hub->half < hub->count && !hub_is_past_half(star, hub->ring, hub->half)) hub->half++;
 }
 
-static void hub_collect_ring(mw_star_hubs *hubs, const mw_star *star, mw_star_hub *hub,
-                             uint32_t first)
+static bool hub_ring_add(mw_star_hub *hub, uint32_t half)
 {
-    uint32_t *ring = hubs->ring + hub->first, half = first;
+    if (hub->count == hub->room) {
+        uint32_t room = hub->room + hub->room / 2 + MW_STAR_HUB_FACETS,
+                 *ring = mw__realloc(hub->ring, room, sizeof *ring);
+        if (!ring) return false;
+        hub->ring = ring;
+        hub->room = room;
+    }
+    hub->ring[hub->count++] = half;
+    return true;
+}
+
+/* `first`: a half-edge that starts at the hub. */
+static bool hub_collect_ring(const mw_star *star, mw_star_hub *hub, uint32_t first)
+{
+    uint32_t half = first;
     hub->count = 0;
     do {
-        ring[hub->count++] = half;
+        if (!hub_ring_add(hub, half)) return false;
         half = mw__star_turn(star, half);
     } while (half != first);
-    hub_find_half(star, ring, hub);
+    hub_find_half(star, hub);
+    return true;
 }
 
-bool mw__star_hubs_create(mw_star_hubs *hubs, const mw_star *star)
+/* A half-edge that starts at each vertex that is a stale hub. */
+static void hubs_find_starts(const mw_star *star, uint32_t *start)
 {
-    uint32_t n = star->point_count, *degree = mw__alloc(2 * (size_t)n, sizeof *degree);
-    *hubs = (mw_star_hubs){0};
-    if (!degree) return false;
-    uint32_t *half = degree + n;
-    hubs_count(star, degree, half);
-    bool done = hubs_allocate(hubs, star, degree);
-    for (uint32_t v = 0; done && v < n; v++) {
-        if (degree[v] < MW_STAR_HUB_FACETS) continue;
-        mw_star_hub *hub = &hubs->hub[hubs->count++];
-        *hub = (mw_star_hub){.vertex = v, .first = hubs->used};
-        hub_collect_ring(hubs, star, hub, hub_true_half(star, half[v]));
-        hubs->used += hub->count;
+    for (uint32_t t = 0; t < star->facet_count; t++)
+        for (uint32_t k = 0; k < 3; k++) {
+            uint32_t i = hub_number(star, hub_vertex(star, t, k));
+            if (i != MW_NONE) start[i] = mw__link(t, k);
+        }
+}
+
+bool mw__star_hubs_collect(mw_star *star)
+{
+    mw_star_hubs *hubs = &star->hubs;
+    if (hubs->count == 0) return true;
+    uint32_t *start = mw__alloc(hubs->count, sizeof *start);
+    bool done = start != NULL;
+    if (done) hubs_find_starts(star, start);
+    for (uint32_t i = 0; i < hubs->count && done; i++) {
+        done = hub_collect_ring(star, &hubs->hub[i], start[i]);
+        hubs->hub[i].stale = false;
     }
-    free(degree);
+    if (done) hubs->stale = 0;
+    free(start);
     return done;
-}
-
-void mw__star_hubs_release(mw_star_hubs *hubs)
-{
-    free(hubs->hub);
-    free(hubs->ring);
-    *hubs = (mw_star_hubs){0};
-}
-
-size_t mw__star_hubs_bytes(const mw_star_hubs *hubs)
-{
-    return hubs->count * sizeof *hubs->hub + hubs->used * sizeof *hubs->ring;
 }
 
 /* --- using them --- */
 
-static mw_star_hub *hub_find(const mw_star *star, uint32_t facet, uint32_t k)
-{
-    uint32_t v = hub_vertex(star, facet, k), low = 0, high = star->hubs.count;
-    while (low < high) {
-        uint32_t middle = low + (high - low) / 2;
-        if (star->hubs.hub[middle].vertex < v)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low < star->hubs.count && star->hubs.hub[low].vertex == v ? &star->hubs.hub[low] : NULL;
-}
-
 const mw_star_hub *mw__star_hub_at(const mw_star *star, uint32_t facet, uint32_t k)
 {
-    return hub_find(star, facet, k);
+    uint32_t i = hub_number(star, hub_vertex(star, facet, k));
+    return i == MW_NONE ? NULL : &star->hubs.hub[i];
 }
 
 /* Does the ray lie strictly to the right of a half-edge that starts at the hub? */
@@ -145,7 +160,7 @@ static bool hub_ray_is_right(const mw_star *star, uint32_t half, const double q[
 
 uint32_t mw__star_hub_facet(const mw_star *star, const mw_star_hub *hub, const double q[3])
 {
-    const uint32_t *ring = star->hubs.ring + hub->first;
+    const uint32_t *ring = hub->ring;
     bool right = hub_ray_is_right(star, ring[0], q);
     uint32_t low = right ? hub->half - 1 : 0, high = right ? hub->count : hub->half;
     while (high - low > 1) {
@@ -158,19 +173,63 @@ uint32_t mw__star_hub_facet(const mw_star *star, const mw_star_hub *hub, const d
     return mw__link_triangle(ring[low]);
 }
 
-/* --- following moved facets --- */
+/* --- following changed facets --- */
 
-void mw__star_hubs_follow(mw_star *star, const uint32_t *facets, uint32_t count)
+static void hub_set_stale(mw_star_hubs *hubs, mw_star_hub *hub)
 {
-    if (star->hubs.count == 0) return;
-    for (uint32_t i = 0; i < count; i++)
-        for (uint32_t k = 0; k < 3; k++) {
-            mw_star_hub *hub = hub_find(star, facets[i], k);
-            if (hub) hub->stale = true;
+    hubs->stale += !hub->stale;
+    hub->stale = true;
+}
+
+static void hub_remove(mw_star_hubs *hubs, uint32_t i)
+{
+    hubs->stale -= hubs->hub[i].stale;
+    free(hubs->hub[i].ring);
+    hubs->count--;
+    memmove(&hubs->hub[i], &hubs->hub[i + 1], (hubs->count - i) * sizeof *hubs->hub);
+}
+
+/* When memory is short there is no hub: walks go round the vertex, with the same answer. */
+static void hub_insert(mw_star_hubs *hubs, uint32_t vertex)
+{
+    if (hubs->count == hubs->room) {
+        uint32_t room = hubs->room + hubs->room / 2 + 4;
+        mw_star_hub *hub = mw__realloc(hubs->hub, room, sizeof *hub);
+        if (!hub) return;
+        hubs->hub = hub;
+        hubs->room = room;
+    }
+    uint32_t i = hubs->count++;
+    for (; i > 0 && hubs->hub[i - 1].vertex > vertex; i--) hubs->hub[i] = hubs->hub[i - 1];
+    hubs->hub[i] = (mw_star_hub){.vertex = vertex, .stale = true};
+    hubs->stale++;
+}
+
+void mw__star_hub_touch(mw_star *star, uint32_t vertex, uint32_t degree)
+{
+    if (MW_LIKELY(degree < MW_STAR_HUB_FACETS && star->hubs.count == 0)) return;
+    uint32_t i = hub_number(star, vertex);
+    if (i != MW_NONE && degree < MW_STAR_HUB_FACETS / 2)
+        hub_remove(&star->hubs, i);
+    else if (i != MW_NONE)
+        hub_set_stale(&star->hubs, &star->hubs.hub[i]);
+    else if (degree >= MW_STAR_HUB_FACETS)
+        hub_insert(&star->hubs, vertex);
+}
+
+void mw__star_hubs_renew(mw_star *star)
+{
+    mw_star_hubs *hubs = &star->hubs;
+    for (uint32_t i = hubs->count; i-- > 0 && hubs->stale > 0;) {
+        mw_star_hub *hub = &hubs->hub[i];
+        if (!hub->stale) continue;
+        uint32_t place = star->track.place[star->owner[hub->vertex]], k = 0;
+        while (k < 2 && hub_vertex(star, place, k) != hub->vertex) k++;
+        if (!hub_collect_ring(star, hub, mw__link(place, k))) {
+            hub_remove(hubs, i);
+            continue;
         }
-    for (uint32_t i = 0; i < star->hubs.count; i++) {
-        mw_star_hub *hub = &star->hubs.hub[i];
-        if (hub->stale) hub_find_half(star, star->hubs.ring + hub->first, hub);
         hub->stale = false;
+        hubs->stale--;
     }
 }

@@ -19,14 +19,14 @@ typedef struct star_layout {
 } star_layout;
 
 /* The key of the direction to the middle of a facet. The direction is rounded, and halved so that
- * it does not overflow. */
-static uint32_t facet_curve_key(const mw_star *star, const mw_triangle *t)
+ * it does not overflow. Where there is none, any key will do. */
+uint32_t mw__star_facet_key(const mw_star *star, const uint32_t v[3])
 {
     double d[3];
     for (int k = 0; k < 3; k++) {
-        double middle = mw__star_corner_point(star, t->v, 0)[k] / 6 +
-                        mw__star_corner_point(star, t->v, 1)[k] / 6 +
-                        mw__star_corner_point(star, t->v, 2)[k] / 6;
+        double middle = mw__star_corner_point(star, v, 0)[k] / 6 +
+                        mw__star_corner_point(star, v, 1)[k] / 6 +
+                        mw__star_corner_point(star, v, 2)[k] / 6;
         d[k] = middle - star->centre[k] / 2;
     }
     return mw__star_curve_key(star, d);
@@ -35,9 +35,10 @@ static uint32_t facet_curve_key(const mw_star *star, const mw_triangle *t)
 static void facets_key(void *work, uint64_t from, uint64_t to)
 {
     const star_layout *layout = work;
-    for (uint64_t t = from; t < to; t++)
-        layout->keys[t] =
-            (mw_key){facet_curve_key(layout->star, &layout->star->tri[t]), (uint32_t)t};
+    for (uint64_t i = from; i < to; i++) {
+        mw_key *key = &layout->keys[i];
+        key->key = mw__star_facet_key(layout->star, layout->star->tri[key->item].v);
+    }
 }
 
 /* --- form --- */
@@ -90,8 +91,11 @@ static mw_star_facet facet_make(const mw_star *star, const mw_triangle *t, const
 {
     mw_star_facet facet = {.user = t->user & MW_USER_MASK};
     for (uint32_t k = 0; k < 3; k++) {
+        uint32_t link = t->link[k];
         facet.v[k] = t->v[k];
-        facet.link[k] = mw__link(slot[mw__link_triangle(t->link[k])], mw__link_edge(t->link[k]));
+        facet.link[k] = link == MW_NONE
+                            ? MW_NONE /* of a surface that is not closed */
+                            : mw__link(slot[mw__link_triangle(link)], mw__link_edge(link));
     }
     mw__star_set_planes(star, &facet);
     if (facet_is_altered(facet.v, &star->surface->tri[facet.user])) facet.user |= MW_FACET_ALTERED;
@@ -115,10 +119,18 @@ static void star_fill_guide(mw_star *star, const mw_key *keys)
     uint32_t parts = UINT32_C(1) << star->guide_bits, shift = 32 - star->guide_bits, end = 0;
     for (uint32_t i = 0; i < parts; i++) {
         uint32_t first = end;
-        while (end < star->tri_count && keys[end].key >> shift == i) end++;
+        while (end < star->facet_count && keys[end].key >> shift == i) end++;
         uint32_t middle = first + (end - first) / 2;
-        star->guide[i] = middle < star->tri_count ? middle : star->tri_count - 1;
+        star->guide[i] = middle < star->facet_count ? middle : star->facet_count - 1;
     }
+}
+
+/* List the facets that are to be stored. */
+static void star_list_facets(mw_star *star, mw_key *keys)
+{
+    star->facet_count = 0;
+    for (uint32_t t = 0; t < star->tri_count; t++)
+        if (!(star->tri[t].user & MW_STAR_OMITTED)) keys[star->facet_count++].item = t;
 }
 
 bool mw__star_lay_out(mw_star *star, mw_job *job)
@@ -127,6 +139,8 @@ bool mw__star_lay_out(mw_star *star, mw_job *job)
     mw_key *keys = mw__alloc(2 * (size_t)n, sizeof *keys);
     star_layout layout = {star, keys, slot};
     bool done = slot && keys;
+    if (done) star_list_facets(star, keys);
+    n = star->facet_count;
     mw__job_stage(job, "sorting facets", 0.5);
     done = done && mw__job_ranges(job, n, facets_key, &layout);
     if (done) {

@@ -15,10 +15,10 @@ static double facet_nearness(const mw_star *star, const double d[3], uint32_t t)
 static uint32_t star_start_sample(const mw_star *star, uint32_t count, const double d[3],
                                   uint64_t *random)
 {
-    uint32_t best = mw__random_below(random, star->tri_count);
+    uint32_t best = mw__random_below(random, star->facet_count);
     double nearest = facet_nearness(star, d, best);
     for (uint32_t i = 1; i < count; i++) {
-        uint32_t t = mw__random_below(random, star->tri_count);
+        uint32_t t = mw__random_below(random, star->facet_count);
         double near = facet_nearness(star, d, t);
         if (near > nearest) {
             nearest = near;
@@ -32,7 +32,7 @@ static uint32_t star_start_sample(const mw_star *star, uint32_t count, const dou
 static uint32_t star_sample_count(const mw_star *star, uint32_t count)
 {
     if (count == 0) count = (uint32_t)ceil(2 * sqrt(sqrt(star->point_count)));
-    return count < star->tri_count ? count : star->tri_count;
+    return count < star->facet_count ? count : star->facet_count;
 }
 
 /* The facet that the cursor's index names, of this star, even if the index was made for another
@@ -49,7 +49,7 @@ static uint32_t star_start_indexed(const mw_star *star, const mw_star_index *ind
         mw__star_angles(walk->d, &phi, &theta);
         t = index->grid.facet[mw__star_grid_cell(&index->grid, phi, theta)];
     }
-    return MW_LIKELY(t < star->tri_count) ? t : t % star->tri_count;
+    return MW_LIKELY(t < star->facet_count) ? t : t % star->facet_count;
 }
 
 /* Is the ray near a facet: not farther beyond any of its edges than star->near? This reads one
@@ -69,7 +69,7 @@ static bool star_ray_is_near(const mw_star *star, uint32_t t, const float f[3])
 /* From the facet of the query before, if the ray is near; else from where the curve leads. */
 static uint32_t star_start_auto(const mw_star *star, uint32_t last, const mw_star_walk *walk)
 {
-    if (last < star->tri_count && star_ray_is_near(star, last, walk->f)) return last;
+    if (last < star->facet_count && star_ray_is_near(star, last, walk->f)) return last;
     double half[3];
     for (int k = 0; k < 3; k++) half[k] = walk->q[k] / 2 - star->centre[k] / 2;
     return mw__star_guide_facet(star, mw__star_curve_key(star, half));
@@ -79,14 +79,14 @@ uint32_t mw__star_start(const mw_star *star, const mw_star_cursor *cursor, uint3
                         mw_star_walk *walk)
 {
     switch ((mw_star_start_kind)cursor->start) {
-    case MW_STAR_START_RANDOM: return mw__random_below(&walk->random, star->tri_count);
+    case MW_STAR_START_RANDOM: return mw__random_below(&walk->random, star->facet_count);
     case MW_STAR_START_FRONT: return star->front;
     case MW_STAR_START_GRID:
     case MW_STAR_START_NONUNIFORM_GRID:
     case MW_STAR_START_OCTAHEDRON: return star_start_indexed(star, cursor->index, walk);
     case MW_STAR_START_LAST:
     case MW_STAR_START_SORTED:
-        if (last < star->tri_count) return last;
+        if (last < star->facet_count) return last;
         break;
     case MW_STAR_START_AUTO: return star_start_auto(star, last, walk);
     case MW_STAR_START_SAMPLE:

@@ -47,6 +47,18 @@ holds "2dm has heights, which are depths turned round" grep -q '^ND 5 4 0 -7$' b
 holds "and quadrilaterals" grep -q '^E4Q 1 1 2 3 4 1$' b.2dm
 run convert b.2dm b.msh; exits 0; says_nothing
 holds "materials are physical groups" grep -q '^1 3 2 1 1 1 2 3 4$' b.msh
+run convert a.gr3 c.msh
+says_nothing
+run convert c.msh c.gr3
+exits 0
+holds "msh keeps depths and faces" diff <(head -7 wanted) <(tail -n +3 c.gr3 | head -7)
+run_on 'MESH2D
+ND 1 0 0 0
+ND 2 1 0 0
+ND 3 0 1 0
+E3T 1 1 2 3 -1.25' convert --format msh - d.msh
+exits 0
+says 'the format msh has no place for these values of triangles: material is not written'
 run_on "$(cat b.msh)" convert --format fort.14 - -; exits 0
 says 'the format fort.14 has no place for these values of triangles: physical is not written'
 prints_line '^5 4 0 7$'

@@ -15,6 +15,7 @@ help_options() { sed -nE '/^  (-[a-z],|   ) --[a-z]/p' "$logs/out" |
 run; refused 2 "which command\?.*--help"
 run --version; exits 0; prints_line '^meshwalk [0-9]+\.[0-9]+\.[0-9]+$'; says_nothing
 prints_line '^  netCDF   ([0-9]+\.[0-9]+.*found|libnetcdf is not found)'
+prints_line '^  view     (built in|not built in): '
 for library in zlib Jansson Cairo GDAL LAZ; do
     prints_line "^  $library +([0-9.]+,? (built in|found)|built in, but |not built in): ?"
 done

@@ -224,6 +224,44 @@ prints_line '^with value +4$'
 run raster "${seam[@]}" --extent=160,-10,200,10; exits 0
 says_nothing
 
+# The same mesh with longitudes that end at 180, which is cut there.
+run raster -q seam.off --crs EPSG:4326 --resolution 10 --driver ENVI --type float64 -o whole.img \
+    --extent=-180,-10,180,10 --mean
+exits 0
+sed 's/^190 /-170 /' seam.off >cut.off
+run raster cut.off --crs EPSG:4326 --resolution 10 --driver ENVI --type float64 -o cut.img \
+    --extent=-180,-10,180,10 --mean
+exits 0
+says_nothing
+prints_line '^with value +4$'
+holds 'means at the seam' test "$(paste <(raw d cut.img) <(raw d whole.img) | awk '{
+    d = $1 - $2; n += $1 == "empty" ? $2 == "empty" : d < 1e-13 && d > -1e-13 } END { print n }')" \
+    == 72
+run raster cut.off --crs EPSG:4326 --mean --max-edge 90 -o cut.tif
+refused 3 'cut.off: crosses the meridian of 180 degrees, or a pole: --max-edge'
+# The globe, with vertices at the poles, and with the poles inside of triangles: latitudes are
+# their own means round a circle of latitude, and what is 5 everywhere stays so.
+printf '%s\n' OFF '6 8 0' '0 0 0' '90 0 0' '180 0 0' '-90 0 0' '17 90 90' '5 -90 -90' \
+    '3 0 1 4' '3 1 2 4' '3 2 3 4' '3 3 0 4' '3 1 0 5' '3 2 1 5' '3 3 2 5' '3 0 3 5' >octa.off
+printf '%s\n' OFF '6 8 0' '10 60 5' '130 60 5' '-110 60 5' '70 -45 5' '-170 -45 5' \
+    '-50 -45 5' '3 0 1 2' '3 5 4 3' '3 0 3 1' '3 1 3 4' '3 1 4 2' '3 2 4 5' '3 2 5 0' \
+    '3 0 5 3' >caps.off
+globe=(--crs EPSG:4326 --driver ENVI --type float64 --mean --resolution 45 --extent=-180,-90,180,90)
+run raster caps.off "${globe[@]}" -o globe.img
+exits 0
+prints_line '^with value +32$'
+prints_line '^integral +62\.83185307'
+holds 'five everywhere' test "$(raw d globe.img | awk '{ d = $1 - 5; n += d < 1e-13 && d > -1e-13 }
+    END { print n }')" == 32
+run raster octa.off "${globe[@]}" -o globe.img
+exits 0
+prints_line '^with value +32$'
+holds 'latitudes' test "$(raw d globe.img | awk '{ row = int((NR - 1) / 8); low = 45 - 45 * row
+    n += $1 > low && $1 < low + 45 } END { print n }')" == 32
+sed '$d' octa.off | sed 's/^6 8 0/6 7 0/; s/^90 0 /90 20 /; s/^3 0 1 4/3 0 1 3/' >odd.off
+run raster odd.off "${globe[@]}" -o globe.img
+refused 3 'odd.off: goes round the globe. Its triangles are counted as they were cut'
+
 # Half a pixel is covered: the mean over that half. A corner without a value: none.
 printf '%s\n' OFF '4 2 0' '0 0 1' '1 0 1' '0 1 4' '-1 0 nan' '3 0 1 2' '3 0 2 3' >half.off
 run raster half.off --mean -o mean.img --driver ENVI --type float64 --resolution 1; exits 0

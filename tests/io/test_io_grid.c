@@ -74,9 +74,9 @@ static void test_fort14(void **state)
         assert_int_equal(file.mark_count, 2);
         assert_string_equal(file.mark_names[0], "open 1");
         assert_string_equal(file.mark_names[1], "land 1 type 24");
-        assert_int_equal(file.edge_count, 3);
-        static const uint32_t edges[][3] = {{3, 0, 0}, {0, 1, 1}, {1, 4, 1}};
-        for (size_t e = 0; e < 3; e++) {
+        assert_int_equal(file.edge_count, 5); /* both sides of the barrier */
+        static const uint32_t edges[][3] = {{3, 0, 0}, {0, 1, 1}, {1, 2, 1}, {1, 4, 1}, {2, 3, 1}};
+        for (size_t e = 0; e < 5; e++) {
             assert_int_equal(file.edges[e].vertex[0], edges[e][0]);
             assert_int_equal(file.edges[e].vertex[1], edges[e][1]);
             assert_int_equal(file.edges[e].mark, edges[e][2]);
@@ -97,6 +97,23 @@ static void test_fort14(void **state)
     file = mesh_file_read_text("a.gr3", "\n1 3\n1 0 0 -5\n2 1 0 1\n3 0 1 1\n1 3 1 2 3\n");
     assert_int_equal(file.mark_count, 0);
     mw_mesh_file_release(&file);
+}
+
+/* Numbers as Fortran writes and reads them: exponents without a letter, commas. */
+static void test_fort14_numbers(void **state)
+{
+    (void)state;
+    mw_mesh_file file = mesh_file_read_text(
+        "fort.14", "a, b\r\n1 , 3\r\n1,0D0,0,-1.5-105\r\n2, 1.E0 ,0,25.+101\r\n\r\n3 0 1,+2\r\n"
+                   "1,3,1,2,3\r\n1,\r\n2\r\n2 0 ! no type here, 24\r\n1,\r\n2,\r\n0\r\n");
+    assert_true(file.fields[0][0] == -1.5e-105 && file.fields[0][1] == 25e101);
+    assert_true(file.points[3] == 1 && file.fields[0][2] == 2);
+    assert_int_equal(file.edge_count, 1);
+    mw_mesh_file_release(&file);
+    mw_error error;
+    files_write_text("fort.14", "a\n1 3\n1 0 0 1.5-05\n");
+    assert_int_equal(mw_read_mesh("fort.14", NULL, &file, &error), MW_ERROR_INPUT);
+    files_expect_error(&error, MW_ERROR_INPUT, 3, "depth: '1.5-05' is not a number");
 }
 
 static const char sms_text[] =
@@ -120,17 +137,24 @@ static void test_2dm(void **state)
         mesh_file_read_text("a.txt", "MESH2D\nND 1 0 0 0\nND 2 1 0 0\nND 3 0 1 0\nE3T 1 1 2 3\n");
     assert_int_equal(file.triangle_field_count, 0);
     mw_mesh_file_release(&file);
+    /* some programs keep heights of elements there */
+    file = mesh_file_read_text("a.2dm", "MESH2D\nND 1 0 0 0\nND 2 1 0 0\nND 3 0 1 0\nND 4 1 1 0\n"
+                                        "E3T 2 2 4 3\nE3T 1 1 2 3 -1.25 7\n");
+    assert_true(file.triangle_fields[0][0] == -1.25 && file.triangle_fields[0][1] == 0);
+    mw_mesh_file_release(&file);
 }
 
 static const char su2_text[] =
     "% made by hand\nNDIME= 2\nNELEM= 2\n9 0 1 2 3 0\n5\t1 4 2 1\n% vertices\nNPOIN= 5 5\n"
     "0 0 0\n2 0 1\n2 2 2\n0 2 3\n4 0 4\nNMARK= 2\nMARKER_TAG= wall\nMARKER_ELEMS= 2\n3 0 1\n3 1 4\n"
-    "MARKER_TAG= far\nMARKER_ELEMS= 1\n3 4 2 % last\n";
+    "MARKER_TAG= far\nMARKER_ELEMS= 1\n3 4 2 % last\n"
+    "MARKER_TAG= SEND_RECEIVE\nMARKER_ELEMS= 2\nSEND_RECV= -1\n1 0 0\n1 3 0\n";
 
 static void test_su2(void **state)
 {
     (void)state;
     expect_grid("a.su2", BYTES(su2_text), &(grid_wanted){0});
+    expect_grid("a.any", BYTES(su2_text), &(grid_wanted){0}); /* a comment comes first */
     mw_mesh_file file = mesh_file_read_text("a.su2", su2_text);
     assert_int_equal(file.edge_count, 3);
     assert_string_equal(file.mark_names[file.edges[2].mark], "far");
@@ -139,11 +163,12 @@ static void test_su2(void **state)
 }
 
 #define MSH_NODES "$Nodes\n5\n50 4 0 0\n10 0 0 0\n20 2 0 0\n30 2 2 0\n40 0 2 0\n$EndNodes\n"
-static const char msh_22_text[] =
-    "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n1 3 \"the shore\"\n"
-    "$EndPhysicalNames\n$Nodes\n5\n10 0 0 0\n20 2 0 0\n30 2 2 0\n40 0 2 0\n50 4 0 0\n$EndNodes\n"
-    "$Elements\n4\n1 15 2 0 1 10\n2 1 2 3 1 10 20\n3 3 2 7 1 10 20 30 40\n4 2 0 20 50 30\n"
-    "$EndElements\n";
+#define MSH_22                                                                                     \
+    "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n1 3 \"the shore\"\n"                 \
+    "$EndPhysicalNames\n$Nodes\n5\n10 0 0 0\n20 2 0 0\n30 2 2 0\n40 0 2 0\n50 4 0 0\n$EndNodes\n"  \
+    "$Elements\n4\n1 15 2 0 1 10\n2 1 2 3 1 10 20\n3 3 2 7 1 10 20 30 40\n4 2 0 20 50 30\n"        \
+    "$EndElements\n"
+static const char msh_22_text[] = MSH_22;
 static const char msh_41_text[] =
     "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n1 1 2 0\n1 0 0 0 0\n"
     "1 0 0 0 1 1 1 1 3 2 1 1\n1 0 0 0 1 1 1 1 7 1 1\n2 0 0 0 1 1 1 0 1 1\n$EndEntities\n"
@@ -171,6 +196,66 @@ static void test_msh(void **state)
     assert_int_equal(file.edge_count, 1);
     assert_string_equal(file.mark_names[0], "the shore");
     assert_true(file.edges[0].vertex[0] == 0 && file.edges[0].vertex[1] == 1);
+    mw_mesh_file_release(&file);
+}
+
+static const char msh_data_text[] = MSH_22
+    "$NodeData\n2\n\"water \\ level\"\n\"more\"\n1\n0.5\n3\n0\n1\n2\n50 1.5\n10 -2\n$EndNodeData\n"
+    "$NodeData\n1\n\"water \\ level\"\n1\n1.5\n3\n1\n1\n1\n50 9\n$EndNodeData\n"
+    "$ElementNodeData\n1\n\"other\"\n$EndElementNodeData\n"
+    "$ElementData\n1\nv\n0\n4\n0\n3\n2\n0\n2 7 8 9\n4 1 2 3\n$EndElementData\n";
+
+/* Values of vertices and elements by their numbers, of the first time. */
+static void test_msh_data(void **state)
+{
+    (void)state;
+    char text[sizeof msh_data_text];
+    mw_mesh_file file = mesh_file_read_text("a.msh", msh_data_text);
+    assert_int_equal(file.field_count, 1);
+    assert_string_equal(file.field_names[0], "water \\ level");
+    assert_true(file.fields[0][4] == 1.5 && file.fields[0][0] == -2 && isnan(file.fields[0][1]));
+    assert_int_equal(file.triangle_field_count, 4);
+    assert_string_equal(file.triangle_field_names[0], "physical");
+    assert_string_equal(file.triangle_field_names[3], "v_2");
+    assert_true(isnan(file.triangle_fields[3][0]) && isnan(file.triangle_fields[3][1]));
+    assert_true(file.triangle_fields[1][2] == 1 && file.triangle_fields[3][2] == 3);
+    mw_mesh_file_release(&file);
+    static const struct {
+        const char *data, *says;
+        int64_t line;
+    } bad[] = {{"$NodeData\n1\n\"q\"\n0\n3\n0\n1\n1\n7 1\n$EndNodeData\n", "vertex 7 does not", 31},
+               {"$NodeData\n0\n0\n0\n", "values without a name", 24},
+               {"$ElementData\n1\n\"q\"\n0\n3\n0\n10\n1\n", "1 times 10 values of 'q'", 30},
+               {"$ElementData\n1\n\"q\"\n0\n3\n0\n1\n1\n3 x\n", "value: 'x' is not a number", 31}};
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        mw_error error;
+        snprintf(text, sizeof text, "%s%s", msh_22_text, bad[i].data);
+        files_write_text("a.msh", text);
+        assert_int_equal(mw_read_mesh("a.msh", NULL, &file, &error), MW_ERROR_INPUT);
+        files_expect_error(&error, MW_ERROR_INPUT, bad[i].line, bad[i].says);
+    }
+}
+
+static const char msh_partitions_text[] =
+    "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n1 3 \"shore\"\n$EndPhysicalNames\n"
+    "$Entities\n0 1 2 0\n1 0 0 0 1 1 1 1 -3 0\n1 0 0 0 1 1 1 1 -7 1 1\n2 0 0 0 1 1 1 0 1 1\n"
+    "$EndEntities\n$PartitionedEntities\n2\n1\n99 1\n1 1 2 0\n1 0 1 1 1 0 0 0 0\n"
+    "11 1 1 2 1 2 0 0 0 1 1 1 1 -3 2 1 -1\n21 2 1 1 1 0 0 0 1 1 1 1 -7 0\n"
+    "22 2 2 1 2 0 0 0 1 1 1 0 1 11\n$EndPartitionedEntities\n"
+    "$Nodes\n1 5 1 5\n2 21 0 5\n1\n2\n3\n4\n5\n0 0 0\n2 0 0\n2 2 0\n0 2 0\n4 0 0\n$EndNodes\n"
+    "$Elements\n3 3 1 3\n1 11 1 1\n1 1 2\n2 21 3 1\n2 1 2 3 4\n2 22 2 1\n3 2 5 3\n"
+    "$EndElements\n";
+
+/* Elements of a mesh in partitions belong to entities of their own. A negative number is that of a
+ * group whose entities are turned round. */
+static void test_msh_partitions(void **state)
+{
+    (void)state;
+    static const grid_wanted wanted = {.first_number = 1, .physical = true};
+    expect_grid("a.msh", BYTES(msh_partitions_text), &wanted);
+    mw_mesh_file file = mesh_file_read_text("a.msh", msh_partitions_text);
+    assert_int_equal(file.edge_count, 1);
+    assert_string_equal(file.mark_names[0], "shore");
     mw_mesh_file_release(&file);
 }
 
@@ -271,6 +356,48 @@ static void test_vtk_fields(void **state)
     mw_mesh_file_release(&file);
 }
 
+/* Names with blanks, bits, numbers of points; texts are passed over. */
+static void test_vtk_names(void **state)
+{
+    (void)state;
+    static const char head[] = "# vtk DataFile Version 4.2\ntitle\n%s\nDATASET UNSTRUCTURED_GRID\n"
+                               "FIELD FieldData 2\n";
+    static const char in_text[] =
+        "TIME 1 1 double\n3600\nwords 1 2 string\nOFF%0A 1 2\nPOINT_DATA 4\nPOINTS 3 double\n"
+        "0 0 0 1 0 0 0 1 0\nCELLS 1 4\n3 0 1 2\nCELL_TYPES 1\n5\nPOINT_DATA 3\n"
+        "GLOBAL_IDS ids int\n7 8 9\nFIELD FieldData 3\nnames 1 3 string\nA\n\nPOINTS 1 2\n"
+        "wet%20%or%3f 1 3 bit\n1 0 1\nq 1 3 int\n1 2 3\n";
+    static const char in_bytes[] =
+        "TIME 1 1 double\n\0\0\0\0\0\0\0\0\nwords 1 2 string\n\303a\nb\100\0\0\2\n\n\n"
+        "POINTS 3 char\n\0\0\0\1\0\0\0\1\0\nCELLS 1 4\n\0\0\0\3\0\0\0\0\0\0\0\1\0\0\0\2\n"
+        "CELL_TYPES 1\n\0\0\0\5\nPOINT_DATA 3\nGLOBAL_IDS ids char\n\7\10\11\nFIELD FieldData 3\n"
+        "names 1 3 string\n\300\201\0" /* a length of 256 */;
+    static const char rest[] = "\300\nwet%20%or%3f 1 3 bit\n\240\nq 1 3 char\n\1\2\3\n";
+    for (int binary = 0; binary < 2; binary++) {
+        char file_bytes[1024];
+        int size = snprintf(file_bytes, sizeof file_bytes, head, binary ? "BINARY" : "ASCII");
+        size_t at = (size_t)size, more = binary ? sizeof in_bytes - 1 : sizeof in_text - 1;
+        memcpy(file_bytes + at, binary ? in_bytes : in_text, more);
+        at += more;
+        if (binary) {
+            memset(file_bytes + at, '\n', 256);
+            memcpy(file_bytes + at + 256, rest, sizeof rest - 1);
+            at += 256 + sizeof rest - 1;
+        }
+        mw_mesh_file file = mesh_file_read_bytes("a.vtk", (bytes){file_bytes, at});
+        assert_int_equal(file.field_count, 3);
+        assert_string_equal(file.field_names[0], "ids");
+        assert_string_equal(file.field_names[1], "wet %or?");
+        assert_string_equal(file.field_names[2], "q");
+        for (size_t v = 0; v < 3; v++) {
+            assert_true(file.fields[0][v] == 7 + (double)v);
+            assert_true(file.fields[1][v] == (v == 1 ? 0 : 1));
+            assert_true(file.fields[2][v] == 1 + (double)v);
+        }
+        mw_mesh_file_release(&file);
+    }
+}
+
 static const char vtu_text[] =
     "<VTKFile type='UnstructuredGrid'>\n<UnstructuredGrid>\n<Piece NumberOfPoints='5' "
     "NumberOfCells='2'>\n<CellData Scalars='x'>\n<DataArray type='Int32' Name='physical' >7 0"
@@ -290,6 +417,20 @@ static void test_vtu(void **state)
         grid_form form = {.big = k & 1, .wide = k & 2, .packed = k & 4};
         expect_grid_bytes(k & 1 ? "a.vtu" : "a.any", grid_vtu(form, k & 8), &wanted);
     }
+}
+
+/* Characters that XML describes, and what only looks so. */
+static void test_vtu_names(void **state)
+{
+    (void)state;
+    char text[sizeof vtu_text + 100];
+    const char *name = strstr(vtu_text, "Name='q'");
+    snprintf(text, sizeof text,
+             "%.*sName='&lt;a&gt; &amp;amp; &quot;&apos;&#65;&#xe9;&#x1F30A;&no; &#0; &'%s",
+             (int)(name - vtu_text), vtu_text, name + strlen("Name='q'"));
+    mw_mesh_file file = mesh_file_read_text("a.vtu", text);
+    assert_string_equal(file.field_names[0], "<a> &amp; \"'A\xc3\xa9\xf0\x9f\x8c\x8a&no; &#0; &");
+    mw_mesh_file_release(&file);
 }
 
 static void test_npz(void **state)
@@ -361,7 +502,9 @@ static void test_damaged(void **state)
     damage(mw__read_2dm, grid_copy(sms_text), &random);
     damage(mw__read_su2, grid_copy(su2_text), &random);
     damage(mw__read_msh, grid_copy(msh_22_text), &random);
+    damage(mw__read_msh, grid_copy(msh_data_text), &random);
     damage(mw__read_msh, grid_copy(msh_41_text), &random);
+    damage(mw__read_msh, grid_copy(msh_partitions_text), &random);
     damage(mw__read_msh, grid_msh(22, false), &random);
     damage(mw__read_msh, grid_msh(41, true), &random);
     damage(mw__read_selafin, grid_selafin((grid_form){.big = true}), &random);
@@ -378,11 +521,14 @@ static void test_damaged(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_fort14),     cmocka_unit_test(test_2dm),
-        cmocka_unit_test(test_su2),        cmocka_unit_test(test_msh),
-        cmocka_unit_test(test_selafin),    cmocka_unit_test(test_vtk),
-        cmocka_unit_test(test_vtk_fields), cmocka_unit_test(test_vtu),
-        cmocka_unit_test(test_npz),        cmocka_unit_test(test_damaged),
+        cmocka_unit_test(test_fort14),    cmocka_unit_test(test_fort14_numbers),
+        cmocka_unit_test(test_2dm),       cmocka_unit_test(test_su2),
+        cmocka_unit_test(test_msh),       cmocka_unit_test(test_msh_data),
+        cmocka_unit_test(test_selafin),   cmocka_unit_test(test_msh_partitions),
+        cmocka_unit_test(test_vtk),       cmocka_unit_test(test_vtk_fields),
+        cmocka_unit_test(test_vtk_names), cmocka_unit_test(test_vtu),
+        cmocka_unit_test(test_vtu_names), cmocka_unit_test(test_npz),
+        cmocka_unit_test(test_damaged),
     };
     return cmocka_run_group_tests(tests, files_enter, files_leave);
 }

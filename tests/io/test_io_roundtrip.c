@@ -167,7 +167,7 @@ static void test_grids(void **state)
                  {"a.14", 6, true, false, true},
                  {"a.gr3", 5, true, false, true},
                  {"a.2dm", 5, false, false, false},
-                 {"a.msh", 5, false, true, true}};
+                 {"a.msh", 5, true, true, true}};
     char *names[] = {"open 1", "land 1 type 20", "land 2 type 24"};
     mw_marked_edge edges[] = {{{0, 1}, 0}, {{1, 4}, 0}, {{4, 5}, 1}, {{6, 3}, 2}, {{3, 0}, 1}};
     mw_mesh_file mesh = mesh_file_read_text("a.vtk", grid_vtk_text);

@@ -117,6 +117,35 @@ static void test_sms(void **state)
     mw_series_close(series);
 }
 
+/* Older files: without a name, with the time alone behind TS. */
+static void test_sms_old(void **state)
+{
+    (void)state;
+    files_write_text("old.dat", "SCALAR\r\nND 3\r\nTS 0.5\r\n1\r\n2\r\n3\r\nTS  1.5 \r\n4 5 6\r\n");
+    mw_series *series = open_series("old.dat", 3);
+    const mw_series_info *info = mw_series_describe(series);
+    assert_int_equal(info->step_count, 2);
+    assert_true(info->times[0] == .5 && info->times[1] == 1.5);
+    assert_string_equal(info->fields[0].name, "values");
+    expect_step(series, 0, 1, (const double[]){4, 5, 6});
+    mw_series_close(series);
+}
+
+/* Numbers of four bytes in the other order. */
+static void test_sms_other_order(void **state)
+{
+    (void)state;
+    static const unsigned char head[] = {0,   0, 11, 184, 0, 0,   0, 110, 0,   0, 0, 8,  0,   0, 0,
+                                         120, 0, 0,  0,   1, 0,   0, 0,   130, 0, 0, 0,  170, 0, 0,
+                                         0,   1, 0,  0,   0, 200, 0, 63,  224, 0, 0, 0,  0,   0, 0,
+                                         64,  4, 0,  0,   0, 0,   0, 0,   0,   0, 0, 210};
+    files_write("b.dat", (bytes){(const char *)head, sizeof head});
+    mw_series *series = open_series("b.dat", 1);
+    assert_true(mw_series_describe(series)->times[0] == .5);
+    expect_step(series, 0, 0, (const double[]){2.5});
+    mw_series_close(series);
+}
+
 static void test_sms_bytes(void **state)
 {
     (void)state;
@@ -248,6 +277,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_selafin),   cmocka_unit_test(test_adcirc),
         cmocka_unit_test(test_sms),       cmocka_unit_test(test_sms_bytes),
+        cmocka_unit_test(test_sms_old),   cmocka_unit_test(test_sms_other_order),
         cmocka_unit_test(test_malformed), cmocka_unit_test(test_cut),
         cmocka_unit_test(test_shared),
     };

@@ -388,6 +388,104 @@ static void test_seam(void **state)
     plot_release(&a);
 }
 
+/* --- a globe, cut ----------------------------------------------------------------------------- */
+
+/* Vertices at the poles; triangles with the poles inside. Both fill the sphere. */
+static const double octahedron[] = {0, 0, 90, 0, 180, 0, -90, 0, 17, 90, 5, -90},
+                    caps[] = {10, 60, 130, 60, -110, 60, 70, -45, -170, -45, -50, -45};
+static const uint32_t octahedron_triangles[] = {0, 1, 4, 1, 2, 4, 2, 3, 4, 3, 0, 4,
+                                                1, 0, 5, 2, 1, 5, 3, 2, 5, 0, 3, 5},
+                      caps_triangles[] = {0, 1, 2, 5, 4, 3, 0, 3, 1, 1, 3, 4,
+                                          1, 4, 2, 2, 4, 5, 2, 5, 0, 0, 5, 3};
+
+static mw_arrays globe_arrays(const double *points, const uint32_t *triangles)
+{
+    return (mw_arrays){
+        .points = points, .point_count = 6, .triangles = triangles, .triangle_count = 8};
+}
+
+/* The pieces fill the plane of longitudes and latitudes once, turn no other way than the triangles,
+ * and a field has what it has in between. */
+static void expect_pieces(const mw_arrays *globe, const double *field, bool is_latitude)
+{
+    mw_seam_pieces pieces;
+    mw_error error;
+    assert_int_equal(mw_seam_crosses(globe), 1);
+    expect_ok(mw_seam_cut(globe, NULL, &pieces, &error), "pieces", &error);
+    double area = 0, *values = malloc(pieces.point_count * sizeof *values);
+    for (size_t t = 0; t < pieces.triangle_count; t++) {
+        const double *p[3];
+        for (size_t k = 0; k < 3; k++) p[k] = pieces.points + 2 * pieces.triangles[3 * t + k];
+        assert_true(mw_orient2d(p[0], p[1], p[2]) > 0);
+        assert_true(pieces.faces[t] < 8);
+        area += mw_orient2d(p[0], p[1], p[2]) / 2;
+    }
+    expect_near(area, 360 * 180, 1e4);
+    const mw_value_table table = {.values = field, .count = 1};
+    expect_ok(mw_operator_apply(pieces.values, &table, NULL, values, &error), "values", &error);
+    for (size_t i = 0; i < pieces.point_count; i++) {
+        const double *p = pieces.points + 2 * i;
+        assert_true(p[0] >= pieces.west && p[0] <= pieces.west + 360);
+        expect_near(values[i], is_latitude ? p[1] : 7, 90);
+    }
+    free(values);
+    mw_seam_pieces_release(&pieces);
+    assert_null(pieces.points);
+}
+
+static void test_globe(void **state)
+{
+    (void)state;
+    double latitude[6], same[6] = {7, 7, 7, 7, 7, 7}, turned[12];
+    mw_arrays octa = globe_arrays(octahedron, octahedron_triangles),
+              two = globe_arrays(caps, caps_triangles);
+    for (int i = 0; i < 6; i++) latitude[i] = octahedron[2 * i + 1];
+    expect_pieces(&octa, latitude, true);
+    expect_pieces(&octa, same, false);
+    expect_pieces(&two, same, false);
+    for (int i = 0; i < 12; i++) turned[i] = caps[i] + (i % 2 == 0 && caps[i] < 0 ? 360 : 0);
+    two = globe_arrays(turned, caps_triangles);
+    expect_pieces(&two, same, false);
+}
+
+static void test_globe_memory_and_refusals(void **state)
+{
+    (void)state;
+    const uint32_t far[] = {0, 1, 6};
+    double points[12];
+    mw_seam_pieces pieces = {0};
+    mw_error error;
+    mw_arrays two = globe_arrays(caps, caps_triangles);
+    for (long failures = 0;; failures++) {
+        allocations_left = failures;
+        mw_status status = mw_seam_cut(&two, NULL, &pieces, &error);
+        bool failed = allocations_left < 0;
+        allocations_left = -1;
+        assert_int_equal(status, failed ? MW_ERROR_MEMORY : MW_OK);
+        if (!failed) {
+            assert_true(failures > 6);
+            mw_seam_pieces_release(&pieces);
+            break;
+        }
+        assert_null(pieces.points);
+    }
+    assert_int_equal(mw_seam_cut(NULL, NULL, &pieces, &error), MW_ERROR_ARGUMENT);
+    assert_int_equal(mw_seam_cut(&two, NULL, NULL, &error), MW_ERROR_ARGUMENT);
+    two.integer_type = MW_INT64;
+    assert_int_equal(mw_seam_cut(&two, NULL, &pieces, &error), MW_ERROR_ARGUMENT);
+    two = (mw_arrays){.points = caps, .point_count = 6, .triangles = far, .triangle_count = 1};
+    assert_int_equal(mw_seam_cut(&two, NULL, &pieces, &error), MW_ERROR_INPUT);
+    two = globe_arrays(points, caps_triangles);
+    for (int i = 0; i < 12; i++) points[i] = caps[i] - (i % 2 ? 0 : 20);
+    assert_int_equal(mw_seam_cut(&two, NULL, &pieces, &error), MW_ERROR_INPUT);
+    assert_non_null(strstr(error.message, "longitudes, from -190 to 110, have to lie"));
+    points[0] = NAN;
+    assert_int_equal(mw_seam_crosses(&two), 0);
+    assert_int_equal(mw_seam_cut(&two, NULL, &pieces, &error), MW_ERROR_INPUT);
+    assert_null(pieces.values);
+    mw_seam_pieces_release(NULL);
+}
+
 static void test_memory(void **state)
 {
     (void)state;
@@ -443,7 +541,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_meshes),    cmocka_unit_test(test_pixels),
         cmocka_unit_test(test_conserves), cmocka_unit_test(test_degrees),
-        cmocka_unit_test(test_seam),      cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_seam),      cmocka_unit_test(test_globe),
+        cmocka_unit_test(test_memory),    cmocka_unit_test(test_globe_memory_and_refusals),
         cmocka_unit_test(test_refusals),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

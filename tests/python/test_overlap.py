@@ -124,6 +124,69 @@ def test_cells_of_several_triangles(hills: tuple[meshwalk.Mesh, meshwalk.Mesh]) 
     assert (one @ np.ones(first.triangle_count)).shape == (1,)
 
 
+OCTAHEDRON = meshwalk.Mesh(
+    [[0, 0], [90, 0], [180, 0], [-90, 0], [17, 90], [5, -90]],
+    [[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4], [1, 0, 5], [2, 1, 5], [3, 2, 5], [0, 3, 5]],
+)
+CAPS = meshwalk.Mesh(
+    [[10, 60], [130, 60], [-110, 60], [70, -45], [-170, -45], [-50, -45]],
+    [[0, 1, 2], [5, 4, 3], [0, 3, 1], [1, 3, 4], [1, 4, 2], [2, 4, 5], [2, 5, 0], [0, 5, 3]],
+)
+"""Meshes of the whole globe: vertices at the poles; triangles with the poles inside."""
+
+
+@pytest.mark.parametrize("source", [OCTAHEDRON, CAPS])
+@pytest.mark.parametrize(
+    "target", [OCTAHEDRON, CAPS, meshwalk.Pixels(-180, 90, 45, 45, columns=8, rows=4)]
+)
+def test_the_globe_is_cut(source: meshwalk.Mesh, target: Any) -> None:
+    weights = meshwalk.remap(source, target, degrees=True)
+    assert weights.common_sum == pytest.approx(4 * np.pi, rel=1e-13)
+    assert weights.source_fraction == pytest.approx(1)
+    assert weights.target_fraction == pytest.approx(1)
+    assert weights.source_area.shape == (8,)
+    values = np.arange(8.0)
+    result = weights @ values
+    assert (result * weights.target_area).sum() == pytest.approx(weights.source_area @ values)
+
+
+def test_the_globe_as_the_program_cuts_it(program: str, tmp_path: Path) -> None:
+    from scipy.sparse import load_npz
+
+    for mesh, name in ((CAPS, "caps.off"), (OCTAHEDRON, "octa.off")):
+        mesh.write(tmp_path / name)
+    _run(
+        *(program, "weights", tmp_path / "caps.off", tmp_path / "octa.off"),
+        *("--method", "conservative", "--crs", "EPSG:4326", "--points-crs", "EPSG:4326"),
+        *("-o", tmp_path / "w.npz"),
+    )
+    ours = meshwalk.remap(CAPS, OCTAHEDRON, degrees=True).weights.tocsr()
+    np.testing.assert_array_equal(ours.toarray(), load_npz(tmp_path / "w.npz").toarray())
+
+
+def test_cells_with_a_pole_inside() -> None:
+    """Two triangles of the northern cap as one cell, over both pole and seam."""
+    points = np.array([[-170, 60], [-80, 50], [10, 50], [100, 60]])
+    cap = meshwalk.Mesh(points, [[0, 1, 2], [0, 2, 3]])
+    pixels = meshwalk.Pixels(-180, 90, 90, 90, columns=4, rows=1)
+    weights = meshwalk.remap(cap, pixels, source_cells=[0, 0], degrees=True)
+    assert weights.source_area.shape == (1,)
+    assert weights.source_fraction == pytest.approx(1)
+    assert (weights.target_fraction > 0).all()
+    with pytest.raises(ValueError, match="values='vertices' is not possible there"):
+        meshwalk.remap(cap, pixels, "vertices", degrees=True)
+    far = meshwalk.Mesh(points - [20, 0], cap.triangles)
+    with pytest.raises(meshwalk.InputError, match="longitudes, from -190 to 80, have to lie"):
+        meshwalk.remap(far, pixels, degrees=True)
+    twice = meshwalk.Mesh([*points, [20, 55], [-70, 55], [-80, 40]], [*cap.triangles, [4, 5, 6]])
+    with pytest.raises(meshwalk.InputError) as caught:
+        meshwalk.remap(twice, pixels, degrees=True)
+    assert "goes round the globe" in caught.value.__notes__[0]
+    # A locator is of a mesh in the plane, and that mesh is not cut.
+    with pytest.raises(meshwalk.InputError, match=r"differ by .* count them from 0 to 360"):
+        meshwalk.remap(meshwalk.Locator(cap), pixels, degrees=True)
+
+
 def test_weights_pickle_and_print(
     hills: tuple[meshwalk.Mesh, meshwalk.Mesh], tmp_path: Path
 ) -> None:

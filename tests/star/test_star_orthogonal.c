@@ -145,8 +145,12 @@ static void test_seam_of_chords(void **state)
     mw_surface surface = {.point = point, .point_count = 3};
     for (uint32_t turned = 0; turned < 2; turned++) {
         mw_star_facet facet = {.v = {0, 1 + turned, 2 - turned}};
-        mw_star star = {
-            .surface = &surface, .facet = &facet, .angle = angle, .tri_count = 1, .point_count = 3};
+        mw_star star = {.surface = &surface,
+                        .facet = &facet,
+                        .angle = angle,
+                        .tri_count = 1,
+                        .facet_count = 1,
+                        .point_count = 3};
         mw__star_fill_angles(&star);
         assert_int_equal(facet.user, turned ? 0 : MW_SEAM);
     }

@@ -82,6 +82,29 @@ star_shape star_shape_octahedron(unsigned levels)
     return p;
 }
 
+star_shape star_shape_globe(uint32_t around, uint32_t rings)
+{
+    star_shape p = {0};
+    uint32_t north = star_shape_point(&p, 0, 0, 4), south = star_shape_point(&p, 0, 0, -4);
+    for (uint32_t r = 1; r <= rings; r++)
+        for (uint32_t i = 0; i < around; i++) {
+            double theta = 3.14159265358979 * r / (rings + 1),
+                   phi = 6.2831853071795862 * i / around;
+            star_shape_point(&p, 4 * sin(theta) * cos(phi), 4 * sin(theta) * sin(phi),
+                             4 * cos(theta));
+        }
+    for (uint32_t i = 0; i < around; i++) {
+        uint32_t a = 2 + i, b = 2 + (i + 1) % around;
+        star_shape_triangle(&p, north, a, b);
+        for (uint32_t r = 1; r < rings; r++, a += around, b += around) {
+            star_shape_triangle(&p, a, a + around, b + around);
+            star_shape_triangle(&p, a, b + around, b);
+        }
+        star_shape_triangle(&p, south, b, a);
+    }
+    return p;
+}
+
 void star_shape_stretch(star_shape *p, unsigned most, uint64_t *seed)
 {
     for (uint32_t v = 0; v < p->points; v++) {

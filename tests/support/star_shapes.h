@@ -28,6 +28,9 @@ mw_arrays star_shape_arrays(const star_shape *p);
  * coordinates are integers. */
 star_shape star_shape_octahedron(unsigned levels);
 
+/* A sphere with a vertex at each pole and `rings` parallels of `around` vertices between. */
+star_shape star_shape_globe(uint32_t around, uint32_t rings);
+
 /* Moves each vertex outwards along its ray by a factor of 1 to `most`; integers stay integers. */
 void star_shape_stretch(star_shape *p, unsigned most, uint64_t *seed);
 

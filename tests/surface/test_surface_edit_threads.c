@@ -12,6 +12,7 @@
 
 #include <math.h>
 #include <pthread.h>
+#include <sched.h>
 #include <stdatomic.h>
 #include <stdlib.h>
 
@@ -19,9 +20,11 @@ enum { READERS = 3, EDITS = 300, PATH = 6 };
 
 typedef struct edited_world {
     surface_twin twin;
-    mw_probe_cursor certain[READERS], published[READERS]; /* made before the edits begin */
+    mw_probe_cursor certain[READERS], second[READERS],
+        published[READERS]; /* made before the edits begin */
+    mw_star_cursor ray[READERS];
     atomic_int editing, next;
-    atomic_uint hits;
+    atomic_uint hits, met;
 } edited_world;
 
 static void *probe_all_the_time(void *argument)
@@ -42,6 +45,11 @@ static void *probe_all_the_time(void *argument)
         touch = mw_probe(prober, &w->published[me], q, q + 3);
         REQUIRE(touch.state == MW_TOUCH_HIT || touch.state == MW_TOUCH_LIMIT);
         mw_nearest_surface_point nearest;
+        mw_location met = mw_star_locate(w->twin.star, &w->ray[me], q);
+        REQUIRE(met.where == MW_BAD || met.triangle != MW_NONE);
+        if (met.where != MW_BAD) atomic_fetch_add(&w->met, 1);
+        touch = mw_probe(w->twin.second, &w->second[me], q, q + 3);
+        REQUIRE(touch.state == MW_TOUCH_HIT || touch.state == MW_TOUCH_NONE);
         REQUIRE(mw_nearest_on_surface(prober, one, INFINITY, &nearest, NULL) == MW_OK);
     } while (atomic_load(&w->editing));
     return NULL;
@@ -56,7 +64,7 @@ static void deform(surface_twin *t)
         p[3 * i] += 0.001;
         t->now.point[3 * i] = p[3 * i];
     }
-    mw_prober_update(t->prober, 0.0011, 1);
+    surface_twin_moved(t, 0.0011);
     mw_surface_end_update(t->surface);
 }
 
@@ -72,11 +80,14 @@ static void test_probes_while_edited(void **state)
     mw_probe_options certain = {.certain = 1};
     for (int i = 0; i < READERS; i++) {
         REQUIRE(mw_probe_cursor_init(w.twin.prober, &certain, &w.certain[i], NULL) == MW_OK);
+        REQUIRE(mw_probe_cursor_init(w.twin.second, &certain, &w.second[i], NULL) == MW_OK);
         REQUIRE(mw_probe_cursor_init(w.twin.prober, NULL, &w.published[i], NULL) == MW_OK);
+        REQUIRE(mw_star_cursor_init(w.twin.star, NULL, &w.ray[i], NULL) == MW_OK);
     }
     atomic_store(&w.editing, 1);
     for (int i = 0; i < READERS; i++)
         REQUIRE(pthread_create(&reader[i], NULL, probe_all_the_time, &w) == 0);
+    while (atomic_load(&w.met) == 0) sched_yield(); /* before edits end the star-shaped surface */
     for (int i = 0; i < EDITS; i++) {
         mw_surface_edit edit = surface_twin_edit(&w.twin, path, PATH, &random);
         edit_case.step = (uint64_t)i;
@@ -88,7 +99,7 @@ static void test_probes_while_edited(void **state)
     for (int i = 0; i < READERS; i++) pthread_join(reader[i], NULL);
     REQUIRE(atomic_load(&w.hits) > 0);
     mw_surface_begin_update(w.twin.surface);
-    mw_prober_update(w.twin.prober, -1, 1); /* boxes without slack */
+    surface_twin_moved(&w.twin, -1); /* boxes without slack */
     mw_surface_end_update(w.twin.surface);
     surface_twin_check(&w.twin, 10, &random);
     surface_twin_free(&w.twin);

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from meshwalk._mesh import Mesh
-from meshwalk._surface import Surface
+from meshwalk._space.surface import Surface
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence

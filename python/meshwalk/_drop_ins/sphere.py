@@ -10,8 +10,8 @@ import numpy as np
 from meshwalk._errors import InputError
 from meshwalk._locator import Locator
 from meshwalk._mesh import Mesh
-from meshwalk._star import Star
-from meshwalk._surface import Surface
+from meshwalk._space.star import Star
+from meshwalk._space.surface import Surface
 from meshwalk._where import Where
 
 if TYPE_CHECKING:

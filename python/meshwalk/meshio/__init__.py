@@ -25,7 +25,7 @@ from meshwalk._mesh import Mesh
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from meshwalk._surface import Surface
+    from meshwalk._space.surface import Surface
 
 __all__ = ["cells", "mesh", "surface"]
 

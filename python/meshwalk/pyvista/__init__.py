@@ -22,12 +22,12 @@ from meshwalk import _arrays
 from meshwalk._drop_ins import cells as _cells
 from meshwalk._locator import Locator
 from meshwalk._mesh import Mesh
-from meshwalk._prober import Prober
+from meshwalk._space.prober import Prober
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-    from meshwalk._surface import Surface
+    from meshwalk._space.surface import Surface
 
 __all__ = ["Finder", "mesh", "polydata", "surface"]
 

@@ -25,7 +25,7 @@ from meshwalk._polygons import Polygons
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-    Pairs = tuple[NDArray[np.intp], NDArray[np.intp]]
+    Numbers = NDArray[np.intp]
 
 __all__ = ["STRtree"]
 
@@ -73,20 +73,20 @@ class _Areas:
             (self._owner == np.arange(len(parts))).all()
         )
 
-    def find(self, points: NDArray[np.float64], what: str) -> Pairs:
-        """Pairs of a point and an area, in order of points, then areas."""
+    def find(self, points: NDArray[np.float64], numbers: Numbers, what: str) -> Numbers:
+        """Pairs of a point's number and an area, in two rows: in order of points, then areas."""
         hits = self._polygons.at(points)
-        point, area, border = hits.point, self._owner[hits.polygon], hits.border
+        pairs = np.empty((2, len(hits.polygon)), np.intp)
+        pairs[0] = np.repeat(numbers, np.diff(hits.offsets))
+        pairs[1] = hits.polygon if self._single else self._owner[hits.polygon]
+        border = hits.border
         if not self._single:  # inside of one part is inside of the area
-            order = np.lexsort((border, area, point))
-            point, area, border = point[order], area[order], border[order]
-            new = np.ones(len(point), bool)
-            new[1:] = (point[1:] != point[:-1]) | (area[1:] != area[:-1])
-            point, area, border = point[new], area[new], border[new]
-        if what != _ANY:
-            kept = border == (what == _BORDER)
-            point, area = point[kept], area[kept]
-        return point.astype(np.intp), area.astype(np.intp)
+            order = np.lexsort((border, pairs[1], pairs[0]))
+            pairs, border = pairs[:, order], border[order]
+            new = np.ones(len(border), bool)
+            new[1:] = (pairs[:, 1:] != pairs[:, :-1]).any(axis=0)
+            pairs, border = pairs[:, new], border[new]
+        return pairs if what == _ANY else pairs[:, border == (what == _BORDER)]
 
 
 _Tree = shapely.STRtree  # also where a program puts the one below in its place
@@ -164,24 +164,23 @@ class STRtree(shapely.STRtree):  # type: ignore[misc] # shapely is not typed
         if pairs is None:
             found: NDArray[np.intp] = super().query(geometry, predicate, distance)
             return found
-        return pairs[1] if given.ndim == 0 else np.stack(pairs)
+        return pairs[1] if given.ndim == 0 else pairs
 
-    def _points_in_areas(self, inputs: NDArray[Any], predicate: str | None) -> Pairs | None:
+    def _points_in_areas(self, inputs: NDArray[Any], predicate: str | None) -> Numbers | None:
         """The pairs; None if these are not points and areas."""
         if self._holds_areas and predicate in _POINT_TO_POLYGON and _are(inputs, _POINT):
             areas, what = self._prepared(), _POINT_TO_POLYGON[predicate]
-            kept, points = _coordinates(inputs)
-            found, area = areas.find(points, what)
-            return kept[found], area
+            numbers, points = _coordinates(inputs)
+            return areas.find(points, numbers, what)
         if (
             self._holds_points
             and predicate in _POLYGON_TO_POINT
             and _are(inputs, _POLYGON, _MULTIPOLYGON)
         ):
-            kept, points = _coordinates(self.geometries)
-            found, area = _Areas(inputs).find(points, _POLYGON_TO_POINT[predicate])
-            order = np.lexsort((found, area))
-            return area[order], kept[found[order]]
+            numbers, points = _coordinates(self.geometries)
+            pairs = _Areas(inputs).find(points, numbers, _POLYGON_TO_POINT[predicate])
+            found: Numbers = pairs[::-1, np.argsort(pairs[1], kind="stable")]
+            return found
         return None
 
     def _prepared(self) -> _Areas:
@@ -194,7 +193,10 @@ class STRtree(shapely.STRtree):  # type: ignore[misc] # shapely is not typed
         return type(self), (self.geometries,)
 
 
-def _coordinates(points: NDArray[Any]) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
+def _coordinates(points: NDArray[Any]) -> tuple[Numbers, NDArray[np.float64]]:
     """Numbers and coordinates of the points that are there and not empty."""
+    rows = shapely.get_coordinates(points)
+    if len(rows) == len(points):
+        return np.arange(len(points)), rows
     rows, index = shapely.get_coordinates(points, return_index=True)
     return np.asarray(index, np.intp), rows

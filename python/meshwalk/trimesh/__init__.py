@@ -17,8 +17,8 @@ import numpy as np
 
 from meshwalk import _arrays
 from meshwalk._errors import InputError
-from meshwalk._prober import Prober, SurfaceSide
-from meshwalk._surface import Surface
+from meshwalk._space.prober import Prober, SurfaceSide
+from meshwalk._space.surface import Surface
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray

@@ -31,8 +31,8 @@ import xarray
 from meshwalk._errors import InputError
 from meshwalk._files import read
 from meshwalk._locator import Locator
-from meshwalk._star import Star
-from meshwalk._surface import Surface
+from meshwalk._space.star import Star
+from meshwalk._space.surface import Surface
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Hashable, Iterable

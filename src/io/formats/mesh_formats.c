@@ -53,9 +53,25 @@ static bool is_2dm(const char *word)
     return strcmp(word, "MESH2D") == 0;
 }
 
-static bool is_su2(const char *word)
+/* "NDIME=" or another keyword that may come first, behind comments. */
+static bool begins_su2(const char *head, size_t size)
 {
-    return strncmp(word, "NDIME=", 6) == 0;
+    static const char *const keys[] = {"NZONE", "NDIME", "NELEM", "NPOIN"};
+    const char *p = mw__head_skip_mark(head, head + size), *end = head + size;
+    while (p < end && (*p == '%' || mw__is_space(*p))) {
+        if (*p == '%')
+            while (p < end && *p != '\n') p++;
+        else
+            p++;
+    }
+    for (size_t k = 0; k < sizeof keys / sizeof *keys; k++) {
+        const size_t length = strlen(keys[k]);
+        if ((size_t)(end - p) <= length || memcmp(p, keys[k], length) != 0) continue;
+        const char *sign = p + length;
+        while (sign < end && mw__is_blank(*sign)) sign++;
+        if (sign < end && *sign == '=') return true;
+    }
+    return false;
 }
 
 static bool begins_vtk(const char *head, size_t size)
@@ -144,7 +160,7 @@ static const mw_mesh_format formats[] = {
      .endings = ".slf\0.selafin\0.ser\0",
      .first_bytes = mw__is_selafin,
      .read = mw__read_selafin},
-    {.name = "su2", .endings = ".su2\0", .first_word = is_su2, .read = mw__read_su2},
+    {.name = "su2", .endings = ".su2\0", .first_bytes = begins_su2, .read = mw__read_su2},
     {.name = "npz", .endings = ".npz\0", .first_bytes = begins_npz, .read = mw__read_npz},
     {.name = "mwm",
      .endings = ".mwm\0",

@@ -1,8 +1,10 @@
 /* ADCIRC's fort.14 and SCHISM's hgrid.gr3: a title; the numbers of elements and vertices; lines
  * "number x y depth" and "number corners a b c (d)", all numbered from 1; then, perhaps, the open
  * boundaries and the land boundaries, as counted lists of vertices. The depth, positive
- * downwards, becomes the field "depth". What follows a vertex of a boundary (the second side of a
- * barrier, its height) is passed over. */
+ * downwards, becomes the field "depth". Inside barriers (types 4, 5, 24, 25) name a vertex of their
+ * second side behind each vertex: the edges of both sides are marked. Other numbers behind a vertex
+ * (heights, coefficients) are passed over. Numbers may be separated by commas, as Fortran reads
+ * them. */
 #include "io/grid/grid_readers.h"
 #include "io/text/counted_rows.h"
 #include "io/text/number_text.h"
@@ -11,7 +13,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The next line that is not blank. */
+/* The next line that is not blank, with blanks in place of commas. */
 static mw_status fort14_line(mw_source *source, char **line, mw_error *error)
 {
     do {
@@ -19,6 +21,7 @@ static mw_status fort14_line(mw_source *source, char **line, mw_error *error)
         if (status || !*line) return status;
         *line = mw__skip_blanks(*line);
     } while (!**line);
+    for (char *comma = strchr(*line, ','); comma; comma = strchr(comma, ',')) *comma = ' ';
     return MW_OK;
 }
 
@@ -103,24 +106,35 @@ static mw_status fort14_count(mw_source *source, const char *what, mw_number_row
     return status;
 }
 
-/* The vertices of one boundary, each of which makes an edge with the one before. */
+/* A vertex of a boundary; it makes an edge with the one before, if that is not 0. */
+static mw_status fort14_boundary_vertex(mw_number_row *row, mw_mesh_builder *builder,
+                                        int64_t *before, mw_error *error)
+{
+    int64_t vertex;
+    uint32_t known;
+    mw_status status = mw__row_integer(row, "vertex of the boundary", &vertex, error);
+    if (!status) status = mw__build_vertex(builder, vertex, &known, error);
+    if (!status && *before) status = mw__build_edge(builder, *before, vertex, error);
+    *before = vertex;
+    return status;
+}
+
+/* The vertices of one boundary, and those of its second side if it is an inside barrier. */
 static mw_status fort14_read_boundary(mw_source *source, mw_mesh_builder *builder, int64_t count,
-                                      mw_error *error)
+                                      bool two_sides, mw_error *error)
 {
     mw_status status = MW_OK;
-    int64_t before = 0, vertex = 0;
+    int64_t before[2] = {0};
     for (int64_t i = 0; !status && i < count; i++) {
         char *line;
-        uint32_t known;
         status = fort14_line(source, &line, error);
         if (!status && !line)
             status = mw__rows_end_early(source, "vertices of a boundary", i, count, error);
         if (status) break;
         mw_number_row row = {source, line};
-        status = mw__row_integer(&row, "vertex of the boundary", &vertex, error);
-        if (!status) status = mw__build_vertex(builder, vertex, &known, error);
-        if (!status && i > 0) status = mw__build_edge(builder, before, vertex, error);
-        before = vertex;
+        status = fort14_boundary_vertex(&row, builder, &before[0], error);
+        if (!status && two_sides && !mw__row_ends(&row))
+            status = fort14_boundary_vertex(&row, builder, &before[1], error);
     }
     return status;
 }
@@ -131,6 +145,12 @@ static void fort14_take_type(const char *text, int64_t *type)
     int64_t number;
     const char *end = mw__read_integer(mw__skip_blanks(text), &number);
     if (end && mw__at_gap(end) && mw__integer_fits(number)) *type = number;
+}
+
+/* Weirs inside of the mesh, with pipes or without. */
+static bool fort14_has_two_sides(int64_t type)
+{
+    return type == 4 || type == 5 || type == 24 || type == 25;
 }
 
 /* All open, or all land boundaries; neither need be there. */
@@ -158,7 +178,9 @@ static mw_status fort14_read_boundaries(mw_source *source, mw_mesh_builder *buil
         else
             snprintf(name, sizeof name, "open %" PRId64, b + 1);
         if (!status) status = mw__build_mark(builder, name, error);
-        if (!status) status = fort14_read_boundary(source, builder, count, error);
+        if (!status)
+            status =
+                fort14_read_boundary(source, builder, count, fort14_has_two_sides(type), error);
     }
     return status;
 }
@@ -169,7 +191,7 @@ mw_status mw__read_fort14(mw_source *source, mw_mesh_builder *builder, mw_error 
     int64_t elements = 0, vertices = 0;
     builder->first_number = 1;
     mw_status status = mw__source_line(source, &line, error); /* the title */
-    if (!status) status = mw__source_line(source, &line, error);
+    if (!status) status = fort14_line(source, &line, error);
     if (!status && !line)
         status = mw__source_fail(source, error,
                                  "no line with the numbers of elements and "

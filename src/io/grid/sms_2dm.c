@@ -1,8 +1,8 @@
 /* 2DM, the meshes of SMS: one card on each line. Read are ND (vertex: number x y z), E3T and E4Q
- * (triangle and quadrilateral: number, corners, material). Cards of lines (E2L, E3L), node strings
- * and all other cards are skipped; elements with vertices on their sides (E6T, E8Q, E9Q) are
- * refused. Numbers may have gaps and come in any order: vertices and faces are counted in the order
- * of their numbers, as datasets list their values. */
+ * (triangle and quadrilateral: number, corners, material, which may be a real number). Cards of
+ * lines (E2L, E3L), node strings and all other cards are skipped; elements with vertices on their
+ * sides (E6T, E8Q, E9Q) are refused. Numbers may have gaps and come in any order: vertices and
+ * faces are counted in the order of their numbers, as datasets list their values. */
 #include "io/grid/grid_readers.h"
 #include "io/grid/number_list.h"
 #include "io/text/counted_rows.h"
@@ -16,11 +16,12 @@ typedef struct sms_mesh {
     mw_rank_list vertices, faces;
     mw_number_list xyz;       /* three for each vertex */
     mw_integer_list lines;    /* of each vertex */
-    mw_integer_list elements; /* six for each face: line, corners, material; corner 0: none */
-    bool materials;           /* some face has one */
+    mw_integer_list elements; /* five for each face: line, corners; corner 0: none */
+    mw_number_list materials; /* of each face; 0: none */
+    bool has_materials;       /* some face has one */
 } sms_mesh;
 
-enum { ELEMENT_SIZE = 6 };
+enum { ELEMENT_SIZE = 5 };
 
 static mw_status sms_read_vertex(sms_mesh *m, mw_number_row *row, mw_error *error)
 {
@@ -40,6 +41,7 @@ static mw_status sms_read_vertex(sms_mesh *m, mw_number_row *row, mw_error *erro
 static mw_status sms_read_element(sms_mesh *m, mw_number_row *row, int corners, mw_error *error)
 {
     int64_t number, element[ELEMENT_SIZE] = {m->source->line};
+    double material = 0;
     mw_status status = mw__row_integer(row, "number of the element", &number, error);
     for (int k = 0; !status && k < corners; k++) {
         status = mw__row_integer(row, "corner", &element[1 + k], error);
@@ -49,13 +51,13 @@ static mw_status sms_read_element(sms_mesh *m, mw_number_row *row, int corners, 
     }
     /* the material may be missing */
     if (!status && !mw__row_ends(row)) {
-        status = mw__row_integer(row, "material", &element[5], error);
-        m->materials = true;
+        status = mw__row_double(row, "material", &material, error);
+        m->has_materials = true;
     }
     if (!status) status = mw__integers_add(&m->faces.numbers, number, error);
     for (int k = 0; !status && k < ELEMENT_SIZE; k++)
         status = mw__integers_add(&m->elements, element[k], error);
-    return status;
+    return status ? status : mw__numbers_add(&m->materials, material, error);
 }
 
 static mw_status sms_read_card(sms_mesh *m, const char *line, mw_error *error)
@@ -136,13 +138,11 @@ static mw_status sms_build_faces(const sms_mesh *m, mw_mesh_builder *builder, mw
         size_t position = mw__ranks_position(&m->faces, i);
         status = sms_build_face(m, m->elements.values + ELEMENT_SIZE * position, builder, error);
     }
-    if (status || !m->materials) return status;
+    if (status || !m->has_materials) return status;
     double *materials = mw__alloc(count, sizeof *materials);
     if (!materials) return mw__fail_memory(error);
-    for (size_t i = 0; i < count; i++) {
-        size_t position = mw__ranks_position(&m->faces, i);
-        materials[i] = (double)m->elements.values[ELEMENT_SIZE * position + 5];
-    }
+    for (size_t i = 0; i < count; i++)
+        materials[i] = m->materials.values[mw__ranks_position(&m->faces, i)];
     status = mw__build_face_field(builder, "material", materials, error);
     free(materials);
     return status;
@@ -174,5 +174,6 @@ mw_status mw__read_2dm(mw_source *source, mw_mesh_builder *builder, mw_error *er
     free(m.xyz.values);
     free(m.lines.values);
     free(m.elements.values);
+    free(m.materials.values);
     return status;
 }

@@ -18,9 +18,8 @@ static void sms_write_faces(mw_output *output, const mw_mesh_file *file)
             mw__output_char(output, ' ');
             mw__output_integer(output, (uint64_t)mw__face_corner(file, t, k) + 1);
         }
-        double material = materials && fabs(materials[t]) < 0x1p31 ? materials[t] : 1;
         mw__output_char(output, ' ');
-        mw__output_signed(output, (int64_t)material);
+        mw_output_double(output, materials && isfinite(materials[t]) ? materials[t] : 1);
         mw__output_char(output, '\n');
     }
 }

@@ -1,6 +1,7 @@
 /* SU2: "KEY= value" lines, % begins a comment. NDIME= 2; NELEM= and a line "type corners number"
  * each; NPOIN= and a line "x y number" each; NMARK=, and for each marker MARKER_TAG=, MARKER_ELEMS=
- * and a line "3 a b" for each edge. Counted from 0. The sections come in any order. */
+ * and a line "3 a b" for each edge. Counted from 0. The sections come in any order. Vertices that
+ * parts of a mesh share (SEND_RECV=, and lines "1 a n") are passed over. */
 #include "io/grid/grid_readers.h"
 #include "io/text/counted_rows.h"
 
@@ -93,6 +94,8 @@ static mw_status su2_read_rows(mw_source *source, mw_mesh_builder *builder, cons
     for (int64_t i = 0; !status && i < count; i++) {
         char *line;
         status = su2_line(source, &line, error);
+        if (!status && line && su2_value(line, "SEND_RECV"))
+            status = su2_line(source, &line, error);
         if (!status && !line) status = mw__rows_end_early(source, what, i, count, error);
         if (!status) status = read(source, line, builder, error);
     }

@@ -1,11 +1,12 @@
 /* Legacy VTK, versions 1 to 5, as text and as bytes: unstructured grids and polydata. Read are
  * triangles, quadrilaterals, pixels, polygons and strips; vertices, lines and volumes are passed
  * over. Values of points become fields, those of cells triangle fields; a vector becomes NAME_0,
- * NAME_1, ... */
+ * NAME_1, ... Texts are passed over. In names a blank is %20. */
 #include "base/posix.h"
 #include "io/grid/cell_builder.h"
 #include "io/grid/grid_readers.h"
 #include "io/grid/value_source.h"
+#include "io/text/byte_order.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
@@ -24,6 +25,9 @@ static mw_source *vtk_source(const vtk_mesh *m)
 {
     return m->values.source;
 }
+
+/* Types of values that are no numbers of bytes: bits, eight to a byte, and texts. */
+static const mw_number_type vtk_bits = {MW_NUMBER_UNSIGNED, 0}, vtk_texts = {MW_NUMBER_SIGNED, 0};
 
 static mw_status vtk_type(vtk_mesh *m, const char *word, mw_number_type *type, mw_error *error)
 {
@@ -54,6 +58,17 @@ static mw_status vtk_word_type(vtk_mesh *m, mw_number_type *type, mw_error *erro
     char *word;
     mw_status status = mw__value_word(&m->values, &word, error);
     return status ? status : vtk_type(m, word, type, error);
+}
+
+/* The type of values of points or cells. */
+static mw_status vtk_values_type(vtk_mesh *m, mw_number_type *type, mw_error *error)
+{
+    char *word;
+    mw_status status = mw__value_word(&m->values, &word, error);
+    bool text = word && (strcasecmp(word, "string") == 0 || strcasecmp(word, "utf8_string") == 0);
+    bool bit = word && strcasecmp(word, "bit") == 0;
+    if (text || bit) *type = text ? vtk_texts : vtk_bits;
+    return status || text || bit ? status : vtk_type(m, word, type, error);
 }
 
 static mw_status vtk_read_points(vtk_mesh *m, mw_error *error)
@@ -162,16 +177,69 @@ static mw_status vtk_read_cell_types(vtk_mesh *m, mw_error *error)
 
 /* --- values --- */
 
+/* The length of a text of bytes stands in front of it, in 1, 2, 4 or 8 bytes, as two bits tell. */
+static mw_status vtk_skip_text(vtk_mesh *m, mw_error *error)
+{
+    static const size_t sizes[] = {8, 4, 2, 1};
+    const char *next;
+    const unsigned char *bytes;
+    size_t there;
+    mw_status status = mw__source_peek(vtk_source(m), 1, &next, &there, error);
+    if (status) return status;
+    size_t size = sizes[there ? (unsigned char)*next >> 6 : 3];
+    status = mw__value_bytes(&m->values, size, &bytes, error);
+    if (status) return status;
+    uint64_t length = mw__get_bytes(bytes, size, true) & (UINT64_MAX >> (66 - 8 * size));
+    return mw__source_skip(vtk_source(m), length, error);
+}
+
+/* As text, each stands in a line of its own. */
+static mw_status vtk_skip_texts(vtk_mesh *m, int64_t count, mw_error *error)
+{
+    mw_status status = MW_OK;
+    m->values.rest = NULL;
+    for (int64_t i = 0; !status && i < count; i++) {
+        char *line = NULL;
+        status =
+            m->values.binary ? vtk_skip_text(m, error) : mw__value_line(&m->values, &line, error);
+        if (!status && !line && !m->values.binary)
+            status = mw__source_fail(vtk_source(m), error, "the file ends before a text");
+    }
+    return status;
+}
+
+/* A value; of bits the next of `byte`, of which a new one is read for every eighth. */
+static mw_status vtk_read_value(vtk_mesh *m, mw_number_type type, uint64_t i, double *value,
+                                unsigned *byte, mw_error *error)
+{
+    if (type.size > 0 || !m->values.binary)
+        return mw__value_double(&m->values, type, "value", value, error);
+    if (i % 8 == 0) {
+        const unsigned char *bytes;
+        mw_status status = mw__value_bytes(&m->values, 1, &bytes, error);
+        if (status) return status;
+        *byte = *bytes;
+    }
+    *value = *byte >> (7 - i % 8) & 1;
+    return MW_OK;
+}
+
 /* `count` values of the points or cells, `width` each, with a name. */
 static mw_status vtk_read_values(vtk_mesh *m, const char *name, int64_t width, int64_t tuples,
                                  mw_number_type type, mw_error *error)
 {
     mw_number_list list = {0};
     mw_status status = MW_OK;
+    unsigned byte = 0;
+    uint64_t at = 0;
+    if (type.size == 0 && type.kind == vtk_texts.kind)
+        return tuples == 0 || tuples <= INT64_MAX / width
+                   ? vtk_skip_texts(m, tuples * width, error)
+                   : mw__source_fail(vtk_source(m), error, "too many texts");
     for (int64_t i = 0; !status && i < tuples; i++)
         for (int64_t k = 0; !status && k < width; k++) {
             double value;
-            status = mw__value_double(&m->values, type, "value", &value, error);
+            status = vtk_read_value(m, type, at++, &value, &byte, error);
             if (!status) status = mw__numbers_add(&list, value, error);
         }
     if (!status && tuples == m->tuples)
@@ -179,6 +247,26 @@ static mw_status vtk_read_values(vtk_mesh *m, const char *name, int64_t width, i
                                       (size_t)width, m->cell_data, error);
     free(list.values);
     return status;
+}
+
+static int vtk_hex_digit(char c)
+{
+    return c >= '0' && c <= '9'                     ? c - '0'
+           : (c | 0x20) >= 'a' && (c | 0x20) <= 'f' ? (c | 0x20) - 'a' + 10
+                                                    : -1;
+}
+
+/* %20 and others become the characters that they stand for. */
+static void vtk_decode_name(char *name)
+{
+    char *to = name;
+    for (const char *c = name; *c; c++) {
+        int high = *c == '%' ? vtk_hex_digit(c[1]) : -1;
+        int low = high >= 0 ? vtk_hex_digit(c[2]) : -1;
+        *to++ = low < 0 || 16 * high + low < ' ' ? *c : (char)(16 * high + low);
+        if (low >= 0 && 16 * high + low >= ' ') c += 2;
+    }
+    *to = 0;
 }
 
 static mw_status vtk_copy_name(vtk_mesh *m, char *name, size_t size, mw_error *error)
@@ -189,6 +277,7 @@ static mw_status vtk_copy_name(vtk_mesh *m, char *name, size_t size, mw_error *e
     if (!word || strlen(word) >= size)
         return mw__source_fail(vtk_source(m), error, "a name is missing or too long");
     strcpy(name, word);
+    vtk_decode_name(name);
     return MW_OK;
 }
 
@@ -207,7 +296,7 @@ static mw_status vtk_read_scalars(vtk_mesh *m, mw_error *error)
     mw_number_type type;
     int64_t width = 1;
     mw_status status = vtk_copy_name(m, name, sizeof name, error);
-    if (!status) status = vtk_word_type(m, &type, error);
+    if (!status) status = vtk_values_type(m, &type, error);
     if (!status && *mw__skip_blanks(m->values.rest))
         status = mw__value_word_integer(&m->values, "count of components", &width, error);
     if (!status) status = vtk_check_width(m, width, error);
@@ -231,7 +320,8 @@ static mw_status vtk_read_scalars(vtk_mesh *m, mw_error *error)
     return status ? status : vtk_read_values(m, name, width, m->tuples, type, error);
 }
 
-/* VECTORS, NORMALS, TENSORS name type; TEXTURE_COORDINATES name width type. */
+/* VECTORS, NORMALS, TENSORS, TENSORS6, GLOBAL_IDS, PEDIGREE_IDS, EDGE_FLAGS name type;
+ * TEXTURE_COORDINATES name width type. */
 static mw_status vtk_read_vectors(vtk_mesh *m, int64_t width, mw_error *error)
 {
     char name[VTK_NAME_SIZE];
@@ -240,7 +330,7 @@ static mw_status vtk_read_vectors(vtk_mesh *m, int64_t width, mw_error *error)
     if (!status && !width)
         status = mw__value_word_integer(&m->values, "count of components", &width, error);
     if (!status) status = vtk_check_width(m, width, error);
-    if (!status) status = vtk_word_type(m, &type, error);
+    if (!status) status = vtk_values_type(m, &type, error);
     return status ? status : vtk_read_values(m, name, width, m->tuples, type, error);
 }
 
@@ -283,7 +373,7 @@ static mw_status vtk_skip_metadata(vtk_mesh *m, mw_error *error)
     return status;
 }
 
-/* FIELD name count, and for each: name width tuples type. Texts are refused by their type. */
+/* FIELD name count, and for each: name width tuples type. */
 static mw_status vtk_read_field(vtk_mesh *m, mw_error *error)
 {
     char name[VTK_NAME_SIZE];
@@ -302,7 +392,7 @@ static mw_status vtk_read_field(vtk_mesh *m, mw_error *error)
             status = mw__value_word_count(&m->values, "count of components", &width, error);
         if (!status) status = mw__value_word_count(&m->values, "count of values", &tuples, error);
         if (!status && tuples > 0) status = vtk_check_width(m, width, error);
-        if (!status) status = vtk_word_type(m, &type, error);
+        if (!status) status = vtk_values_type(m, &type, error);
         if (!status) status = vtk_read_values(m, name, width, tuples, type, error);
     }
     return status;
@@ -335,6 +425,10 @@ typedef enum vtk_keyword {
     VTK_VECTORS,
     VTK_NORMALS,
     VTK_TENSORS,
+    VTK_TENSORS_6,
+    VTK_GLOBAL_IDS,
+    VTK_PEDIGREE_IDS,
+    VTK_EDGE_FLAGS,
     VTK_TEXTURE,
     VTK_COLOURS,
     VTK_FIELD,
@@ -344,15 +438,14 @@ typedef enum vtk_keyword {
 } vtk_keyword;
 
 static const char *const vtk_keywords[VTK_KEYWORD_COUNT] = {
-    "POINTS",          "CELLS",
-    "CELL_TYPES",      "POLYGONS",
-    "TRIANGLE_STRIPS", "LINES",
-    "VERTICES",        "POINT_DATA",
-    "CELL_DATA",       "SCALARS",
-    "VECTORS",         "NORMALS",
-    "TENSORS",         "TEXTURE_COORDINATES",
-    "COLOR_SCALARS",   "FIELD",
-    "LOOKUP_TABLE",    "METADATA"};
+    "POINTS",        "CELLS",           "CELL_TYPES",
+    "POLYGONS",      "TRIANGLE_STRIPS", "LINES",
+    "VERTICES",      "POINT_DATA",      "CELL_DATA",
+    "SCALARS",       "VECTORS",         "NORMALS",
+    "TENSORS",       "TENSORS6",        "GLOBAL_IDS",
+    "PEDIGREE_IDS",  "EDGE_FLAGS",      "TEXTURE_COORDINATES",
+    "COLOR_SCALARS", "FIELD",           "LOOKUP_TABLE",
+    "METADATA"};
 
 static mw_status vtk_read_keyword(vtk_mesh *m, vtk_keyword keyword, mw_error *error)
 {
@@ -370,6 +463,10 @@ static mw_status vtk_read_keyword(vtk_mesh *m, vtk_keyword keyword, mw_error *er
     case VTK_VECTORS:
     case VTK_NORMALS: return vtk_read_vectors(m, 3, error);
     case VTK_TENSORS: return vtk_read_vectors(m, 9, error);
+    case VTK_TENSORS_6: return vtk_read_vectors(m, 6, error);
+    case VTK_GLOBAL_IDS:
+    case VTK_PEDIGREE_IDS:
+    case VTK_EDGE_FLAGS: return vtk_read_vectors(m, 1, error);
     case VTK_TEXTURE: return vtk_read_vectors(m, 0, error);
     case VTK_COLOURS: return vtk_read_colours(m, error);
     case VTK_FIELD: return vtk_read_field(m, error);

@@ -85,6 +85,52 @@ static bool vtu_is_gap(char c)
     return c == ' ' || (c >= '\t' && c <= '\r');
 }
 
+/* A character as UTF-8; where it ends. */
+static char *vtu_put_character(char *to, uint32_t code)
+{
+    if (code < 0x80) {
+        *to++ = (char)code;
+        return to;
+    }
+    int more = code < 0x800 ? 1 : code < 0x10000 ? 2 : 3;
+    *to++ = (char)((more == 1 ? 0xc0 : more == 2 ? 0xe0 : 0xf0) | code >> 6 * more);
+    while (more-- > 0) *to++ = (char)(0x80 | (code >> 6 * more & 0x3f));
+    return to;
+}
+
+/* The character that "&lt;", "&#60;" or "&#x3c;" stands for; 0 if it is none. */
+static uint32_t vtu_character(const char *text, size_t length)
+{
+    static const char *const names[] = {"lt", "gt", "amp", "quot", "apos"};
+    for (size_t k = 0; k < sizeof names / sizeof *names; k++)
+        if (length == strlen(names[k]) && memcmp(text, names[k], length) == 0)
+            return (uint32_t) "<>&\"'"[k];
+    if (length < 2 || *text != '#') return 0;
+    bool hexadecimal = text[1] == 'x';
+    const char *digits = text + 1 + hexadecimal;
+    size_t count = strspn(digits, hexadecimal ? "0123456789abcdefABCDEF" : "0123456789");
+    if (count == 0 || count > 7 || digits + count != text + length) return 0;
+    unsigned long code = strtoul(digits, NULL, hexadecimal ? 16 : 10);
+    return code >= ' ' && code <= 0x10ffff ? (uint32_t)code : 0;
+}
+
+/* Characters that XML describes ("&lt;") become what they stand for, which is never longer. */
+static void vtu_decode(char *text)
+{
+    char *to = text;
+    for (const char *c = text; *c; c++) {
+        const char *end = *c == '&' ? strchr(c, ';') : NULL;
+        uint32_t code = end ? vtu_character(c + 1, (size_t)(end - c - 1)) : 0;
+        if (code == 0) {
+            *to++ = *c;
+            continue;
+        }
+        to = vtu_put_character(to, code);
+        c = end;
+    }
+    *to = 0;
+}
+
 /* The value of an attribute, cut to the room; false if there is none. */
 static bool vtu_attribute(const vtu_tag *tag, const char *name, char *value, size_t room)
 {
@@ -108,6 +154,7 @@ static bool vtu_attribute(const vtu_tag *tag, const char *name, char *value, siz
             if (size >= room) size = room - 1;
             memcpy(value, text, size);
             value[size] = 0;
+            vtu_decode(value);
             return true;
         }
         p++;

@@ -1,6 +1,7 @@
 /* Values over time of SMS beside a 2DM mesh: .dat as text (cards DATASET, BEGSCL or BEGVEC, ND, NC,
  * NAME, RT_JULIAN, TIMEUNITS, and for each time TS, perhaps a line for each element that tells
- * whether it is active, and the values) and as bytes (the same as numbers of cards). A file has one
+ * whether it is active, and the values) and as bytes (the same as numbers of cards, in either
+ * order). Files that begin with SCALAR or VECTOR have the time alone behind TS. A file has one
  * dataset; its values belong to the faces if the name of the file contains "_els". A vector becomes
  * two fields. */
 #include "base/posix.h"
@@ -164,6 +165,13 @@ static mw_status sms_read_any_card(sms_data *d, int *card, mw_error *error)
 
 /* --- the header --- */
 
+/* Does a file begin with the card of the version, 3000, as bytes? */
+static bool sms_are_bytes(const char *head, size_t size, bool *big)
+{
+    *big = size >= 4 && memcmp(head, "\0\0\x0b\xb8", 4) == 0;
+    return *big || (size >= 4 && memcmp(head, "\xb8\x0b\0\0", 4) == 0);
+}
+
 static int64_t sms_count(const sms_data *d)
 {
     return d->on_faces ? d->faces : d->vertices;
@@ -243,7 +251,7 @@ static mw_status sms_start(void *state, mw_source *source, const mw_series_optio
     d->on_faces = strstr(slash ? slash : source->path, "_els") != NULL;
     mw_status status = mw__source_peek(source, 4, &head, &size, error);
     if (status) return status;
-    d->values.binary = source->binary = size == 4 && memcmp(head, "\xb8\x0b\0\0", 4) == 0;
+    d->values.binary = source->binary = sms_are_bytes(head, size, &d->values.big);
     status = sms_read_header(d, error);
     if (!status)
         status = d->on_faces ? mw__step_series_check(source, (size_t)d->faces, options->face_count,
@@ -255,13 +263,24 @@ static mw_status sms_start(void *state, mw_source *source, const mw_series_optio
 
 /* --- steps --- */
 
+/* Does the line have one number more? */
+static bool sms_time_is_alone(const sms_data *d)
+{
+    const char *p = d->values.binary || !d->values.rest ? "" : mw__skip_blanks(d->values.rest);
+    bool any = *p;
+    while (!mw__at_gap(p)) p++;
+    return any && !*mw__skip_blanks(p);
+}
+
 /* The flag that tells whether activity follows, the time, and that activity. */
 static mw_status sms_read_step_head(sms_data *d, double *time, mw_error *error)
 {
     mw_number_type flag = {MW_NUMBER_SIGNED, d->flag_size};
     mw_number_type real = {MW_NUMBER_FLOAT, d->real_size};
-    int64_t active, ignored;
-    mw_status status = mw__value_integer(&d->values, flag, "status", &active, error);
+    int64_t active = 0, ignored;
+    mw_status status = sms_time_is_alone(d)
+                           ? MW_OK
+                           : mw__value_integer(&d->values, flag, "status", &active, error);
     if (!status) status = mw__value_double(&d->values, real, "time", time, error);
     for (int64_t i = 0; !status && active && i < d->faces; i++)
         status = mw__value_integer(&d->values, flag, "activity", &ignored, error);
@@ -304,7 +323,8 @@ static const mw_step_format sms_format = {sizeof(sms_data), sms_start, sms_step,
 static bool sms_series_is(const char *path, const char *head, size_t size)
 {
     if (!mw__path_ends(path, ".dat")) return false;
-    if (size >= 4 && memcmp(head, "\xb8\x0b\0\0", 4) == 0) return true;
+    bool big;
+    if (sms_are_bytes(head, size, &big)) return true;
     return size >= 7 && (memcmp(head, "DATASET", 7) == 0 || memcmp(head, "SCALAR", 6) == 0 ||
                          memcmp(head, "VECTOR", 6) == 0);
 }

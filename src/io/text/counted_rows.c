@@ -3,6 +3,7 @@
 #include "io/text/number_text.h"
 
 #include <inttypes.h>
+#include <string.h>
 
 bool mw__row_ends(mw_number_row *row)
 {
@@ -23,11 +24,26 @@ mw_status mw__row_integer(mw_number_row *row, const char *what, int64_t *value, 
     return MW_OK;
 }
 
+/* Fortran writes exponents of three digits without their letter: 1.5-105. Returns where the number
+ * ends; NULL if none does. */
+static const char *row_read_exponent(const char *text, const char *sign, double *value)
+{
+    char copy[64];
+    size_t length = (size_t)(sign - text);
+    if (strspn(sign + 1, "0123456789") != 3 || length > sizeof copy - 6) return NULL;
+    memcpy(copy, text, length);
+    copy[length] = 'e';
+    memcpy(copy + length + 1, sign, 4);
+    copy[length + 5] = 0;
+    return mw__read_double(copy, value) == copy + length + 5 ? sign + 4 : NULL;
+}
+
 mw_status mw__row_double(mw_number_row *row, const char *what, double *value, mw_error *error)
 {
     if (mw__row_ends(row))
         return mw__source_fail(row->source, error, "the line ends before the %s", what);
     const char *end = mw__read_double(row->p, value);
+    if (end && (*end == '-' || *end == '+')) end = row_read_exponent(row->p, end, value);
     if (!end || !mw__at_gap(end))
         return mw__source_fail(row->source, error, "%s: '%s' is not a number", what,
                                mw__excerpt(row->p).text);

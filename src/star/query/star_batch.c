@@ -37,7 +37,8 @@ static uint32_t batch_item(const mw_batch *queries, uint32_t i)
     return queries->order ? queries->order[i].item : i;
 }
 
-/* The first facet of the i-th query. `last`: where the previous query ended. */
+/* The first facet of the i-th query of a star that is up to date. `last`: where the previous query
+ * ended. */
 static uint32_t star_batch_first_facet(const star_batch *b, uint32_t i, uint32_t last)
 {
     return b->guided ? mw__star_guide_facet(b->star, b->queries.order[i].key) : last;
@@ -51,7 +52,8 @@ static void star_batch_in_turn(const star_batch *b, uint32_t first, uint32_t end
         uint32_t item = batch_item(&b->queries, i);
         uint64_t random = mw__random_seed(b->queries.seed, item);
         mw__surface_read_lock(b->star->surface);
-        uint32_t begin = star_batch_first_facet(b, i, last);
+        uint32_t begin = last;
+        if (mw__star_is_current(b->star)) begin = star_batch_first_facet(b, i, last);
         const double *point = batch_point(&b->queries, item);
         b->queries.locations[item] =
             mw__star_query_answer(b->star, &b->cursor, point, &begin, &random, counters, NULL);
@@ -181,7 +183,9 @@ mw_status mw__star_answer_rays(const mw_star *star, const mw_star_rays *rays, mw
     bool sorted = b.cursor.start == MW_STAR_START_SORTED;
     b.chained =
         sorted || b.cursor.start == MW_STAR_START_LAST || b.cursor.start == MW_STAR_START_AUTO;
-    b.guided = sorted && n < star->tri_count;
+    mw__surface_read_lock(star->surface);
+    b.guided = sorted && n < star->facet_count;
+    mw__surface_read_unlock(star->surface);
     b.queries.sort = sorted ? star_batch_sort : NULL;
     return mw__batch_run_part(&b.queries, n, job, sum, error);
 }

@@ -67,8 +67,7 @@ static void star_count(mw_counters *counters, const mw_star_work *work, bool han
 
 bool mw__star_answerable(const mw_star *star, const double q[3])
 {
-    return star->ready && star->version == star->surface->version && mw__is_finite3(q) &&
-           !mw__star_point_is_centre(star, q);
+    return mw__star_is_current(star) && mw__is_finite3(q) && !mw__star_point_is_centre(star, q);
 }
 
 const mw_star_kernels *mw__star_kernels_of(const mw_star_cursor *cursor)

@@ -19,7 +19,7 @@ mw_status mw_star_cursor_init(const mw_star *star, const mw_star_query_options *
     if (options->finish && options->finish != MW_STAR_WALK_STOCHASTIC &&
         options->finish != MW_STAR_WALK_FORGETFUL)
         return mw__fail(error, MW_ERROR_ARGUMENT, "finish must be stochastic or forgetful");
-    if (options->walk == MW_STAR_WALK_ORTHOGONAL && !star->angle)
+    if (options->walk == MW_STAR_WALK_ORTHOGONAL && !star->angles)
         return mw__fail(error, MW_ERROR_ARGUMENT, "the orthogonal walk needs a star with angles");
     if (start == MW_STAR_START_AUTO && options->index) start = mw__star_index_start(options->index);
     if (mw_star_start_has_index(start) && !options->index)
@@ -40,6 +40,14 @@ mw_status mw_star_cursor_init(const mw_star *star, const mw_star_query_options *
         .count = options->counters != 0,
     };
     return MW_OK;
+}
+
+int mw_star_ready(const mw_star *star)
+{
+    mw__surface_read_lock(star->surface);
+    bool ready = mw__star_is_current(star);
+    mw__surface_read_unlock(star->surface);
+    return ready;
 }
 
 /* `trace` and `meeting` may be NULL. */

@@ -7,9 +7,12 @@
 #define MW_SRC_SURFACE_EDIT_EDITED_SURFACE_H
 
 #include "probe/prober.h"
+#include "star/star.h"
 #include "surface/surface.h"
 
 #include <meshwalk/surface_edit.h>
+
+#include <string.h>
 
 /* The corners at one vertex form a list: corner 3 t + k is vertex k of triangle t. The surface may
  * be pinched and of any orientation: no turning round a vertex would find all. */
@@ -47,7 +50,9 @@ typedef struct mw_surface_step {
 
 struct mw_surface_editor {
     mw_surface *surface;
-    mw_prober *prober;  /* its boxes follow; NULL: none */
+    mw_prober **prober; /* their boxes follow */
+    mw_star **star;     /* they follow */
+    size_t prober_count, prober_room, star_count, star_room;
     mw_corner *corner;  /* three a triangle */
     mw_corner_list *at; /* per vertex */
     uint32_t tri_room, point_room;
@@ -72,6 +77,20 @@ struct mw_surface_editor {
 /* In `user` of a triangle: the edit under way has recorded it. */
 #define MW_SURFACE_RECORDED MW_REVERSED
 
+/* Make room for `count` records in *array, which has *room, and for one more: it is never NULL. */
+static inline bool mw__surface_grow(void *array, size_t *room, size_t count, size_t size)
+{
+    void **records = array;
+    if (count < *room) return true;
+    size_t more = *room + *room / 2 + 16;
+    if (more <= count) more = count + 1;
+    void *grown = mw__realloc(*records, more, size);
+    if (!grown) return false;
+    *records = grown;
+    *room = more;
+    return true;
+}
+
 static MW_INLINE uint32_t mw__corner_number(uint32_t t, uint32_t k)
 {
     return 3 * t + k;
@@ -90,6 +109,22 @@ static MW_INLINE bool mw__surface_has_triangle(const mw_surface_editor *e, uint3
 {
     return t < e->surface->tri_count && !mw__surface_is_freed(e->surface, t);
 }
+/* Did a recorded triangle exist before the edit? Has it other vertices now, or another order? */
+static MW_INLINE bool mw__entry_was(const mw_triangle_entry *entry)
+{
+    return !(entry->before.user & MW_SURFACE_FREED);
+}
+static MW_INLINE bool mw__entry_is_altered(const mw_surface_editor *e,
+                                           const mw_triangle_entry *entry)
+{
+    return memcmp(entry->before.v, e->surface->tri[entry->triangle].v, sizeof entry->before.v) != 0;
+}
+
+static MW_INLINE mw_surface_step *mw__last_step(const mw_surface_editor *e)
+{
+    return &e->step[e->step_count - 1];
+}
+
 static MW_INLINE uint32_t mw__surface_living(const mw_surface_editor *e)
 {
     return e->surface->tri_count - e->surface->freed_triangles;

@@ -1,6 +1,7 @@
 /* surface_compact.c - renumbers an edited surface without gaps. */
 #include "surface/edit/surface_compact.h"
 #include "surface/edit/surface_corners.h"
+#include "surface/edit/surface_followers.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -88,11 +89,9 @@ static void compacted_exchange(compacted_surface *c, mw_surface_editor *e)
 static bool compacted_boxes(mw_surface_editor *e)
 {
     mw_surface *s = e->surface;
-    mw_job job = mw__job(1, NULL);
     uint32_t freed = s->freed_triangles;
-    if (!e->prober) return true;
     s->freed_triangles = 0;
-    bool done = mw__prober_rebuild(e->prober, &job);
+    bool done = mw__followers_rebuild(e);
     if (!done) s->freed_triangles = freed;
     return done;
 }
@@ -106,13 +105,11 @@ static bool compact_run(compacted_surface *c, mw_surface_editor *e)
     return false;
 }
 
-static void compact_conclude(mw_surface_editor *e)
+static void compact_conclude(const compacted_surface *c, mw_surface_editor *e)
 {
     mw_surface *s = e->surface;
     s->freed_triangles = s->freed_points = 0;
-    s->edit_count++;
-    s->shape++;
-    if (e->prober) e->prober->edit_count = s->edit_count;
+    mw__followers_renumber(e, c->triangle, c->vertex);
     mw__corners_fill(e);
     e->search = 0;
     e->tri_room = s->tri_count;
@@ -126,7 +123,7 @@ mw_status mw__surface_compact(mw_surface_editor *e, uint32_t *triangles, uint32_
     compacted_surface c = {0};
     uint32_t tri_count = e->surface->tri_count, point_count = e->surface->point_count;
     bool done = compact_run(&c, e);
-    if (done) compact_conclude(e);
+    if (done) compact_conclude(&c, e);
     if (done && triangles) memcpy(triangles, c.triangle, tri_count * sizeof *triangles);
     if (done && vertices) memcpy(vertices, c.vertex, point_count * sizeof *vertices);
     compacted_release(&c);

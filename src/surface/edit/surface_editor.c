@@ -1,6 +1,7 @@
 /* surface_editor.c - the public functions of an editor of a surface. */
 #include "surface/edit/surface_compact.h"
 #include "surface/edit/surface_corners.h"
+#include "surface/edit/surface_followers.h"
 #include "surface/edit/surface_journal.h"
 #include "surface/edit/surface_operations.h"
 #include "base/options.h"
@@ -19,8 +20,7 @@ const char *mw_surface_edit_name(mw_surface_edit_kind kind)
 
 /* --- creation --- */
 
-static mw_status editor_check_surface(const mw_surface *surface, const mw_prober *prober,
-                                      mw_error *error)
+static mw_status editor_check_surface(const mw_surface *surface, mw_error *error)
 {
     if (surface->coincident)
         return mw__fail(error, MW_ERROR_ARGUMENT,
@@ -30,8 +30,6 @@ static mw_status editor_check_surface(const mw_surface *surface, const mw_prober
                         "the points of the surface are borrowed, so they cannot become more");
     if (surface->edited)
         return mw__fail(error, MW_ERROR_ARGUMENT, "the surface has an editor already");
-    if (prober && prober->surface != surface)
-        return mw__fail(error, MW_ERROR_ARGUMENT, "the prober is one of another surface");
     if (mw_surface_triangle_count(surface) == surface->freed_triangles)
         return mw__fail(error, MW_ERROR_INPUT, "the surface has no triangle");
     return MW_OK;
@@ -80,20 +78,6 @@ static void editor_fill(mw_surface_editor *e)
             e->borders += s->tri[t].link[k] == MW_NONE;
 }
 
-static mw_status editor_take_prober(mw_surface_editor *e, mw_error *error)
-{
-    mw_prober *prober = e->prober;
-    mw_job job = mw__job(1, NULL);
-    if (!prober) return MW_OK;
-    if (!prober->has_bvh) {
-        e->prober = NULL; /* nothing to follow */
-        return MW_OK;
-    }
-    if (prober->edit_count != e->surface->edit_count && !mw__prober_rebuild(prober, &job))
-        return mw__fail_memory(error);
-    return mw__bvh_follow(&prober->bvh, e->surface) ? MW_OK : mw__fail_memory(error);
-}
-
 mw_status mw_surface_editor_create(mw_surface *surface, const mw_surface_editor_options *options,
                                    mw_surface_editor **out, mw_error *error)
 {
@@ -103,17 +87,17 @@ mw_status mw_surface_editor_create(mw_surface *surface, const mw_surface_editor_
     if (!surface) return mw__fail(error, MW_ERROR_ARGUMENT, "no surface");
     if (!options) options = &defaults;
     mw_status status = MW_RESERVED_CHECK(mw_surface_editor_options, options, error);
-    if (!status) status = editor_check_surface(surface, options->prober, error);
+    if (!status) status = editor_check_surface(surface, error);
     if (status) return status;
     mw_surface_editor *e = mw__calloc(1, sizeof *e);
     if (!e) return mw__fail_memory(error);
     e->surface = surface;
-    e->prober = options->prober;
     e->undo = options->undo;
     if (editor_allocate(e)) {
         editor_fill(e);
         status = editor_check_triangles(e, error);
-        if (!status) status = editor_take_prober(e, error);
+        if (!status && options->prober)
+            status = mw__followers_add_prober(e, options->prober, error);
         if (!status && !mw__surface_reserve_some(e)) status = mw__fail_memory(error);
     } else {
         status = mw__fail_memory(error);
@@ -131,6 +115,7 @@ void mw_surface_editor_destroy(mw_surface_editor *editor)
     if (!editor) return;
     if (editor->surface->edited) editor->surface->freed_points = 0; /* no one knows which */
     editor->surface->edited = false;
+    mw__followers_release(editor);
     free(editor->corner);
     free(editor->at);
     free(editor->triangle);
@@ -141,37 +126,74 @@ void mw_surface_editor_destroy(mw_surface_editor *editor)
     free(editor);
 }
 
-/* --- an edit as an update --- */
+/* --- what follows --- */
 
-/* Is an edit an update of its own? Then its prober is up to date after it if it was before. */
-typedef struct edit_update {
-    bool own, current;
-} edit_update;
-
-static edit_update edit_update_begin(mw_surface_editor *e)
+/* Queries of other threads wait while what they use changes. */
+static void editor_lock(const mw_surface *surface)
 {
-    mw_surface *s = e->surface;
-    edit_update update = {.own = !s->updating,
-                          .current = e->prober && e->prober->version == s->version};
-    if (update.own) mw_surface_begin_update(s);
-    return update;
+    if (surface->rwlock && !surface->updating) mw__rwlock_write_lock(surface->rwlock);
+}
+static void editor_unlock(const mw_surface *surface)
+{
+    if (surface->rwlock && !surface->updating) mw__rwlock_write_unlock(surface->rwlock);
 }
 
-static void edit_update_end(mw_surface_editor *e, edit_update update, mw_status status)
+mw_status mw_surface_editor_attach_prober(mw_surface_editor *editor, mw_prober *prober,
+                                          mw_error *error)
+{
+    if (!editor || !prober)
+        return mw__fail(error, MW_ERROR_ARGUMENT, "the editor or the prober is NULL");
+    editor_lock(editor->surface);
+    mw_status status = mw__followers_add_prober(editor, prober, error);
+    editor_unlock(editor->surface);
+    return status;
+}
+
+mw_status mw_surface_editor_attach_star(mw_surface_editor *editor, mw_star *star, mw_error *error)
+{
+    if (!editor || !star)
+        return mw__fail(error, MW_ERROR_ARGUMENT, "the editor or the star is NULL");
+    editor_lock(editor->surface);
+    mw_status status = mw__followers_add_star(editor, star, error);
+    editor_unlock(editor->surface);
+    return status;
+}
+
+void mw_surface_editor_detach_prober(mw_surface_editor *editor, const mw_prober *prober)
+{
+    mw__followers_remove_prober(editor, prober);
+}
+
+void mw_surface_editor_detach_star(mw_surface_editor *editor, mw_star *star)
+{
+    mw__followers_remove_star(editor, star);
+}
+
+/* --- an edit as an update --- */
+
+/* An edit that is no part of an update is an update of its own. Returns whether it is. */
+static bool edit_update_begin(mw_surface_editor *e)
+{
+    bool own = !e->surface->updating;
+    if (own) mw_surface_begin_update(e->surface);
+    return own;
+}
+
+static void edit_update_end(mw_surface_editor *e, bool own, mw_status status)
 {
     mw_surface *s = e->surface;
-    if (!update.own) return;
+    if (!own) return;
     if (status)
         s->version--; /* nothing has changed */
-    else if (update.current)
-        e->prober->version = s->version;
+    else
+        mw__followers_end_update(e);
     mw_surface_end_update(s);
 }
 
 static mw_status edit_conclude(mw_surface_editor *e, mw_status status, mw_surface_change *change)
 {
     if (status) return status;
-    mw__surface_follow(e);
+    mw__followers_follow(e);
     if (change) mw__surface_report(e, change);
     mw__surface_commit(e);
     return MW_OK;
@@ -209,9 +231,9 @@ mw_status mw_surface_edit_apply(mw_surface_editor *editor, const mw_surface_edit
         return mw__fail(error, MW_ERROR_ARGUMENT, "unknown kind of edit");
     mw_status status = edit_check_point(edit, error);
     if (status) return status;
-    edit_update update = edit_update_begin(editor);
+    bool own = edit_update_begin(editor);
     status = edit_conclude(editor, operations[edit->kind](editor, edit, error), change);
-    edit_update_end(editor, update, status);
+    edit_update_end(editor, own, status);
     return status;
 }
 
@@ -220,14 +242,14 @@ mw_status mw_surface_edit_undo(mw_surface_editor *editor, mw_surface_change *cha
 {
     if (!editor) return mw__fail(error, MW_ERROR_ARGUMENT, "no editor");
     if (editor->undoable == 0) return mw__fail(error, MW_ERROR_INPUT, "there is no edit to undo");
-    edit_update update = edit_update_begin(editor);
+    bool own = edit_update_begin(editor);
     mw_status status = mw__surface_revert(editor, error);
     if (!status) {
-        mw__surface_follow(editor);
+        mw__followers_follow(editor);
         if (change) mw__surface_report(editor, change);
         mw__surface_drop_step(editor);
     }
-    edit_update_end(editor, update, status);
+    edit_update_end(editor, own, status);
     return status;
 }
 
@@ -235,10 +257,9 @@ mw_status mw_surface_editor_compact(mw_surface_editor *editor, uint32_t *triangl
                                     uint32_t *vertices, mw_error *error)
 {
     if (!editor) return mw__fail(error, MW_ERROR_ARGUMENT, "no editor");
-    edit_update update = edit_update_begin(editor);
-    update.current = editor->prober != NULL; /* its boxes are made anew */
+    bool own = edit_update_begin(editor);
     mw_status status = mw__surface_compact(editor, triangles, vertices, error);
-    edit_update_end(editor, update, status);
+    edit_update_end(editor, own, status);
     return status;
 }
 
@@ -368,7 +389,7 @@ void mw_surface_editor_describe(const mw_surface_editor *editor, mw_surface_edit
         .bytes = sizeof *editor + undo + (editor->tri_room - s->tri_count) * sizeof *s->tri +
                  (editor->point_room - s->point_count) * 3 * sizeof *s->point +
                  3 * (size_t)editor->tri_room * sizeof *editor->corner +
-                 editor->point_room * sizeof *editor->at +
+                 editor->point_room * sizeof *editor->at + mw__followers_bytes(editor) +
                  editor->changed_triangle_room * sizeof *editor->changed_triangle +
                  editor->changed_vertex_room * sizeof *editor->changed_vertex,
         .edits = editor->edits,

@@ -1,33 +1,15 @@
-/* surface_journal.c - what an edit of a surface changed, how it is undone, and how boxes follow. */
+/* surface_journal.c - what an edit of a surface changed, and how it is undone. */
 #include "surface/edit/surface_journal.h"
 #include "surface/edit/surface_corners.h"
+#include "surface/edit/surface_followers.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 
-static mw_surface_step *last_step(const mw_surface_editor *e)
-{
-    return &e->step[e->step_count - 1];
-}
-
 /* --- memory --- */
 
-/* Make room for `count` records in *array, which has *room, and for one more: it is never NULL. */
-static bool journal_grow(void *array, size_t *room, size_t count, size_t size)
-{
-    void **records = array;
-    if (count < *room) return true;
-    size_t more = *room + *room / 2 + 16;
-    if (more <= count) more = count + 1;
-    void *grown = mw__realloc(*records, more, size);
-    if (!grown) return false;
-    *records = grown;
-    *room = more;
-    return true;
-}
-
-/* The same for an array that begins at a cache line: realloc would not keep that. */
+/* Grow an array that begins at a cache line: realloc would not keep that. */
 static bool lines_grow(void *array, size_t count, size_t room, size_t size)
 {
     void **records = array, *more = mw__alloc_lines(room, size);
@@ -71,29 +53,18 @@ static bool points_reserve(mw_surface_editor *e, size_t count)
     return true;
 }
 
-/* Room for the boxes, which are made anew where the tree would become too deep. */
-static bool boxes_reserve(mw_surface_editor *e, size_t made)
-{
-    if (!e->prober || made == 0) return true;
-    mw_job job = mw__job(1, NULL);
-    if (mw__bvh_is_deep(&e->prober->bvh) && e->prober->edit_count == e->surface->edit_count &&
-        !mw__prober_rebuild(e->prober, &job))
-        return false;
-    return mw__bvh_reserve(&e->prober->bvh, e->surface->tri_count + made, made);
-}
-
 static bool report_reserve(mw_surface_editor *e, size_t triangles, size_t vertices)
 {
-    return journal_grow(&e->changed_triangle, &e->changed_triangle_room, triangles,
-                        sizeof *e->changed_triangle) &&
-           journal_grow(&e->changed_vertex, &e->changed_vertex_room, vertices,
-                        sizeof *e->changed_vertex);
+    return mw__surface_grow(&e->changed_triangle, &e->changed_triangle_room, triangles,
+                            sizeof *e->changed_triangle) &&
+           mw__surface_grow(&e->changed_vertex, &e->changed_vertex_room, vertices,
+                            sizeof *e->changed_vertex);
 }
 
 bool mw__surface_reserve_some(mw_surface_editor *e)
 {
     return triangles_reserve(e, (size_t)e->surface->tri_count + 1) &&
-           points_reserve(e, (size_t)e->surface->point_count + 1) && boxes_reserve(e, 1);
+           points_reserve(e, (size_t)e->surface->point_count + 1) && mw__followers_reserve(e, 1, 1);
 }
 
 mw_status mw__surface_edit_begin(mw_surface_editor *e, const mw_surface_needs *needs,
@@ -107,13 +78,13 @@ mw_status mw__surface_edit_begin(mw_surface_editor *e, const mw_surface_needs *n
                         "and vertices that are gone");
     if (!triangles_reserve(e, s->tri_count + needs->made) ||
         !points_reserve(e, s->point_count + needs->vertices) ||
-        !journal_grow(&e->triangle, &e->triangle_room, e->triangle_count + needs->triangles,
-                      sizeof *e->triangle) ||
-        !journal_grow(&e->vertex, &e->vertex_room, e->vertex_count + needs->vertex_entries,
-                      sizeof *e->vertex) ||
-        !journal_grow(&e->step, &e->step_room, e->step_count + 1, sizeof *e->step) ||
+        !mw__surface_grow(&e->triangle, &e->triangle_room, e->triangle_count + needs->triangles,
+                          sizeof *e->triangle) ||
+        !mw__surface_grow(&e->vertex, &e->vertex_room, e->vertex_count + needs->vertex_entries,
+                          sizeof *e->vertex) ||
+        !mw__surface_grow(&e->step, &e->step_room, e->step_count + 1, sizeof *e->step) ||
         !report_reserve(e, needs->triangles + needs->made, needs->vertex_entries) ||
-        !boxes_reserve(e, needs->made))
+        !mw__followers_reserve(e, needs->made, needs->vertices))
         return mw__fail_memory(error);
     e->step[e->step_count++] = (mw_surface_step){.first_triangle = e->triangle_count,
                                                  .first_vertex = e->vertex_count,
@@ -129,82 +100,6 @@ void mw__surface_record_vertex(mw_surface_editor *e, mw_vertex_event event, uint
 {
     const double *p = mw__surface_point(e->surface, vertex);
     e->vertex[e->vertex_count++] = (mw_vertex_entry){event, vertex, other, {p[0], p[1], p[2]}};
-}
-
-/* --- what became of a triangle --- */
-
-static bool triangle_was(const mw_triangle_entry *entry)
-{
-    return !(entry->before.user & MW_SURFACE_FREED);
-}
-
-static bool triangle_is_altered(const mw_surface_editor *e, const mw_triangle_entry *entry)
-{
-    return memcmp(entry->before.v, e->surface->tri[entry->triangle].v, sizeof entry->before.v) != 0;
-}
-
-/* --- boxes --- */
-
-/* A triangle in the tree that shares an edge or a vertex with t; MW_NONE: none was found. */
-static uint32_t triangle_beside(const mw_surface_editor *e, uint32_t t)
-{
-    enum { LOOKS = 4 };
-    const uint32_t *place = e->prober->bvh.place;
-    const mw_triangle *tri = &e->surface->tri[t];
-    for (uint32_t k = 0; k < 3; k++) {
-        uint32_t link = tri->link[k];
-        if (link != MW_NONE && place[mw__link_triangle(link)] != MW_NONE)
-            return mw__link_triangle(link);
-    }
-    for (uint32_t k = 0; k < 3; k++) {
-        uint32_t c = e->at[tri->v[k]].first;
-        for (int i = 0; i < LOOKS && c != MW_NONE; i++, c = e->corner[c].next)
-            if (place[c / 3] != MW_NONE) return c / 3;
-    }
-    return MW_NONE;
-}
-
-/* First what comes, then what goes: the tree is never empty. */
-static void boxes_follow_triangles(mw_surface_editor *e, const mw_surface_step *step)
-{
-    mw_bvh *bvh = &e->prober->bvh;
-    const mw_triangle_entry *first = e->triangle + step->first_triangle,
-                            *end = e->triangle + e->triangle_count;
-    for (const mw_triangle_entry *i = first; i < end; i++) {
-        if (!mw__surface_has_triangle(e, i->triangle)) continue;
-        if (!triangle_was(i))
-            mw__bvh_put(bvh, e->surface, i->triangle, triangle_beside(e, i->triangle));
-        else if (triangle_is_altered(e, i))
-            mw__bvh_refit(bvh, e->surface, i->triangle);
-    }
-    for (uint32_t t = step->tri_count; t < e->surface->tri_count; t++)
-        mw__bvh_put(bvh, e->surface, t, triangle_beside(e, t));
-    for (const mw_triangle_entry *i = first; i < end; i++)
-        if (triangle_was(i) && !mw__surface_has_triangle(e, i->triangle))
-            mw__bvh_drop(bvh, i->triangle);
-}
-
-static void boxes_follow_vertices(mw_surface_editor *e, const mw_surface_step *step)
-{
-    for (size_t i = step->first_vertex; i < e->vertex_count; i++) {
-        if (e->vertex[i].event != MW_VERTEX_MOVED) continue;
-        uint32_t c = e->at[e->vertex[i].vertex].first;
-        for (; mw__is_corner(c); c = e->corner[c].next)
-            mw__bvh_refit(&e->prober->bvh, e->surface, c / 3);
-    }
-}
-
-void mw__surface_follow(mw_surface_editor *e)
-{
-    mw_surface *s = e->surface;
-    mw_prober *prober = e->prober;
-    s->edit_count++;
-    s->shape++;
-    if (!prober || prober->edit_count + 1 != s->edit_count) return;
-    boxes_follow_triangles(e, last_step(e));
-    boxes_follow_vertices(e, last_step(e));
-    prober->closed = e->borders == 0;
-    prober->edit_count = s->edit_count;
 }
 
 /* --- the report --- */
@@ -226,15 +121,15 @@ typedef enum triangle_fate { FATE_MADE, FATE_REUSED, FATE_FREED, FATE_SAME } tri
 
 static triangle_fate entry_fate(const mw_surface_editor *e, const mw_triangle_entry *entry)
 {
-    bool is = mw__surface_has_triangle(e, entry->triangle), was = triangle_was(entry);
-    if (is && was) return triangle_is_altered(e, entry) ? FATE_REUSED : FATE_SAME;
+    bool is = mw__surface_has_triangle(e, entry->triangle), was = mw__entry_was(entry);
+    if (is && was) return mw__entry_is_altered(e, entry) ? FATE_REUSED : FATE_SAME;
     return is ? FATE_MADE : was ? FATE_FREED : FATE_SAME;
 }
 
 /* Append the triangles with one fate, sorted. Returns how many. */
 static size_t report_triangles(mw_surface_editor *e, triangle_fate fate, size_t from)
 {
-    const mw_surface_step *step = last_step(e);
+    const mw_surface_step *step = mw__last_step(e);
     size_t n = from;
     for (size_t i = step->first_triangle; i < e->triangle_count; i++) {
         const mw_triangle_entry *entry = &e->triangle[i];
@@ -252,7 +147,7 @@ static size_t report_triangles(mw_surface_editor *e, triangle_fate fate, size_t 
 static size_t report_vertices(mw_surface_editor *e, mw_vertex_event event, size_t from)
 {
     size_t n = from;
-    for (size_t i = last_step(e)->first_vertex; i < e->vertex_count; i++)
+    for (size_t i = mw__last_step(e)->first_vertex; i < e->vertex_count; i++)
         if (e->vertex[i].event == event)
             e->changed_vertex[n++] = (mw_changed_vertex){e->vertex[i].vertex, e->vertex[i].other};
     qsort(e->changed_vertex + from, n - from, sizeof *e->changed_vertex, compare_changed_vertices);
@@ -295,7 +190,7 @@ static void journal_forget(mw_surface_editor *e)
 
 void mw__surface_commit(mw_surface_editor *e)
 {
-    for (size_t i = last_step(e)->first_triangle; i < e->triangle_count; i++)
+    for (size_t i = mw__last_step(e)->first_triangle; i < e->triangle_count; i++)
         e->surface->tri[e->triangle[i].triangle].user &= ~MW_SURFACE_RECORDED;
     e->journal_below = 0;
     e->edits++;
@@ -369,10 +264,10 @@ static mw_status revert_reserve(mw_surface_editor *e, const mw_surface_step *ste
            entries = e->triangle_count - step->first_triangle + made, freed = 0;
     for (size_t i = step->first_triangle; i < e->triangle_count; i++)
         freed += mw__surface_is_freed(e->surface, e->triangle[i].triangle);
-    if (!journal_grow(&e->triangle, &e->triangle_room, e->triangle_count + made,
-                      sizeof *e->triangle) ||
+    if (!mw__surface_grow(&e->triangle, &e->triangle_room, e->triangle_count + made,
+                          sizeof *e->triangle) ||
         !report_reserve(e, entries, e->vertex_count - step->first_vertex) ||
-        !boxes_reserve(e, freed))
+        !mw__followers_reserve(e, freed, 0))
         return mw__fail_memory(error);
     for (uint32_t t = step->tri_count; t < e->surface->tri_count; t++)
         e->triangle[e->triangle_count++] = (mw_triangle_entry){t, e->surface->tri[t]};
@@ -381,7 +276,7 @@ static mw_status revert_reserve(mw_surface_editor *e, const mw_surface_step *ste
 
 mw_status mw__surface_revert(mw_surface_editor *e, mw_error *error)
 {
-    const mw_surface_step *step = last_step(e);
+    const mw_surface_step *step = mw__last_step(e);
     mw_status status = revert_reserve(e, step, error);
     if (status) return status;
     vertices_restore(e, step);
@@ -392,7 +287,7 @@ mw_status mw__surface_revert(mw_surface_editor *e, mw_error *error)
 
 void mw__surface_drop_step(mw_surface_editor *e)
 {
-    const mw_surface_step *step = last_step(e);
+    const mw_surface_step *step = mw__last_step(e);
     e->triangle_count = step->first_triangle;
     e->vertex_count = step->first_vertex;
     e->step_count--;

@@ -38,8 +38,7 @@ static MW_INLINE void mw__surface_record(mw_surface_editor *e, uint32_t t)
 void mw__surface_record_vertex(mw_surface_editor *e, mw_vertex_event event, uint32_t vertex,
                                uint32_t other);
 
-/* Let the boxes of the prober follow the last step; list what it changed; end the edit. */
-void mw__surface_follow(mw_surface_editor *e);
+/* List what the last step changed; end the edit. */
 void mw__surface_report(mw_surface_editor *e, mw_surface_change *change);
 void mw__surface_commit(mw_surface_editor *e);
 

@@ -465,6 +465,18 @@ static bool predict(twin_surface *s, const mw_surface_edit *e)
 
 /* --- the twin --------------------------------------------------------------------------------- */
 
+/* A second prober, and a star with angles where that can be. */
+static void twin_attach(surface_twin *t)
+{
+    mw_prober_options boxes = {.boxes = 1, .guide = 1, .threads = 1};
+    mw_star_options angles = {.angles = 1, .threads = 1};
+    REQUIRE(mw_prober_create(t->surface, &boxes, &t->second, NULL) == MW_OK);
+    REQUIRE(mw_surface_editor_attach_prober(t->editor, t->second, NULL) == MW_OK);
+    if (mw_star_create(t->surface, &angles, &t->star, NULL)) return;
+    REQUIRE(mw_surface_editor_attach_star(t->editor, t->star, NULL) == MW_OK);
+    REQUIRE(mw_star_cursor_init(t->star, NULL, &t->ray, NULL) == MW_OK);
+}
+
 surface_twin surface_twin_make(const shape *s, size_t undo)
 {
     surface_twin t = {.undo = undo};
@@ -473,6 +485,7 @@ surface_twin surface_twin_make(const shape *s, size_t undo)
     REQUIRE(mw_prober_create(t.surface, &boxes, &t.prober, NULL) == MW_OK);
     mw_surface_editor_options options = {.prober = t.prober, .undo = undo};
     REQUIRE(mw_surface_editor_create(t.surface, &options, &t.editor, NULL) == MW_OK);
+    twin_attach(&t);
     mw_probe_options certain = {.certain = 1};
     REQUIRE(mw_probe_cursor_init(t.prober, &certain, &t.certain, NULL) == MW_OK);
     REQUIRE(mw_probe_cursor_init(t.prober, NULL, &t.published, NULL) == MW_OK);
@@ -495,6 +508,8 @@ void surface_twin_free(surface_twin *t)
 {
     mw_surface_editor_destroy(t->editor);
     mw_prober_destroy(t->prober);
+    mw_prober_destroy(t->second);
+    mw_star_destroy(t->star);
     mw_surface_destroy(t->surface);
     twin_forget(t, 0, t->undoable);
     free(t->before);
@@ -658,6 +673,13 @@ void surface_twin_compact(surface_twin *t)
     free(vertex);
 }
 
+void surface_twin_moved(surface_twin *t, double distance)
+{
+    mw_prober_update(t->prober, distance, 1);
+    mw_prober_update(t->second, distance, 1);
+    if (t->star) mw_star_update(t->star, NULL, NULL);
+}
+
 /* --- comparison ------------------------------------------------------------------------------- */
 
 /* The same triangles under the same numbers. */
@@ -776,6 +798,11 @@ static void check_probes(surface_twin *t, const shape *s, const uint32_t *number
         mw_touch touch = mw_probe(t->prober, &t->certain, q, q + 3);
         REQUIRE(touch.state == (best == MW_NONE ? MW_TOUCH_NONE : MW_TOUCH_HIT));
         REQUIRE(touch.triangle == (best == MW_NONE ? MW_NONE : number[best]));
+        mw_probe_cursor fresh;
+        REQUIRE(mw_probe_cursor_init(t->second, &(mw_probe_options){.certain = 1}, &fresh, NULL) ==
+                MW_OK);
+        mw_touch second = mw_probe(t->second, &fresh, q, q + 3);
+        REQUIRE(memcmp(&second, &touch, sizeof touch) == 0);
         touch = mw_probe(t->prober, &t->published, q, q + 3);
         REQUIRE(touch.state == MW_TOUCH_HIT || touch.state == MW_TOUCH_LIMIT);
         if (touch.state == MW_TOUCH_HIT) {
@@ -818,6 +845,8 @@ void surface_twin_check(surface_twin *t, size_t lines, uint64_t *random)
     check_description(t, fresh);
     check_rounds(t, random);
     REQUIRE(check_boxes_below(&t->prober->bvh, t->surface, 0, 0) == s.triangle_count);
+    REQUIRE(check_boxes_below(&t->second->bvh, t->surface, 0, 0) == s.triangle_count);
+    if (t->star) star_twin_check(t->star, &t->ray, (int)lines, &t->stars, random);
     check_probes(t, &s, number, lines, random);
     if (lines) check_nearest(t, fresh, &s, number, random);
     mw_surface_destroy(fresh);

@@ -5,6 +5,7 @@
 #ifndef MW_TESTS_ORACLE_SURFACE_SURFACE_TWIN_H
 #define MW_TESTS_ORACLE_SURFACE_SURFACE_TWIN_H
 
+#include "oracle/surface/star_twin.h"
 #include "support/shapes.h"
 
 #include <stdbool.h>
@@ -19,9 +20,12 @@ typedef struct twin_surface {
 
 typedef struct surface_twin {
     mw_surface *surface;
-    mw_prober *prober;
+    mw_prober *prober, *second; /* both follow */
+    mw_star *star;              /* too; NULL: the shape was not star-shaped about the origin */
     mw_surface_editor *editor;
     mw_probe_cursor certain, published; /* they outlive edits */
+    mw_star_cursor ray;                 /* too */
+    star_twin_counts stars;
     twin_surface now;
     twin_surface *before; /* each edit that can be undone */
     void **record;        /* and the records of the surface before it */
@@ -29,7 +33,7 @@ typedef struct surface_twin {
     uint64_t applied, refused;
 } surface_twin;
 
-/* An editor of a shared surface made of the shape, with a prober, and its twin. */
+/* An editor of a shared surface made of the shape, with two probers and a star, and its twin. */
 surface_twin surface_twin_make(const shape *s, size_t undo);
 void surface_twin_free(surface_twin *t);
 
@@ -41,6 +45,10 @@ bool surface_twin_undo(surface_twin *t);
 void surface_twin_compact(surface_twin *t);
 /* The same after the editor was compacted, which gave these numbers. */
 void surface_twin_compacted(surface_twin *t, const uint32_t *triangle, const uint32_t *vertex);
+
+/* Vertices were moved, by hand, at most so far (negative: unknown): what follows is brought up to
+ * date. For use in an update. */
+void surface_twin_moved(surface_twin *t, double distance);
 
 /* Compare everything, with so many lines against brute force. */
 void surface_twin_check(surface_twin *t, size_t lines, uint64_t *random);

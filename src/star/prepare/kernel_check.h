@@ -8,8 +8,8 @@
  * everywhere. So every ray off the edges meets the same number of facets: one. Facets without area
  * project to nothing. Facets with two coincident corners are not linked and do not count at all.
  * All tests are exact, and take O(n) together. */
-#ifndef MW_SRC_STAR_KERNEL_CHECK_H
-#define MW_SRC_STAR_KERNEL_CHECK_H
+#ifndef MW_SRC_STAR_PREPARE_KERNEL_CHECK_H
+#define MW_SRC_STAR_PREPARE_KERNEL_CHECK_H
 
 #include "base/job.h"
 #include "mesh/defect.h"
@@ -18,6 +18,13 @@
 /* Are the corners of a facet finite, and, in a welded surface, still where those are with which
  * they are one? */
 bool mw__star_corners_hold(const mw_star *star, const uint32_t v[3]);
+
+/* Does the one ray meet a facet with these corners, counter-clockwise from outside, which has an
+ * area and is not in a plane with the centre? Exact; no edge lies on the ray. */
+bool mw__star_ray_meets(const mw_star *star, const uint32_t v[3]);
+
+/* Turn the facets of star->tri for which turned[i] is greater than 0. */
+void mw__facets_turn(mw_star *star, const int8_t *turned);
 
 /* Decide whether the surface is star-shaped, and orient star->tri, which holds its triangles, as
  * star.h says. Sets star->area_count. Adds all defects to *defects; that of the ray

@@ -11,7 +11,7 @@ from meshwalk import _arrays, _core
 from meshwalk._check import check_star
 from meshwalk._errors import InputError
 from meshwalk._locations import LOCATION, Locations
-from meshwalk._surface import Surface
+from meshwalk._space.surface import Surface
 
 if TYPE_CHECKING:
     from typing import Self
@@ -109,7 +109,7 @@ class Star(_core.Star):
                 error.defect = next((d for d in found.defects if d.kind != "flat triangle"), None)
                 raise
             star._centre = (x, y, z)
-            surface._kept.add(star)
+            surface._keep(star)
         return star
 
     def locate(
@@ -154,7 +154,7 @@ class Star(_core.Star):
             rows, shape = _arrays.queries(points, "points", 3)
         records = np.empty(len(rows), LOCATION)
         self._locate(rows, records, walk, start, threads, progress)
-        return Locations(self.surface, records.reshape(shape))
+        return Locations._of(self.surface, records.reshape(shape))
 
     def project(
         self, points: ArrayLike, threads: int = 0, *, progress: Progress | None = None
@@ -186,7 +186,7 @@ class Star(_core.Star):
         out = np.empty((len(rows), 3))
         records = np.empty(len(rows), LOCATION)
         self._project(rows, out, records, threads, progress)
-        return out, Locations(self.surface, records)
+        return out, Locations._of(self.surface, records)
 
     def remesh(
         self,
@@ -260,7 +260,7 @@ class Star(_core.Star):
         triangles = np.empty((count, 3), np.uint32)
         records = np.empty(vertices, LOCATION)
         self._remesh(level, points, triangles, records, threads, progress)
-        return points, triangles, Locations(self.surface, records)
+        return points, triangles, Locations._of(self.surface, records)
 
     def _onto(
         self, onto: Surface, threads: int, progress: Progress | None

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from meshwalk._core import Progress
+    from meshwalk._space.surface_editor import SurfaceEditor
 
 
 class SurfaceInfo(NamedTuple):
@@ -91,6 +92,7 @@ class Surface(_core.Surface):
     --------
     Star : which facet a ray from a centre meets.
     Prober : which triangle a probe touches, and the nearest point.
+    SurfaceEditor : splits, cuts and sews a surface.
 
     Notes
     -----
@@ -110,7 +112,8 @@ class Surface(_core.Surface):
     2
     """
 
-    __slots__ = ("__weakref__", "_fields", "_kept", "_lock", "_options")
+    __slots__ = ("__weakref__", "_editor", "_fields", "_kept", "_lock", "_options")
+    _editor: weakref.ref[SurfaceEditor] | None
     _fields: dict[str, NDArray[np.float64]]
     _kept: weakref.WeakSet[Any]
     _lock: threading.RLock
@@ -135,6 +138,7 @@ class Surface(_core.Surface):
             raise
         surface._fields = _arrays.fields(fields, len(rows))
         surface._options = (weld, tolerant)
+        surface._editor = None
         surface._kept = weakref.WeakSet()
         surface._lock = threading.RLock()
         return surface
@@ -290,6 +294,13 @@ class Surface(_core.Surface):
         with self._lock:
             self._flip(triangle, edge, list(self._kept), 0)
 
+    def _keep(self, follower: Any) -> None:
+        """What was made beside the surface is to be brought up to date with it."""
+        self._kept.add(follower)
+        editor = None if self._editor is None else self._editor()
+        if editor is not None:
+            editor._attach(follower)
+
     def check(self) -> Check:
         """Find every defect of the surface.
 
@@ -339,6 +350,11 @@ class Surface(_core.Surface):
     def __reduce__(self) -> tuple[Any, ...]:
         with self._lock:
             arrays = (self.points, self.triangles, self._fields)
+        triangles = arrays[1]
+        if not self._options[1] and (triangles[:, 0] == triangles[:, 1]).any():
+            raise TypeError(
+                "edits have freed triangles: SurfaceEditor.copy() pickles, or compact()"
+            )
         return _restore, (type(self), *arrays, *self._options)
 
 

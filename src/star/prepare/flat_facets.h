@@ -6,8 +6,8 @@
  *     a--v--b        a--v--b      facet is gone. So walks and ties only meet facets with an area.
  *                                 That a ray through v also meets a b x follows from its two halves
  *                                 at v. */
-#ifndef MW_SRC_STAR_FLAT_FACETS_H
-#define MW_SRC_STAR_FLAT_FACETS_H
+#ifndef MW_SRC_STAR_PREPARE_FLAT_FACETS_H
+#define MW_SRC_STAR_PREPARE_FLAT_FACETS_H
 
 #include "star/star.h"
 

@@ -9,7 +9,7 @@
  * point. Then their neighbours are linked to each other, and the two facets become void: two flat
  * facets less. After a flip the search continues next to it, so that a fan of flat facets takes
  * linear time. */
-#include "star/flat_facets.h"
+#include "star/prepare/flat_facets.h"
 
 static bool facet_is_flat(const mw_star *star, uint32_t t)
 {

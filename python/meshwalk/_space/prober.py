@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 import numpy as np
 
 from meshwalk import _arrays, _core
-from meshwalk._surface import Surface
+from meshwalk._space.surface import Surface
 
 if TYPE_CHECKING:
     from typing import Self
@@ -101,7 +101,7 @@ class Found:
 
     def __init__(self, surface: Surface, records: NDArray[Any]) -> None:
         self.surface = surface
-        self.records = records
+        self.records = _arrays.frozen(records)
 
     @property
     def triangle(self) -> NDArray[np.int32]:
@@ -223,7 +223,7 @@ class TouchLists(Touches):
 
     def __init__(self, surface: Surface, records: NDArray[Any], offsets: NDArray[np.int64]) -> None:
         super().__init__(surface, records)
-        self.offsets = offsets
+        self.offsets = _arrays.frozen(offsets)
 
     @property
     def count(self) -> NDArray[np.int64]:
@@ -332,7 +332,7 @@ class Prober(_core.Prober):
             prober = _core.prober_from_surface(cls, surface, boxes, guide, threads, progress)
             prober._boxes = boxes
             prober._guide = guide
-            surface._kept.add(prober)
+            surface._keep(prober)
         return prober
 
     def probe(

@@ -1,6 +1,6 @@
 /* kernel_check.c - decides whether a centre lies in the kernel of a closed surface [thesis App. F,
  * sec. 1]. */
-#include "star/kernel_check.h"
+#include "star/prepare/kernel_check.h"
 
 #include "topology/coincident.h"
 
@@ -238,17 +238,16 @@ static void facet_turn(mw_triangle *t)
 
 /* Exchanging vertices 1 and 2 of a facet exchanges its edges 0 and 2, in the facet and in the links
  * of its neighbours. */
-static void facets_orient(kernel_check *s)
+void mw__facets_turn(mw_star *star, const int8_t *turned)
 {
-    mw_star *star = s->star;
     for (uint32_t i = 0; i < star->tri_count; i++)
         for (uint32_t k = 0; k < 3; k++) {
             uint32_t link = star->tri[i].link[k];
-            if (link == MW_NONE || s->turned[mw__link_triangle(link)] <= 0) continue;
+            if (link == MW_NONE || turned[mw__link_triangle(link)] <= 0) continue;
             star->tri[i].link[k] = mw__link(mw__link_triangle(link), 2 - mw__link_edge(link));
         }
     for (uint32_t i = 0; i < star->tri_count; i++)
-        if (s->turned[i] > 0) facet_turn(&star->tri[i]);
+        if (turned[i] > 0) facet_turn(&star->tri[i]);
 }
 
 /* --- one ray --- */
@@ -273,18 +272,23 @@ static bool ray_is_left(const mw_star *star, const double a[3], const double b[3
     return false;
 }
 
+bool mw__star_ray_meets(const mw_star *star, const uint32_t v[3])
+{
+    for (uint32_t k = 0; k < 3; k++)
+        if (!ray_is_left(star, mw__star_corner_point(star, v, k),
+                         mw__star_corner_point(star, v, mw__next(k))))
+            return false;
+    return true;
+}
+
 /* Mark the facets that the ray meets. By any thread. */
 static void kernel_meet(void *work, uint64_t from, uint64_t to)
 {
     kernel_check *s = work;
-    for (uint64_t i = from; i < to; i++) {
-        const uint32_t *v = s->star->tri[i].v;
-        bool meets = s->faces[i] != VOID && s->faces[i] != LEVEL;
-        for (uint32_t k = 0; k < 3 && meets; k++)
-            meets = ray_is_left(s->star, mw__star_corner_point(s->star, v, k),
-                                mw__star_corner_point(s->star, v, k + 1));
-        if (meets) s->faces[i] |= MET;
-    }
+    for (uint64_t i = from; i < to; i++)
+        if (s->faces[i] != VOID && s->faces[i] != LEVEL &&
+            mw__star_ray_meets(s->star, s->star->tri[i].v))
+            s->faces[i] |= MET;
 }
 
 /* Count the facets that the ray meets: at least one, if there are facets. Facets are oriented. */
@@ -307,7 +311,7 @@ static bool kernel_check_run(kernel_check *s)
     if (!kernel_look_at_facets(s) || !kernel_look_at_edges(s) || !kernel_look_at_components(s))
         return false;
     if (s->defects->count > before) return true;
-    facets_orient(s);
+    mw__facets_turn(s->star, s->turned);
     return kernel_look_along_ray(s);
 }
 

@@ -1,5 +1,5 @@
 /* star_check.c - what keeps arrays from being a star-shaped polyhedron. */
-#include "star/kernel_check.h"
+#include "star/prepare/kernel_check.h"
 #include "base/options.h"
 
 #include <stdlib.h>
