@@ -109,7 +109,7 @@ void mw__probe_count(mw_probe_counters *sum, mw_probe_counters *work, bool hit);
 /* Are there boxes, which are up to date? */
 bool mw__prober_is_current(const mw_prober *prober);
 
-/* Answer n certain probes, at most 8, as mw_probe one after the other. */
+/* Answer n certain probes, at most MW_RAYS_AT_A_TIME, as mw_probe one after the other. */
 void mw__probe_certain_group(const mw_prober *prober, mw_probe_cursor *cursor,
                              const double *queries, size_t stride, uint32_t n, mw_touch *touches);
 

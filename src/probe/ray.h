@@ -92,7 +92,7 @@ void mw__ray_search_guess(mw_ray_search *search, uint32_t triangle);
 
 /* Run `count` searches of one prober to their ends, at most MW_RAYS_AT_A_TIME. Several take turns,
  * so that one goes on while another waits for memory. */
-#define MW_RAYS_AT_A_TIME 8
+#define MW_RAYS_AT_A_TIME 16
 void mw__ray_search_run(const mw_prober *prober, mw_ray_search *search, uint32_t count);
 
 /* Keeps the triangle nearest to q, of equally near ones the lowest. Instead of calling this, the
