@@ -39,7 +39,7 @@ _meshwalk_options() {
             ;;
         walk) echo "--from --to --walk --animate --plane --grid --cells --max-distance --samples --iterations --as --centre --lonlat --weld $common" ;;
         convert) echo "--format --crs $common" ;;
-        prepare) echo "--border --fields --crs $common" ;;
+        prepare) echo "--border --tiles --fields --crs $common" ;;
         view) echo "--points --columns --as --centre --lonlat --weld $common" ;;
         bench) echo "--queries --sizes --enclose --data --engines --tasks --rounds --ranks --walk --seeds --no-times --format --plot $common" ;;
     esac

@@ -4,6 +4,7 @@
 #include <meshwalk/io.h>
 #include <meshwalk/operator.h>
 #include <meshwalk/polygons.h>
+#include <meshwalk/prepared.h>
 #include <meshwalk/weights.h>
 #include <meshwalk/segment.h>
 #include <meshwalk/volume.h>
@@ -963,6 +964,24 @@ static mw_status run_write_weights(const call_inputs *in, const call_setting *ho
     return status;
 }
 
+static mw_status run_write_tiles(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                                 mw_error *error)
+{
+    static const char *const names[] = {"overview.mwm", "tile-00000.mwm", "tile-00001.mwm",
+                                        "tiles.json"};
+    char folder[80], path[120];
+    mw_tile_options options = {.tiles = 2, .threads = how->threads, .progress = how->progress};
+    (void)sum;
+    snprintf(folder, sizeof folder, "%s.tiles", in->path);
+    mw_status status = mw_write_tiles(in->locator, folder, &options, error);
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        snprintf(path, sizeof path, "%s/%s", folder, names[i]);
+        expect(!status == (unlink(path) == 0), "there is a file of a tile");
+    }
+    expect(!status == (rmdir(folder) == 0), "there is a folder");
+    return status;
+}
+
 const long_call long_calls[] = {
     {"mw_delaunay", run_delaunay},
     {"mw_triangulate, Delaunay", run_kind_delaunay},
@@ -1029,5 +1048,6 @@ const long_call long_calls[] = {
     {"mw_write_mesh", run_write},
     {"mw_write_mesh, two files", run_write_pair},
     {"mw_write_weights", run_write_weights},
+    {"mw_write_tiles", run_write_tiles},
 };
 const size_t long_call_count = sizeof long_calls / sizeof *long_calls;
