@@ -3,13 +3,11 @@
 #include "cli/frame/files.h"
 #include "cli/frame/help.h"
 #include "cli/frame/message.h"
-#include "cli/frame/progress.h"
-#include "cli/frame/signals.h"
+#include "cli/frame/program.h"
 #include "cli/frame/spelling.h"
 #include "cli/version.h"
 #include "src/base/posix.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 static const command *const commands[] = {
@@ -61,38 +59,6 @@ static int main_print_version(void)
     return files_write_text(NULL, &t);
 }
 
-static int command_print_help(const command *c, bool all)
-{
-    text t = {0};
-    help_of_command(&t, c, all);
-    return files_write_text(NULL, &t);
-}
-
-#define MAX_THREADS 256
-
-static int command_run(const command *c, int count, char **arguments)
-{
-    const char *operands[MAX_OPERANDS] = {0};
-    void *settings = calloc(1, c->settings_size);
-    if (!settings) return fail_memory();
-    int end = options_parse(c, count, arguments, settings, operands);
-    const common_settings *common = settings;
-    if (end == 0 && common->help) {
-        end = command_print_help(c, common->help_all);
-    } else if (end == 0 && common->threads > MAX_THREADS) {
-        complain("option '--threads' must be at most %d", MAX_THREADS);
-        end = END_USAGE;
-    } else if (end == 0) {
-        signals_begin();
-        progress_begin(common->quiet);
-        files_use_layout(common->layout);
-        end = c->run(settings, operands);
-        progress_end();
-    }
-    free(settings);
-    return end;
-}
-
 static int main_unknown_command(const char *word)
 {
     spelling s = spelling_of(word);
@@ -123,10 +89,8 @@ static int main_run_arguments(int count, char **arguments)
     const char *word = arguments[1];
     if (strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0) return main_print_help();
     if (strcmp(word, "--version") == 0) return main_print_version();
-    for (size_t i = 0; i < COMMAND_COUNT; i++)
-        if (strcmp(commands[i]->name, word) == 0)
-            return command_run(commands[i], count - 2, arguments + 2);
-    return main_unknown_command(word);
+    const command *c = program_find(commands, COMMAND_COUNT, word);
+    return c ? program_run(c, count - 2, arguments + 2) : main_unknown_command(word);
 }
 
 int main(int count, char **arguments)

@@ -32,14 +32,14 @@ _meshwalk_options() {
             echo "--start --cells --layers --descent --format --stats --json $common"
             ;;
         star)
-            echo "--centre --lonlat --remesh --onto --deviation --format --nodata --walk --start --finish --sample --cells --levels --columns $stream $common"
+            echo "--centre --lonlat --remesh --onto --deviation --format --nodata --walk --start --finish --sample --cells --levels --borrow --columns $stream $common"
             ;;
         probe)
             echo "--max-distance --certain --extent --faces --min-distance --inside --start --guide --samples --iterations --race --weld --any --columns $stream $common"
             ;;
         walk) echo "--from --to --walk --animate --plane --grid --cells --max-distance --samples --iterations --as --centre --lonlat --weld $common" ;;
         convert) echo "--format --crs $common" ;;
-        prepare) echo "--border --fields --crs $common" ;;
+        prepare) echo "--border --tiles --fields --crs $common" ;;
         view) echo "--points --columns --as --centre --lonlat --weld $common" ;;
         bench) echo "--queries --sizes --enclose --data --engines --tasks --rounds --ranks --walk --seeds --no-times --format --plot $common" ;;
     esac

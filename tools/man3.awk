@@ -140,7 +140,7 @@ function begin_page(    i, brief)
     print ".Sh SYNOPSIS"
     print ".In " header
     print ".Pp"
-    print "cc ... $(pkg-config --cflags --libs " package ")"
+    print (package ~ /-mpi$/ ? "mpicc" : "cc") " ... $(pkg-config --cflags --libs " package ")"
     print ".Sh DESCRIPTION"
     print_comment()
     print ".Sh INTERFACE"

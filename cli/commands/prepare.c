@@ -1,10 +1,12 @@
-/* prepare - a mesh that is ready for queries, in a file that is mapped. */
+/* prepare - a mesh that is ready for queries, in a file that is mapped, or in a folder of them. */
 #include "cli/commands/commands.h"
 #include "cli/frame/files.h"
 #include "cli/frame/message.h"
 #include "cli/frame/progress.h"
+#include "cli/frame/signals.h"
 #include "cli/gdal/mesh_crs.h"
 #include "cli/stream/extent_remark.h"
+#include "src/base/posix.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -12,12 +14,17 @@
 typedef struct prepare_settings {
     common_settings common;
     const char *fields, *crs;
+    uint32_t tiles; /* 0: one file */
     bool border;
 } prepare_settings;
 
 static const option prepare_options[] = {
     {"border", 0, OPTION_FLAG, offsetof(prepare_settings, border), NULL,
      "keep the index of the border, which --tolerance, --outside and --details need", NULL},
+    {"tiles", 0, OPTION_COUNT, offsetof(prepare_settings, tiles), "N",
+     "make a folder of N prepared files, each for as many triangles, that are mapped one by one "
+     "(meshwalk.Tiles in Python); with the index of the border (default: one file)",
+     NULL},
     {"fields", 0, OPTION_TEXT, offsetof(prepare_settings, fields), "LIST",
      "the fields to keep, of vertices and of triangles, separated by commas; z are the heights; "
      "none "
@@ -111,17 +118,52 @@ static int prepare_fail_mesh(const char *path, const mw_error *error)
     return end;
 }
 
-static int prepare_write(const char *output, const mw_mesh_file *file, const mw_locator *locator)
+/* The folder has a name of its own until it is complete: a signal waits until that is removed. */
+static mw_status prepare_write_tiles(const prepare_settings *s, const mw_mesh_file *file,
+                                     const mw_locator *locator, mw_error *error)
 {
-    mw_error error;
-    const mw_prepare_options options = {.values = file, .progress = progress_of_call()};
-    progress_phase("writing", output);
-    if (mw_write_prepared(locator, output, &options, &error) == MW_OK) return 0;
-    return error.status == MW_ERROR_INPUT ? fail_reading(&error) : fail_writing(&error);
+    const mw_tile_options options = {.tiles = s->tiles,
+                                     .threads = s->common.threads,
+                                     .values = file,
+                                     .progress = progress_of_call()};
+    signals_hold(true);
+    mw_status status = mw_write_tiles(locator, s->common.output, &options, error);
+    signals_hold(false);
+    if (status == MW_CANCELLED) signals_await_end();
+    return status;
 }
 
-static int prepare_mesh(const prepare_settings *s, const char *path, const char *output,
-                        const mw_mesh_file *file)
+static int prepare_write(const prepare_settings *s, const char *path, const mw_mesh_file *file,
+                         const mw_locator *locator)
+{
+    mw_error error;
+    const char *output = s->common.output;
+    const mw_prepare_options options = {.values = file, .progress = progress_of_call()};
+    progress_phase("writing", output);
+    mw_status status = s->tiles ? prepare_write_tiles(s, file, locator, &error)
+                                : mw_write_prepared(locator, output, &options, &error);
+    if (status == MW_OK) return 0;
+    if (status == MW_ERROR_INPUT && s->tiles) return fail_mesh(path, &error);
+    return status == MW_ERROR_INPUT ? fail_reading(&error) : fail_writing(&error);
+}
+
+/* Check before long work that the output can be made. */
+static int prepare_check_output(const prepare_settings *s)
+{
+    const char *output = s->common.output;
+    if (s->tiles == 0) return files_try_output(output, NULL);
+    if (files_is_standard(output)) {
+        complain("prepare --tiles: needs -o FOLDER, not standard output");
+        return END_USAGE;
+    }
+    if (access(output, F_OK) == 0) {
+        complain("%s: is there already; remove it first", output);
+        return END_RESOURCE;
+    }
+    return output[strlen(output) - 1] == '/' ? 0 : files_try_output(output, NULL);
+}
+
+static int prepare_mesh(const prepare_settings *s, const char *path, const mw_mesh_file *file)
 {
     mw_error error;
     extent_box extent = {0};
@@ -142,14 +184,13 @@ static int prepare_mesh(const prepare_settings *s, const char *path, const char 
         extent_add(&extent, file->points, file->point_count, 3);
         extent_warn_of_seam(path, &extent, mesh);
     }
-    if (end == 0) end = prepare_write(output, file, locator);
+    if (end == 0) end = prepare_write(s, path, file, locator);
     mw_locator_destroy(locator);
     mw_mesh_destroy(mesh);
     return end;
 }
 
-static int prepare_file(const prepare_settings *s, const char *path, const char *output,
-                        mw_mesh_file *file)
+static int prepare_file(const prepare_settings *s, const char *path, mw_mesh_file *file)
 {
     char *crs = NULL;
     int end = prepare_choose_fields(s, path, file);
@@ -157,9 +198,8 @@ static int prepare_file(const prepare_settings *s, const char *path, const char 
     if (end) return end;
     free(file->crs);
     file->crs = crs;
-    end = files_try_output(output, NULL);
-    if (end) return end;
-    return prepare_mesh(s, path, output, file);
+    end = prepare_check_output(s);
+    return end ? end : prepare_mesh(s, path, file);
 }
 
 static int prepare_run(const void *settings, const char *const *operands)
@@ -173,7 +213,7 @@ static int prepare_run(const void *settings, const char *const *operands)
     int end = files_check_output(s->common.output, operands, 1);
     if (end == 0) end = files_read_mesh(operands[0], &file);
     if (end) return end;
-    end = prepare_file(s, operands[0], s->common.output, &file);
+    end = prepare_file(s, operands[0], &file);
     mw_mesh_file_release(&file);
     return end;
 }
@@ -190,9 +230,11 @@ const command prepare_command = {
         "with fields, faces, marked edges and coordinate system. Each command takes this file in "
         "place of a mesh. Those that locate points map it: it is checked, and processes "
         "that use one file share one copy of it in memory. With --trust it is not checked, and "
-        "'locate', 'sample' and 'weights' begin at once. '-' is standard input or output.",
+        "'locate', 'sample' and 'weights' begin at once. '-' is standard input or output. With "
+        "--tiles the mesh is cut into many such files, for machines with less memory than it "
+        "takes.",
     .options = tables,
-    .essential = "border fields crs output threads",
+    .essential = "border tiles fields crs output",
     .settings_size = sizeof(prepare_settings),
     .run = prepare_run,
 };

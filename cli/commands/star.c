@@ -17,7 +17,7 @@ typedef struct star_settings {
     uint32_t sample, cells, levels;
     int walk, start; /* mw_star_walk_kind, mw_star_start_kind */
     int finish;      /* the number of a name of --finish */
-    bool lonlat;
+    bool lonlat, borrow;
     remesh_settings remesh;
 } star_settings;
 
@@ -79,6 +79,10 @@ static const option star_options[] = {
      "--start octahedron: N levels, the octahedron itself counted (default: 0, by the number of "
      "facets)",
      NULL},
+    {"borrow", 0, OPTION_FLAG, offsetof(star_settings, borrow), NULL,
+     "keep nothing beside the polyhedron, whose own triangles the walks follow: the same answers, "
+     "several times slower",
+     NULL},
     {"columns", 0, OPTION_TEXT, offsetof(star_settings, stream.source.columns), "LIST",
      "columns of DIRECTIONS that hold x, y and z, or longitude and latitude, as names or numbers "
      "from 1: u,v,w or "
@@ -132,7 +136,7 @@ static int ray_queries_open(ray_queries *r, const char *path)
 {
     const star_settings *s = r->settings;
     const star_input_settings how = {&s->centre, s->lonlat, s->walk == MW_STAR_WALK_ORTHOGONAL,
-                                     s->stream.common.threads};
+                                     s->stream.common.threads, s->borrow};
     mw_mesh_file file;
     int end = files_read_mesh(path, &file);
     if (end) return end;
@@ -217,6 +221,7 @@ static const char *star_option_of_rays(const star_settings *s)
            : s->sample                ? "sample"
            : s->cells                 ? "cells"
            : s->levels                ? "levels"
+           : s->borrow                ? "borrow"
            : s->stream.source.columns ? "columns"
            : s->stream.source.layer   ? "layer"
            : s->stream.source.where   ? "where"

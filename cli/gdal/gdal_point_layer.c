@@ -55,6 +55,7 @@ bool point_layer_known(const char *path)
     struct stat s;
     unsigned char head[256];
     if (strcmp(path, "-") == 0 || stat(path, &s) != 0) return false;
+    if (path_ends(path, ".vtu")) return false; /* whatever stands in front of its <VTKFile> */
     if (S_ISDIR(s.st_mode) || path_has_vector_ending(path)) return path_has_vector_ending(path);
     FILE *file = S_ISREG(s.st_mode) ? fopen(path, "rb") : NULL;
     if (!file) return false;

@@ -49,6 +49,7 @@ int star_input_make(star_input *in, const char *path, mw_mesh_file *file,
     const mw_star_options star = {.centre = {s->centre->at[0], s->centre->at[1], s->centre->at[2]},
                                   .angles = s->angles,
                                   .threads = s->threads,
+                                  .borrow = s->borrow,
                                   .progress = progress_of_call()};
     progress_phase("preparing", path);
     if (mw_surface_create(&arrays, &surface, &in->surface, &error) != MW_OK ||

@@ -17,6 +17,7 @@ typedef struct star_input_settings {
     bool lonlat;               /* x and y of a file without z are longitude and latitude */
     bool angles;               /* for the orthogonal walk */
     uint32_t threads;          /* 0: all there are */
+    bool borrow;               /* rays walk on the surface's own records */
 } star_input_settings;
 
 /* Make the polyhedron. Its vertices with equal coordinates are one: that closes the seam of a

@@ -31,15 +31,19 @@ def make(pages: Pages, package: Path) -> str:
 
     tree = ast.parse((package / "__init__.py").read_text())
     groups: dict[str, list[str]] = {}
+    files: dict[str, Path] = {}
     for node in ast.walk(tree):  # some are there for type checkers only
         if isinstance(node, ast.ImportFrom):
-            names = [a.name for a in node.names if a.name in meshwalk.__all__]
+            names = [a.name for a in node.names if a.name in dir(meshwalk)]
             if names:
-                groups.setdefault(node.module.rpartition("._")[2], []).extend(names)
+                module = node.module.removeprefix("meshwalk.")
+                group = module.rpartition(".")[2].removeprefix("_")
+                groups.setdefault(group, []).extend(names)
+                files[group] = package / (module.replace(".", "/") + ".py")
     rows = []
     for group, names in groups.items():
-        text = (package / f"_{group}.py") if group != "core" else None
-        about = ast.get_docstring(ast.parse(text.read_text())) if text else "One answer."
+        source = files[group].read_text() if group != "core" else None
+        about = ast.get_docstring(ast.parse(source)) if source else "One answer."
         title = about.partition("\n")[0].rstrip(".")
         body = "\n".join(_directive(name) for name in names)
         heading = f"{title}\n{'=' * len(title)}\n\n.. currentmodule:: meshwalk\n\n"

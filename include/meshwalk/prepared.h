@@ -53,6 +53,41 @@ typedef struct mw_prepare_options {
 MW_API mw_status mw_write_prepared(const mw_locator *locator, const char *path,
                                    const mw_prepare_options *options, mw_error *error);
 
+/** Options of a mesh in tiles. Zero-initialised options select the defaults. */
+typedef struct mw_tile_options {
+    uint32_t tiles;   /**< how many; 0: one. At most as many as triangles with an area */
+    uint32_t threads; /**< number of threads; 0: one per processor */
+    /** What to keep beside the mesh, as mw_prepare_options.values; faces and marked edges are not
+     * kept. NULL: the fields of the mesh. */
+    const mw_mesh_file *values;
+    const mw_progress *progress; /**< progress and cancelling, see base.h; NULL: none */
+    uint32_t reserved[4];        /**< must be zero */
+} mw_tile_options;
+
+/**
+ * Write a mesh as a folder of prepared files: tiles that are mapped one by one, for machines with
+ * less memory than the mesh takes. meshwalk.Tiles of the Python module reads it.
+ *
+ * Each triangle with an area is in one tile; all tiles have about equally many. Flat triangles are
+ * in every tile that touches them. An overview has the triangles with a vertex of the border, which
+ * tell about points in no tile; tiles.json is the index. docs/prepared.md describes the files. They
+ * are the same on all machines and for any number of threads.
+ *
+ * @param locator  a locator of an embedding, whose pockets and holes are filled, not edited
+ * @param folder   the folder to be made; it gets its name when it is complete
+ * @param options  NULL selects the defaults
+ * @param error    NULL, or receives the message of a failure
+ * @return MW_OK; MW_ERROR_ARGUMENT for NULL, another kind of locator, or values of another mesh;
+ *         MW_ERROR_INPUT if there are fewer triangles with an area than tiles, or if a field is
+ *         called "meshwalk:triangle" or "meshwalk:vertex"; MW_ERROR_SYSTEM if the folder is there
+ *         already or cannot be written; MW_ERROR_MEMORY; MW_CANCELLED. On failure no folder is
+ *         left.
+ *
+ * Thread-safe. O(n log tiles) for n triangles, and 80 bytes a triangle.
+ */
+MW_API mw_status mw_write_tiles(const mw_locator *locator, const char *folder,
+                                const mw_tile_options *options, mw_error *error);
+
 /** A mesh and its locator in a mapped file. Opaque. */
 typedef struct mw_prepared mw_prepared;
 

@@ -64,7 +64,13 @@ typedef struct mw_star_options {
     int angles;
     uint32_t threads;            /**< threads that prepare the star; 0: one per processor */
     const mw_progress *progress; /**< progress and cancelling, see base.h; NULL: none */
-    uint32_t reserved[4];        /**< must be zero */
+    /** 1: keep nothing but the centre: rays walk on the surface's own triangles, as the thesis has
+     * it. The star takes a few hundred bytes, whatever the surface; see mw_star_create(). */
+    int borrow;
+    /** With `borrow`, 1: trust that the surface is star-shaped, now and after every change. Then
+     * making the star takes O(1), and it needs no update. */
+    int unchecked;
+    uint32_t reserved[2]; /**< must be zero */
 } mw_star_options;
 
 /**
@@ -82,6 +88,15 @@ typedef struct mw_star_options {
  * @return MW_OK; MW_ERROR_INPUT if the surface is not closed or not star-shaped about the centre
  *         (the error names one offending facet; mw_star_check_arrays() finds all);
  *         MW_ERROR_ARGUMENT for NULL or a centre that is not finite; MW_ERROR_MEMORY, MW_CANCELLED.
+ *
+ * A star with mw_star_options.borrow gives the same answers, bit for bit. Each takes several times
+ * as long: there is no guide, so a ray far from the one before begins at the nearest of a sample,
+ * and facets are where the surface has them in memory. The walk is stochastic; the starts are
+ * sample, last, sorted and random. A walk that has not come to its end after some thousand facets,
+ * and a ray through an edge or a vertex of a flat facet, look at all facets. The check takes no
+ * memory, unless facets are flat: then 38 bytes a facet while it runs. If an unchecked surface is
+ * not star-shaped, queries end all the same: the facet of an answer meets the ray, but may not be
+ * the lowest that does; MW_OUTSIDE says that there is none.
  *
  * Thread-safe. O(n) time for n facets.
  */
@@ -119,7 +134,8 @@ typedef struct mw_star_update_options {
  *         After a failure the star answers MW_BAD until an update succeeds.
  *
  * O(n), or O(k log k) for the k facets round the moved vertices; the first such update takes O(n),
- * 5 bytes a facet and 4 a vertex. Not thread-safe.
+ * 5 bytes a facet and 4 a vertex. A borrowed star is decided as a whole, in O(n); one that is
+ * unchecked needs no update. Not thread-safe.
  */
 MW_API mw_status mw_star_update(mw_star *star, const mw_star_update_options *options,
                                 mw_error *error);

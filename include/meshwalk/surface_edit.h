@@ -111,8 +111,8 @@ MW_API void mw_surface_editor_detach_prober(mw_surface_editor *editor, const mw_
  * @param star    a star of its surface, which must outlive the editor or be detached before; it may
  *                be out of date
  * @param error   NULL, or receives the message of a failure
- * @return MW_OK, also if the surface is not star-shaped; MW_ERROR_ARGUMENT for NULL or a star of
- *         another surface; MW_ERROR_MEMORY: the star does not follow.
+ * @return MW_OK, also if the surface is not star-shaped; MW_ERROR_ARGUMENT for NULL, a star of
+ *         another surface, or a borrowed one; MW_ERROR_MEMORY: the star does not follow.
  *
  * Belongs to the updating thread. On a shared surface other threads may query meanwhile. O(n), O(n
  * log n) for a star that is out of date; 5 bytes a facet and 4 a vertex, and room for half as many

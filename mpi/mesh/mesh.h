@@ -6,6 +6,7 @@
 #include "mpi/wire/talk.h"
 
 /* Points that are being located: query/locate.c. */
+typedef struct mwp_block mwp_block;
 struct mwp_locating {
     mwp_mesh *mesh;
     const double *points;
@@ -15,6 +16,7 @@ struct mwp_locating {
     size_t begin, end; /* the present block */
     size_t next;       /* where the next block begins */
     uint32_t *asked;   /* per question of the block: its query, from `begin` */
+    mwp_block *block;  /* how its queries are sorted; NULL before the first */
     mwp_talk talk;
 };
 

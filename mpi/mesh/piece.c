@@ -228,9 +228,9 @@ bool mwp__own_grow(mwp_own *own, size_t vertices, size_t triangles)
     triangles += own->triangles;
     void *points = own->points, *vertex = own->vertex, *corner = own->corner,
          *triangle = own->triangle;
-    const bool done = array_grow(&points, vertices, 2 * sizeof *own->points) &
-                      array_grow(&vertex, vertices, sizeof *own->vertex) &
-                      array_grow(&corner, triangles, 3 * sizeof *own->corner) &
+    const bool done = array_grow(&points, vertices, 2 * sizeof *own->points) &&
+                      array_grow(&vertex, vertices, sizeof *own->vertex) &&
+                      array_grow(&corner, triangles, 3 * sizeof *own->corner) &&
                       array_grow(&triangle, triangles, sizeof *own->triangle);
     own->points = points;
     own->vertex = vertex;

@@ -4,8 +4,6 @@
 #include "cli/output/location_row.h"
 #include "mpi/program/pieces_query.h"
 
-#include <string.h>
-
 typedef struct locate_settings {
     pieces_settings query;
     int base;
@@ -22,16 +20,6 @@ static const option locate_options[] = {
     {0},
 };
 
-static mw_location location_of(const mwp_location *at)
-{
-    mw_location where = {.triangle = at->triangle < 0 ? MW_NONE : (uint32_t)at->triangle,
-                         .hole = at->hole,
-                         .where = at->where,
-                         .local = at->local};
-    memcpy(where.weight, at->weight, sizeof where.weight);
-    return where;
-}
-
 /* The border edge nearest to a point in no triangle. */
 static bool locate_nearest(const pieces_query *q, const double point[2],
                            mw_nearest_border_point *hit)
@@ -47,7 +35,7 @@ static bool locate_row(const pieces_query *q, const void *self, const double poi
                        const service_answer *answer, text *out)
 {
     const locate_settings *s = self;
-    const mw_location where = location_of(&answer->at);
+    const mw_location where = pieces_location(&answer->at);
     const uint32_t base = location_row_base(s->base, q->first_number);
     mw_nearest_border_point hit;
     location_row_write(out, &where, base, q->faces);

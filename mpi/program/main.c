@@ -2,20 +2,19 @@
  * names: it reads and writes; the other ranks do what it orders. */
 #include "mpi/program/commands.h"
 
+#include "cli/commands/commands.h"
 #include "cli/frame/files.h"
-#include "cli/frame/help.h"
 #include "cli/frame/message.h"
-#include "cli/frame/progress.h"
-#include "cli/frame/signals.h"
+#include "cli/frame/program.h"
 #include "cli/gdal/library_versions.h"
 
 #include <meshwalk/base.h>
 #include <signal.h>
-#include <stdlib.h>
 #include <string.h>
 
-static const command *const commands[] = {&locate_pieces_command, &sample_pieces_command,
-                                          &weights_pieces_command};
+/* info says nothing of pieces: rank 0 describes the mesh as the other program does. */
+static const command *const commands[] = {&info_command, &locate_pieces_command,
+                                          &sample_pieces_command, &weights_pieces_command};
 #define COMMAND_COUNT (sizeof commands / sizeof *commands)
 
 static service of_program;
@@ -53,41 +52,13 @@ static int main_print_version(void)
     return files_write_text(NULL, &t);
 }
 
-static int command_print_help(const command *c, bool all)
-{
-    text t = {0};
-    help_of_command(&t, c, all);
-    return files_write_text(NULL, &t);
-}
-
-static int command_run(const command *c, int count, char **arguments)
-{
-    const char *operands[MAX_OPERANDS] = {0};
-    void *settings = calloc(1, c->settings_size);
-    if (!settings) return fail_memory();
-    int end = options_parse(c, count, arguments, settings, operands);
-    const common_settings *common = settings;
-    if (end == 0 && common->help) {
-        end = command_print_help(c, common->help_all);
-    } else if (end == 0) {
-        signals_begin();
-        progress_begin(common->quiet);
-        files_use_layout(common->layout);
-        end = c->run(settings, operands);
-        progress_end();
-    }
-    free(settings);
-    return end;
-}
-
 static int main_run(int count, char **arguments)
 {
     const char *word = count < 2 ? "--help" : arguments[1];
     if (strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0) return main_print_help();
     if (strcmp(word, "--version") == 0) return main_print_version();
-    for (size_t i = 0; i < COMMAND_COUNT; i++)
-        if (strcmp(commands[i]->name, word) == 0)
-            return command_run(commands[i], count - 2, arguments + 2);
+    const command *c = program_find(commands, COMMAND_COUNT, word);
+    if (c) return program_run(c, count - 2, arguments + 2);
     complain("unknown command '%s'; 'meshwalk-mpi --help' lists them", word);
     return END_USAGE;
 }

@@ -108,6 +108,16 @@ void pieces_query_release(pieces_query *q)
     free(q->vertices);
 }
 
+mw_location pieces_location(const mwp_location *at)
+{
+    mw_location where = {.triangle = at->triangle < 0 ? MW_NONE : (uint32_t)at->triangle,
+                         .hole = at->hole,
+                         .where = at->where,
+                         .local = at->local};
+    memcpy(where.weight, at->weight, sizeof where.weight);
+    return where;
+}
+
 /* --- the points ------------------------------------------------------------------------------- */
 
 typedef struct pieces_context {

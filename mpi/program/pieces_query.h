@@ -42,6 +42,9 @@ int pieces_query_open(pieces_query *q, service *s, const pieces_settings *settin
                       const char *const *operands, const mesh_field_choice *field);
 void pieces_query_release(pieces_query *q);
 
+/* A location as the library has it for the whole mesh. */
+mw_location pieces_location(const mwp_location *at);
+
 /* The exit code for an error of the ranks, after a complaint. */
 int pieces_query_fail(const pieces_query *q, const mwp_error *from);
 

@@ -8,7 +8,6 @@
 #include "mpi/program/pieces_query.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 /* The entries of all points, in their order. */
 typedef struct weights_work {
@@ -27,16 +26,6 @@ static void weights_take(weights_work *w, size_t row, const service_answer *answ
     }
 }
 
-static mw_location location_of_answer(const service_answer *answer)
-{
-    mw_location at = {.triangle = answer->at.triangle < 0 ? MW_NONE : (uint32_t)answer->at.triangle,
-                      .hole = answer->at.hole,
-                      .where = answer->at.where,
-                      .local = answer->at.local};
-    memcpy(at.weight, answer->at.weight, sizeof at.weight);
-    return at;
-}
-
 /* Locate some of the points, from number `from`. */
 static int weights_locate_part(weights_work *w, const query_block *all, size_t from, size_t n,
                                service_answer *answers, mw_location *located)
@@ -49,7 +38,7 @@ static int weights_locate_part(weights_work *w, const query_block *all, size_t f
                        &options, answers, &error))
         return pieces_query_fail(w->query, &error);
     for (size_t i = 0; i < n; i++) {
-        located[from + i] = location_of_answer(&answers[i]);
+        located[from + i] = pieces_location(&answers[i].at);
         weights_take(w, from + i, &answers[i]);
     }
     return 0;

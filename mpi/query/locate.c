@@ -66,91 +66,137 @@ static mwp_location location_of_part(const mwp_mesh *m, const mw_location *at)
 
 /* --- the questions of a block ----------------------------------------------------------------- */
 
-/* The block's queries, as they are sorted: which of them are in this rank's boxes, and which are
- * asked of which other rank. */
-typedef struct block_work {
-    int *ranks;       /* of one query */
-    uint32_t *here;   /* queries in this rank's boxes, from the beginning of the block */
-    question *points; /* of these */
-    mw_location *found;
-    uint32_t *count; /* questions for each rank */
+/* The block's queries, as they are sorted: which of them may be in this rank's piece only, and
+ * which are asked of which other rank. Made for the largest block, and used for all. */
+struct mwp_block {
+    int *ranks;      /* of one query */
     int *rank;       /* per query: the only rank in whose boxes it is, or NOBODY, or SEVERAL */
-} block_work;
+    uint32_t *count; /* questions for each rank */
+    /* Queries in this rank's boxes, from the beginning of the block: those in no other rank's, and
+     * the others. */
+    uint32_t *own, *shared;
+    size_t own_count, shared_count;
+    size_t own_done; /* of `own`: located so far */
+    size_t room;     /* of the next two */
+    question *points;
+    mw_location *found;
+};
 
 enum { NOBODY = -1, SEVERAL = -2 };
 
-static bool work_create(block_work *w, const mwp_mesh *m, size_t n)
+static void block_release(mwp_block *w)
 {
-    *w = (block_work){.ranks = mwp__alloc((size_t)m->wire.size, sizeof *w->ranks),
-                      .here = mwp__alloc(n, sizeof *w->here),
-                      .points = mwp__alloc(n, sizeof *w->points),
-                      .found = mwp__alloc(n, sizeof *w->found),
-                      .count = calloc((size_t)m->wire.size, sizeof *w->count),
-                      .rank = mwp__alloc(n, sizeof *w->rank)};
-    return w->ranks && w->here && w->points && w->found && w->count && w->rank;
-}
-
-static void work_release(block_work *w)
-{
+    if (!w) return;
     free(w->ranks);
-    free(w->here);
+    free(w->rank);
+    free(w->count);
+    free(w->own);
+    free(w->shared);
     free(w->points);
     free(w->found);
-    free(w->count);
-    free(w->rank);
+    free(w);
 }
 
-/* Note in whose boxes query i is. Is it in this rank's? */
-static bool query_look(const mwp_locating *l, size_t i, block_work *w)
+/* For blocks of up to n queries, which are located `room` at a time. NULL when out of memory. */
+static mwp_block *block_create(const mwp_mesh *m, size_t n, size_t room)
 {
+    mwp_block *w = mwp__alloc(1, sizeof *w);
+    if (!w) return NULL;
+    *w = (mwp_block){.ranks = mwp__alloc((size_t)m->wire.size, sizeof *w->ranks),
+                     .rank = mwp__alloc(n, sizeof *w->rank),
+                     .count = mwp__alloc((size_t)m->wire.size, sizeof *w->count),
+                     .own = mwp__alloc(n, sizeof *w->own),
+                     .shared = mwp__alloc(n, sizeof *w->shared),
+                     .room = room,
+                     .points = mwp__alloc(room, sizeof *w->points),
+                     .found = mwp__alloc(room, sizeof *w->found)};
+    if (w->ranks && w->rank && w->count && w->own && w->shared && w->points && w->found) return w;
+    block_release(w);
+    return NULL;
+}
+
+/* Note in whose boxes query i is. */
+static void query_look(const mwp_locating *l, size_t i, mwp_block *w)
+{
+    const int own = l->mesh->wire.rank;
+    const uint32_t place = (uint32_t)(i - l->begin);
     const int count = mwp__router_find(&l->mesh->router, query_point(l, i), w->ranks);
-    w->rank[i - l->begin] = count == 0 ? NOBODY : count == 1 ? w->ranks[0] : SEVERAL;
-    for (int k = 0; k < count; k++)
-        if (w->ranks[k] == l->mesh->wire.rank) return true;
-    return false;
+    bool here = false;
+    for (int k = 0; k < count; k++) here = here || w->ranks[k] == own;
+    w->rank[place] = count == 0 ? NOBODY : count == 1 ? w->ranks[0] : SEVERAL;
+    if (here && count == 1)
+        w->own[w->own_count++] = place;
+    else if (here)
+        w->shared[w->shared_count++] = place;
 }
 
 /* The other ranks that may have the triangle of query i, in w->ranks; none if its answer is
  * known. Returns how many. */
-static int query_ranks(const mwp_locating *l, size_t i, const block_work *w)
+static int query_ranks(const mwp_locating *l, size_t i, const mwp_block *w)
 {
     const mwp_location *at = &l->locations[i];
     const int only = w->rank[i - l->begin], own = l->mesh->wire.rank;
     int kept = 0;
-    if (at->triangle >= 0 && at->where == MW_INSIDE) return 0;
     if (only != SEVERAL) {
         w->ranks[0] = only;
         return only != NOBODY && only != own;
     }
+    if (at->triangle >= 0 && at->where == MW_INSIDE) return 0;
     const int count = mwp__router_find(&l->mesh->router, query_point(l, i), w->ranks);
     for (int k = 0; k < count; k++)
         if (w->ranks[k] != own) w->ranks[kept++] = w->ranks[k];
     return kept;
 }
 
-static mw_status block_locate_here(const mwp_locating *l, block_work *w, mwp_error *error)
+/* Locate queries of the block in the piece, at most as many as there is room for. */
+static mw_status block_locate(const mwp_locating *l, const uint32_t *queries, size_t n,
+                              mwp_error *error)
 {
-    size_t n = 0;
+    const mwp_block *w = l->block;
+    for (size_t k = 0; k < n; k++)
+        memcpy(w->points[k].point, query_point(l, l->begin + queries[k]), sizeof *w->points);
+    mw_status status =
+        part_locate(&l->mesh->part, w->points, n, l->options.threads, w->found, error);
+    for (size_t k = 0; k < n && !status; k++)
+        l->locations[l->begin + queries[k]] = location_of_part(l->mesh, &w->found[k]);
+    return status;
+}
+
+/* Some more of the queries that only this rank can answer. *more: there are further ones. */
+static mw_status locate_meanwhile(void *self, bool *more, mwp_error *error)
+{
+    const mwp_locating *l = self;
+    mwp_block *w = l->block;
+    const size_t left = w->own_count - w->own_done, n = left < w->room ? left : w->room;
+    const uint32_t *queries = w->own + w->own_done;
+    w->own_done += n;
+    *more = w->own_done < w->own_count;
+    return n ? block_locate(l, queries, n, error) : MW_OK;
+}
+
+static mw_status block_sort(const mwp_locating *l, mwp_error *error)
+{
+    mwp_block *w = l->block;
+    mw_status status = MW_OK;
+    w->own_count = w->own_done = w->shared_count = 0;
     for (size_t i = l->begin; i < l->end; i++) {
         const double *p = query_point(l, i);
         const bool finite = isfinite(p[0]) && isfinite(p[1]);
         l->locations[i] = location_nowhere(finite ? MW_OUTSIDE : MW_BAD);
         w->rank[i - l->begin] = NOBODY;
-        if (!finite || !query_look(l, i, w)) continue;
-        w->here[n] = (uint32_t)(i - l->begin);
-        w->points[n++] = (question){{p[0], p[1]}};
+        if (finite) query_look(l, i, w);
     }
-    if (n == 0) return MW_OK;
-    mw_status status =
-        part_locate(&l->mesh->part, w->points, n, l->options.threads, w->found, error);
-    for (size_t k = 0; k < n && !status; k++)
-        l->locations[l->begin + w->here[k]] = location_of_part(l->mesh, &w->found[k]);
+    for (size_t k = 0; k < w->shared_count && !status; k += w->room) {
+        const size_t left = w->shared_count - k;
+        status = block_locate(l, w->shared + k, left < w->room ? left : w->room, error);
+    }
     return status;
 }
 
-static mw_status block_pack(mwp_locating *l, block_work *w, mwp_parcels *questions,
-                            mwp_error *error)
+static mw_status block_pack(mwp_locating *l, mwp_parcels *questions, mwp_error *error)
 {
+    const mwp_block *w = l->block;
+    memset(w->count, 0, (size_t)l->mesh->wire.size * sizeof *w->count);
     for (size_t i = l->begin; i < l->end; i++)
         for (int k = query_ranks(l, i, w) - 1; k >= 0; k--) w->count[w->ranks[k]]++;
     if (!mwp__parcels_create(questions, &l->mesh->wire, sizeof(question), w->count) ||
@@ -165,46 +211,69 @@ static mw_status block_pack(mwp_locating *l, block_work *w, mwp_parcels *questio
     return MW_OK;
 }
 
+/* How many queries are located at a time: so few that they stay in the cache; but threads, which
+ * are made for each time, want many. */
+static size_t locating_room(uint32_t threads, size_t most)
+{
+    enum { FEW = 1 << 14 };
+    return threads == 1 && most > FEW ? FEW : most;
+}
+
 static mw_status locate_load(void *self, mwp_parcels *questions, bool *more, mwp_error *error)
 {
     mwp_locating *l = self;
-    block_work w;
     l->begin = l->next;
     l->end = l->n - l->begin > BLOCK ? l->begin + BLOCK : l->n;
     l->next = l->end;
     *more = l->next < l->n;
     free(l->asked);
     l->asked = NULL;
-    mw_status status =
-        work_create(&w, l->mesh, l->end - l->begin) ? MW_OK : mwp__fail_memory(error);
-    if (!status) status = block_locate_here(l, &w, error);
-    if (!status) status = block_pack(l, &w, questions, error);
-    work_release(&w);
-    return status;
+    if (!l->block) { /* the first is the largest */
+        const size_t most = l->end - l->begin;
+        l->block = block_create(l->mesh, most, locating_room(l->options.threads, most));
+    }
+    if (!l->block) return mwp__fail_memory(error);
+    mw_status status = block_sort(l, error);
+    return status ? status : block_pack(l, questions, error);
 }
 
 /* --- answers ---------------------------------------------------------------------------------- */
 
-static mw_status locate_answer(void *self, const void *questions, size_t n, void *answers,
-                               size_t *count, mwp_error *error)
+/* Answers to the questions that have been located, the first of which has the number `first`.
+ * Returns how many. */
+static size_t answers_write(const mwp_own *own, const mw_location *found, size_t n, size_t first,
+                            answer *out)
 {
-    const mwp_locating *l = self;
-    const mwp_own *own = &l->mesh->part.own;
-    answer *out = answers;
-    mw_location *found = mwp__alloc(n, sizeof *found);
-    *count = 0;
-    if (!found) return mwp__fail_memory(error);
-    mw_status status = part_locate(&l->mesh->part, questions, n, l->options.threads, found, error);
-    for (size_t i = 0; i < n && !status; i++) {
+    size_t count = 0;
+    for (size_t i = 0; i < n; i++) {
         const mw_location *at = &found[i];
         if (at->triangle == MW_NONE) continue;
-        answer *a = &out[(*count)++];
-        *a = (answer){.number = (uint32_t)i,
+        answer *a = &out[count++];
+        *a = (answer){.number = (uint32_t)(first + i),
                       .given = own->given[at->triangle],
                       .triangle = own->triangle[at->triangle],
                       .where = at->where,
                       .local = at->local};
         memcpy(a->weight, at->weight, sizeof a->weight);
+    }
+    return count;
+}
+
+static mw_status locate_answer(void *self, const void *questions, size_t n, void *answers,
+                               size_t *count, mwp_error *error)
+{
+    const mwp_locating *l = self;
+    const mwp_part *part = &l->mesh->part;
+    const question *asked = questions;
+    answer *out = answers;
+    const size_t room = locating_room(l->options.threads, n);
+    mw_location *found = mwp__alloc(room, sizeof *found);
+    mw_status status = found ? MW_OK : mwp__fail_memory(error);
+    *count = 0;
+    for (size_t i = 0; i < n && !status; i += room) {
+        const size_t some = n - i < room ? n - i : room;
+        status = part_locate(part, asked + i, some, l->options.threads, found, error);
+        if (!status) *count += answers_write(&part->own, found, some, i, out + *count);
     }
     free(found);
     return status;
@@ -244,6 +313,9 @@ static mwp_location location_of_rim(const mwp_rim *rim, const mw_location *at)
 static mw_status locate_settle(void *self, mwp_error *error)
 {
     const mwp_locating *l = self;
+    mw_status status = MW_OK;
+    for (bool more = true; more && !status;) status = locate_meanwhile(self, &more, error);
+    if (status) return status;
     const mwp_rim *rim = &l->mesh->rim;
     mw_error from;
     mw_cursor cursor;
@@ -285,7 +357,8 @@ mwp_locating *mwp_locate_begin(mwp_mesh *mesh, const double *points, size_t n, s
                                const mwp_locate_options *options, mwp_location *locations)
 {
     static const mwp_talk_about about = {sizeof(question), sizeof(answer), locate_load,
-                                         locate_answer,    locate_take,    locate_settle};
+                                         locate_answer,    locate_take,    locate_settle,
+                                         locate_meanwhile};
     mwp_locating *l = &mesh->locating;
     *l = (mwp_locating){.mesh = mesh,
                         .points = points,
@@ -312,6 +385,8 @@ mw_status mwp_locate_end(mwp_locating *locating, mwp_error *error)
     mw_status status = mwp__talk_end(&locating->talk, error ? error : &own_error);
     free(locating->asked);
     locating->asked = NULL;
+    block_release(locating->block);
+    locating->block = NULL;
     return status;
 }
 

@@ -169,8 +169,8 @@ mw_status mwp_migrate(mwp_mesh *mesh, const mwp_location *locations, const void 
                    .n = n,
                    .bytes = bytes,
                    .record = sizeof(traveller) + (bytes + 7) / 8 * 8};
-    const mwp_talk_about about = {m.record,       sizeof(uint64_t), migrate_load,
-                                  migrate_answer, migrate_take,     migrate_settle};
+    const mwp_talk_about about = {m.record,     sizeof(uint64_t), migrate_load, migrate_answer,
+                                  migrate_take, migrate_settle,   NULL};
     mwp_talk talk;
     mw_status status = migration_check(&m, out, error);
     status = mwp__wire_same(&mesh->wire, status, (int64_t)bytes, "the bytes of a payload", error);

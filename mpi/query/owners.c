@@ -159,8 +159,8 @@ mw_status mwp__ask_owners(mwp_mesh *mesh, mw_status status, const mwp_location *
                           size_t bytes, mwp_owner_answer *answer, void *self, void *results,
                           mwp_error *error)
 {
-    const mwp_talk_about about = {sizeof(question), NUMBER + bytes, owners_load,
-                                  owners_answer,    owners_take,    owners_settle};
+    const mwp_talk_about about = {sizeof(question), NUMBER + bytes, owners_load, owners_answer,
+                                  owners_take,      owners_settle,  NULL};
     owners o = {.mesh = mesh,
                 .at = at,
                 .n = n,

@@ -83,6 +83,7 @@ static void block_load(mwp_talk *t)
     mwp__parcels_release(&t->block);
     memset(t->tables->next, 0, (size_t)t->wire->size * sizeof *t->tables->next);
     t->more = false;
+    t->idle = !t->about->meanwhile;
     mw_status status = t->about->load(t->self, &t->block, &t->more, &error);
     if (status) talk_fail(t, status, &error);
 }
@@ -358,9 +359,22 @@ bool mwp__talk_go(mwp_talk *talk)
     return true;
 }
 
+/* Work while a message is under way. Returns false if there is none. */
+static bool talk_work(mwp_talk *t)
+{
+    mwp_error error;
+    bool more = false;
+    if (t->idle || t->status) return false;
+    mw_status status = t->about->meanwhile(t->self, &more, &error);
+    if (status) talk_fail(t, status, &error);
+    t->idle = !more;
+    return true;
+}
+
 mw_status mwp__talk_end(mwp_talk *talk, mwp_error *error)
 {
-    for (uint32_t rounds = 0; !mwp__talk_go(talk); rounds++) mwp__wire_rest(rounds);
+    for (uint32_t rounds = 0; !mwp__talk_go(talk);)
+        if (!talk_work(talk)) mwp__wire_rest(rounds++);
     mwp__parcels_release(&talk->block);
     free(talk->asked);
     free(talk->to_send);

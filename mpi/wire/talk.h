@@ -19,7 +19,9 @@
  *           which begins with the uint32_t number of its question, from 0. Returns how many there
  *           are through *count.
  *   take    An answer of a rank to a question of the present block, by its place in the parcels.
- *   settle  The block has all its answers. */
+ *   settle  The block has all its answers.
+ *   meanwhile  Do some work while messages are under way, or NULL. *more: there is more to do in
+ *           this block. */
 typedef struct mwp_talk_about {
     size_t question, answer_size;
     mw_status (*load)(void *self, mwp_parcels *questions, bool *more, mwp_error *error);
@@ -27,6 +29,7 @@ typedef struct mwp_talk_about {
                         mwp_error *error);
     void (*take)(void *self, int rank, size_t place, const void *answer);
     mw_status (*settle)(void *self, mwp_error *error);
+    mw_status (*meanwhile)(void *self, bool *more, mwp_error *error);
 } mwp_talk_about;
 
 typedef enum mwp_talk_stage {
@@ -64,6 +67,7 @@ typedef struct mwp_talk {
     MPI_Datatype question, answer;   /* MPI_DATATYPE_NULL until they are made */
     mwp_parcels block;               /* the present block */
     bool more;                       /* there are further blocks */
+    bool idle;                       /* nothing is left to do in this block while waiting */
     bool broken;                     /* MPI failed */
     void *asked, *to_send, *to_take; /* questions of others, answers to them, answers to ours */
     void *ours;                      /* questions of this round */

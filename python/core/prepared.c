@@ -78,7 +78,7 @@ static PyObject *prepared_map(PyObject *module, PyObject *args)
     mw_error error;
     mw_status status;
     if (!PyArg_ParseTuple(args, "OOypO&O", &classes[0], &classes[1], &path, &options.trust,
-                          option_uint32, &options.threads, &function))
+                          option_threads, &options.threads, &function))
         return NULL;
     options.progress = progress_begin(state, function, &progress);
     Py_BEGIN_ALLOW_THREADS
@@ -95,46 +95,71 @@ static PyObject *prepared_map(PyObject *module, PyObject *args)
     return result;
 }
 
+/* What write_prepared and write_tiles are given. */
+typedef struct prepared_request {
+    const mw_locator *locator;
+    const char *path;
+    mw_mesh_file values;
+    file_fields vertex, triangle;
+    uint32_t tiles; /* 0: a file */
+    mw_progress progress;
+} prepared_request;
+
+static int prepared_get_values(prepared_request *r, PyObject *locator, PyObject *fields,
+                               PyObject *others, const char *crs)
+{
+    const mw_mesh *mesh = locator_get_mesh(locator);
+    const uint32_t vertices = mw_mesh_vertex_count(mesh), triangles = mw_mesh_triangle_count(mesh);
+    r->locator = ((locator_object *)locator)->locator;
+    if (file_get_fields(fields, vertices, &r->vertex) ||
+        file_get_fields(others, triangles, &r->triangle))
+        return -1;
+    r->values = (mw_mesh_file){
+        .point_count = vertices,
+        .triangle_count = triangles,
+        .field_names = r->vertex.names,
+        .fields = r->vertex.values,
+        .field_count = r->vertex.count,
+        .triangle_field_names = r->triangle.names,
+        .triangle_fields = r->triangle.values,
+        .triangle_field_count = r->triangle.count,
+        .crs = (char *)(uintptr_t)crs,
+    };
+    return 0;
+}
+
+static mw_status prepared_write_request(const prepared_request *r, const mw_progress *progress,
+                                        mw_error *error)
+{
+    const mw_prepare_options file = {.values = &r->values, .progress = progress};
+    const mw_tile_options folder = {.tiles = r->tiles, .values = &r->values, .progress = progress};
+    return r->tiles ? mw_write_tiles(r->locator, r->path, &folder, error)
+                    : mw_write_prepared(r->locator, r->path, &file, error);
+}
+
 /* write_prepared(locator, path as bytes, [(name, values)] of vertices and of triangles, crs or
- * None, progress) */
+ * None, how many tiles (0: one file), progress) */
 static PyObject *prepared_write(PyObject *module, PyObject *args)
 {
     core_state *state = PyModule_GetState(module);
     PyObject *object, *list, *other, *function;
-    const char *path, *crs;
-    mw_progress progress;
-    mw_prepare_options options = {0};
-    file_fields vertex = {0}, triangle = {0};
+    const char *crs;
+    prepared_request request = {0};
     mw_error error;
     mw_status status = MW_OK;
-    if (!PyArg_ParseTuple(args, "O!yO!O!zO", state->locator_type, &object, &path, &PyList_Type,
-                          &list, &PyList_Type, &other, &crs, &function))
+    if (!PyArg_ParseTuple(args, "O!yO!O!zO&O", state->locator_type, &object, &request.path,
+                          &PyList_Type, &list, &PyList_Type, &other, &crs, option_uint32,
+                          &request.tiles, &function))
         return NULL;
-    const mw_locator *locator = ((locator_object *)object)->locator;
-    const mw_mesh *mesh = locator_get_mesh(object);
-    const uint32_t vertices = mw_mesh_vertex_count(mesh), triangles = mw_mesh_triangle_count(mesh);
-    int failed =
-        file_get_fields(list, vertices, &vertex) || file_get_fields(other, triangles, &triangle);
+    const int failed = prepared_get_values(&request, object, list, other, crs);
     if (!failed) {
-        const mw_mesh_file values = {
-            .point_count = vertices,
-            .triangle_count = triangles,
-            .field_names = vertex.names,
-            .fields = vertex.values,
-            .field_count = vertex.count,
-            .triangle_field_names = triangle.names,
-            .triangle_fields = triangle.values,
-            .triangle_field_count = triangle.count,
-            .crs = (char *)(uintptr_t)crs,
-        };
-        options.values = &values;
-        options.progress = progress_begin(state, function, &progress);
+        const mw_progress *progress = progress_begin(state, function, &request.progress);
         Py_BEGIN_ALLOW_THREADS
-        status = mw_write_prepared(locator, path, &options, &error);
+        status = prepared_write_request(&request, progress, &error);
         Py_END_ALLOW_THREADS
     }
-    file_release_fields(&vertex);
-    file_release_fields(&triangle);
+    file_release_fields(&request.vertex);
+    file_release_fields(&request.triangle);
     if (failed) return NULL;
     if (status) return errors_raise(state, &error);
     Py_RETURN_NONE;

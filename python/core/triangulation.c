@@ -36,7 +36,7 @@ static PyObject *triangulation_delaunay(PyObject *module, PyObject *args)
     mw_mesh *mesh;
     mw_error error;
     mw_status status;
-    if (!PyArg_ParseTuple(args, "OOOO&O", &class, &points, &duplicates, option_uint32,
+    if (!PyArg_ParseTuple(args, "OOOO&O", &class, &points, &duplicates, option_threads,
                           &options.threads, &function) ||
         triangulation_get_input(points, duplicates, &in))
         return NULL;
@@ -51,13 +51,18 @@ static PyObject *triangulation_delaunay(PyObject *module, PyObject *args)
     return object ? Py_BuildValue("Nn", object, (Py_ssize_t)report.duplicates) : NULL;
 }
 
+static const char *triangulation_kind_name(int kind)
+{
+    return mw_kind_name((mw_triangulation_kind)kind);
+}
+
 /* The kind of a name; MW_KIND_COUNT with an exception for none. */
 static mw_triangulation_kind triangulation_kind_by_name(const char *name)
 {
     for (int kind = 0; kind < MW_KIND_COUNT; kind++)
         if (strcmp(mw_kind_name((mw_triangulation_kind)kind), name) == 0)
             return (mw_triangulation_kind)kind;
-    PyErr_Format(PyExc_ValueError, "there is no kind of triangulation '%s'", name);
+    option_raise_unknown("kind of triangulation", name, triangulation_kind_name, MW_KIND_COUNT);
     return MW_KIND_COUNT;
 }
 
@@ -88,7 +93,7 @@ static PyObject *triangulation_of_kind(PyObject *module, PyObject *args)
     mw_error error;
     mw_status status;
     if (!PyArg_ParseTuple(args, "OOOsOO&O&O", &class, &points, &duplicates, &name, &weights,
-                          option_uint32, &options.limit, option_uint32, &options.threads,
+                          option_uint32, &options.limit, option_threads, &options.threads,
                           &function) ||
         (kind = triangulation_kind_by_name(name)) == MW_KIND_COUNT ||
         triangulation_get_input(points, duplicates, &in) ||
@@ -226,7 +231,7 @@ static PyObject *triangulation_constrained(PyObject *module, PyObject *args)
     mw_error error;
     mw_status status;
     if (!PyArg_ParseTuple(args, "OOOOOOipO&O", &class, &objects[0], &objects[1], &objects[2],
-                          &objects[3], &objects[4], &keep, &options.split, option_uint32,
+                          &objects[3], &objects[4], &keep, &options.split, option_threads,
                           &options.threads, &function) ||
         triangulation_get_constraints(objects, &c))
         return NULL;

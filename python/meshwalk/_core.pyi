@@ -12,8 +12,11 @@ CHANGED_LAYOUT: dict[str, int]
 CHANGED_VERTEX_LAYOUT: dict[str, int]
 PIECE_LAYOUT: dict[str, int]
 SIGHT_LAYOUT: dict[str, int]
+BORDER_LAYOUT: dict[str, int]
 MAX_TRIANGLES: int
 MESH_FORMATS: tuple[str, ...]
+WALK_NAMES: tuple[str, ...]
+START_NAMES: tuple[str, ...]
 version: str
 
 Buffer: TypeAlias = NDArray[Any]
@@ -67,6 +70,8 @@ class Location:
     def inside(self) -> bool:
         """True if a triangle contains the point, its border included."""
 
+def location_from_bytes(location: bytes, /) -> Location: ...
+
 class Locator:
     @property
     def mesh(self) -> Mesh: ...
@@ -89,10 +94,10 @@ class Locator:
     def _segment(
         self, ends: Buffer, threads: int, progress: Progress | None, /
     ) -> tuple[memoryview, memoryview]: ...
+    def _nearest_borders(self, points: Buffer, out: Buffer, /) -> None: ...
     def _nearest_border(
         self, x: float, y: float, /
     ) -> tuple[int, int, float, tuple[float, float], tuple[float, float, float]]: ...
-    def _holes(self) -> memoryview: ...
     def _describe(self) -> dict[str, Any]: ...
 
 class Operator:
@@ -265,7 +270,13 @@ class Prober:
         /,
     ) -> None: ...
     def _nearest(
-        self, points: Buffer, out: Buffer, max_distance: float, progress: Progress | None, /
+        self,
+        points: Buffer,
+        out: Buffer,
+        max_distance: float,
+        threads: int,
+        progress: Progress | None,
+        /,
     ) -> None: ...
     def _deviation(
         self, surface: Surface, threads: int, progress: Progress | None, /
@@ -408,6 +419,8 @@ def star_from_surface(
     x: float,
     y: float,
     z: float,
+    borrow: bool,
+    unchecked: bool,
     threads: int,
     progress: Progress | None,
     /,
@@ -590,6 +603,7 @@ def write_prepared(
     fields: list[tuple[bytes, Buffer]],
     triangle_fields: list[tuple[bytes, Buffer]],
     crs: str | None,
+    tiles: int,
     progress: Progress | None,
     /,
 ) -> None: ...

@@ -28,6 +28,14 @@ def _axes(ax: Axes | None) -> Axes:
     return ax
 
 
+def _check_kind(given: Any, name: str, wanted: str, hint: str) -> None:
+    import meshwalk
+
+    if not isinstance(given, getattr(meshwalk, wanted)):
+        kind = type(given).__name__
+        raise TypeError(f"{name} must be a meshwalk.{wanted}, not {kind}; {hint}")
+
+
 def plot(
     mesh: Mesh, values: ArrayLike | str | None = None, ax: Axes | None = None, **style: Any
 ) -> Axes:
@@ -60,6 +68,7 @@ def plot(
     >>> meshwalk.plot(mesh, "z").get_aspect()
     1.0
     """
+    _check_kind(mesh, "mesh", "Mesh", "draw its mesh: plot(locator.mesh)")
     ax = _axes(ax)
     x, y = mesh.points.T
     if values is None:
@@ -114,6 +123,7 @@ def explain(
     on edge 2 of triangle 0; triangle 1 has it, too, and
     a higher number
     """
+    _check_kind(locator, "locator", "Locator", "make one: Locator(mesh)")
     location = locator.locate_one(x, y)
     if location.where is Where.BAD:
         raise ValueError(f"the point {x}, {y} is not finite")

@@ -12,8 +12,8 @@
 #define MW_SRC_BASE_POSIX_H
 
 /* Files: open(), fcntl(), fstat(), stat(), fchmod(), access(), close(), dup2(), isatty(), linkat(),
- * read(), readlink(), rmdir(), unlink(), write(), opendir(), readdir(), closedir(). In <stdlib.h>:
- * realpath(), mkdtemp(), mkstemps()*. */
+ * mkdir(), read(), readlink(), rmdir(), unlink(), write(), opendir(), readdir(), closedir(). In
+ * <stdlib.h>: realpath(), mkdtemp(), mkstemps()*. */
 #include <dirent.h>
 #include <fcntl.h>
 #include <sys/stat.h>

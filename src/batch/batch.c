@@ -55,7 +55,7 @@ static bool block_run(mw_batch *batch, mw_key *keys, size_t block, double share,
     const double sorting = batch->sort ? 0.2 : 0;
     if (batch->sort) {
         mw__job_stage(job, "sorting queries", share * sorting);
-        batch->sort(batch, block, keys, keys + block);
+        batch->sort(batch, block, keys, keys + block, job);
     }
     mw__job_stage(job, "answering queries", share * (1 - sorting));
     return block_answer(batch, (uint32_t)block, job, sum);

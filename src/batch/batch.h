@@ -22,8 +22,8 @@ struct mw_batch {
     uint64_t seed;
     const mw_key *order; /* NULL, or order[i].item is the i-th query to answer */
 
-    /* Makes the keys of n queries, in order; NULL: they stay as they are. */
-    void (*sort)(const mw_batch *batch, size_t n, mw_key *keys, mw_key *scratch);
+    /* Makes the keys of n queries, in order, in the present stage; NULL: they stay as they are. */
+    void (*sort)(const mw_batch *batch, size_t n, mw_key *keys, mw_key *scratch, mw_job *job);
     /* Answers the queries first .. first + count - 1 (of the order), on one thread. */
     mw_counters (*answer)(const mw_batch *batch, uint32_t first, uint32_t count);
 };

@@ -30,8 +30,10 @@ static mw_counters borrowed_batch_answer(const mw_batch *queries, uint32_t first
     return cursor.counters;
 }
 
-static void borrowed_batch_sort(const mw_batch *queries, size_t n, mw_key *keys, mw_key *scratch)
+static void borrowed_batch_sort(const mw_batch *queries, size_t n, mw_key *keys, mw_key *scratch,
+                                mw_job *job)
 {
+    (void)job;
     const mw_borrowed *mesh = ((const borrowed_batch *)queries)->mesh;
     mw__sort_queries(queries->points, n, queries->stride, mesh->low, mesh->high, keys, scratch);
 }

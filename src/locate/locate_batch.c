@@ -156,8 +156,10 @@ static mw_counters chunk_answer(const mw_batch *queries, uint32_t first, uint32_
 }
 
 /* Sort queries along a Hilbert curve. */
-static void batch_sort(const mw_batch *queries, size_t n, mw_key *keys, mw_key *scratch)
+static void batch_sort(const mw_batch *queries, size_t n, mw_key *keys, mw_key *scratch,
+                       mw_job *job)
 {
+    (void)job;
     const mw_locator *locator = ((const locate_batch *)queries)->locator;
     mw__sort_queries(queries->points, n, queries->stride, locator->low, locator->high, keys,
                      scratch);

@@ -33,6 +33,9 @@ static inline const void *mw__prepared_records(const mw_prepared *p, mw_prepared
     return part->bytes ? p->bytes + part->offset : NULL;
 }
 
+/* Can a locator be written? MW_ERROR_ARGUMENT. */
+mw_status mw__prepared_check_locator(const mw_locator *locator, mw_error *error);
+
 /* MW_ERROR_INPUT: "NAME: a damaged prepared mesh: ...". */
 mw_status mw__prepared_fail(const mw_prepared *p, mw_error *error, const char *format, ...)
     __attribute__((format(printf, 3, 4)));

@@ -21,7 +21,7 @@ typedef struct prepared_writer {
     char *names;
 } prepared_writer;
 
-static mw_status locator_check_kind(const mw_locator *locator, mw_error *error)
+mw_status mw__prepared_check_locator(const mw_locator *locator, mw_error *error)
 {
     const mw_tiling *tiling = &locator->tiling;
     const char *why = !tiling->embedding     ? "it is of a mesh that is not an embedding"
@@ -334,7 +334,7 @@ mw_status mw_write_prepared(const mw_locator *locator, const char *path,
     if (!locator || !path) return mw__fail(error, MW_ERROR_ARGUMENT, "mw_write_prepared: NULL");
     if (!options) options = &defaults;
     mw_status status = MW_RESERVED_CHECK(mw_prepare_options, options, error);
-    if (!status) status = locator_check_kind(locator, error);
+    if (!status) status = mw__prepared_check_locator(locator, error);
     if (status) return status;
     mw_job job = mw__job(1, options->progress);
     return mw__job_end(&job, prepared_write(locator, path, options->values, &job, error), error);

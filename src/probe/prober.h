@@ -92,6 +92,14 @@ uint32_t mw__probe_certain(const mw_prober *prober, const mw_line *line, double 
  * mw_nearest_on_surface. q is finite. */
 double mw__distance_to_triangle(const mw_surface *surface, uint32_t triangle, const double q[3]);
 
+/* The answer of mw_nearest_on_surface, with current boxes. `guess`: a triangle to be looked at
+ * first, or MW_NONE; the answer does not depend on it. */
+void mw__nearest_find(const mw_prober *prober, const double point[3], double max_distance,
+                      uint32_t guess, mw_nearest_surface_point *nearest);
+/* Refuse a prober without boxes, and a distance that is none. */
+mw_status mw__nearest_check(const mw_prober *prober, double max_distance, mw_error *error);
+mw_status mw__nearest_fail_outdated(mw_error *error);
+
 /* --- inside.c --- */
 
 /* Does every edge have a neighbour? O(n) */

@@ -61,7 +61,9 @@ typedef struct mw_star_track {
     uint32_t unsound; /* facets through the centre, or with a corner that is not finite */
     uint32_t wrong;   /* half-edges without a neighbour, or with one of another orientation */
     uint32_t met;     /* facets that one ray meets */
-    bool on;          /* all this holds */
+    uint32_t tended_section; /* the next one of the guide to be looked at */
+    uint32_t dropped;        /* how many facets went */
+    bool on;                 /* all this holds */
 } mw_star_track;
 
 struct mw_star {
@@ -71,8 +73,8 @@ struct mw_star {
     /* For the upper bits of a curve key, a facet near there; see mw__star_guide_facet. */
     uint32_t *guide;
     uint32_t guide_bits;
-    mw_hilbert curve; /* of keys */
-    float near;       /* a query this near to a facet's cone starts there: see star_start.c */
+    mw_hilbert *curve; /* of keys; NULL of a borrowed star */
+    float near;        /* a query this near to a facet's cone starts there: see star_start.c */
     mw_star_hubs hubs;
     /* Per vertex: its representative, from the surface or own; NULL: no two coincide. */
     const uint32_t *coincident;
@@ -95,12 +97,16 @@ struct mw_star {
     bool ready;                      /* the last check found it star-shaped */
     bool angles;                     /* `angle` is wanted */
     bool attached;                   /* it follows an editor of the surface */
+    /* Rays walk on the surface's own records (star/borrow): there are no arrays here. */
+    bool borrowed;
+    bool unchecked; /* and nothing was decided, so that the star is always ready */
+    bool has_flat;  /* or flat facets were found between others */
 };
 
 /* Is it up to date and star-shaped? Then it can be walked. */
 static MW_INLINE bool mw__star_is_current(const mw_star *star)
 {
-    return star->ready && star->version == star->surface->version;
+    return star->unchecked || (star->ready && star->version == star->surface->version);
 }
 
 /* Corner k of a facet with vertices v. */
@@ -215,12 +221,18 @@ static MW_INLINE uint32_t mw__star_guide_bits(uint32_t facets)
     return bits;
 }
 
+/* The curve over the sphere. */
+static inline mw_hilbert mw__star_curve(void)
+{
+    return mw__hilbert((const double[2]){-1, -1}, (const double[2]){1, 1});
+}
+
 /* The key of the direction d, not zero, on the curve over the sphere. */
-static MW_INLINE uint32_t mw__star_curve_key(const mw_star *star, const double d[3])
+static MW_INLINE uint32_t mw__star_curve_key(const mw_hilbert *curve, const double d[3])
 {
     double x, y;
     mw__star_unfold(d, &x, &y);
-    return mw__hilbert_key(&star->curve, x, y);
+    return mw__hilbert_key(curve, x, y);
 }
 
 /* A facet near a key of the curve over the sphere. After edits, an entry of the guide may name a

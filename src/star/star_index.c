@@ -44,6 +44,7 @@ static mw_status star_index_check(const mw_star *star, mw_star_start_kind start,
     if (!star) return mw__fail(error, MW_ERROR_ARGUMENT, "the star is NULL");
     if (!mw_star_start_has_index(start))
         return mw__fail(error, MW_ERROR_ARGUMENT, "this start has no index");
+    if (star->borrowed) return mw__fail(error, MW_ERROR_ARGUMENT, "a borrowed star has no index");
     if (options->cells > MW_STAR_MAX_CELLS)
         return mw__fail(error, MW_ERROR_ARGUMENT, "a grid has at most 2^30 cells");
     if (options->levels > MW_STAR_MAX_LEVELS + 1)

@@ -29,7 +29,7 @@ uint32_t mw__star_facet_key(const mw_star *star, const uint32_t v[3])
                         mw__star_corner_point(star, v, 2)[k] / 6;
         d[k] = middle - star->centre[k] / 2;
     }
-    return mw__star_curve_key(star, d);
+    return mw__star_curve_key(star->curve, d);
 }
 
 static void facets_key(void *work, uint64_t from, uint64_t to)

@@ -39,6 +39,60 @@ static MW_INLINE double areas_shear(double w[3][3], const double d[3], double ar
     return 0x1p-48 * long_norm * short_norm * sum_norm(d);
 }
 
+static MW_INLINE double dot3(const double u[3], const double v[3])
+{
+    return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
+}
+
+static MW_INLINE void cross3(const double u[3], const double v[3], double r[3])
+{
+    for (uint32_t k = 0; k < 3; k++)
+        r[k] = u[mw__next(k)] * v[mw__prev(k)] - u[mw__prev(k)] * v[mw__next(k)];
+}
+
+/* Is a square neither so small nor so large that products with it could leave the range of doubles?
+ */
+static MW_INLINE bool square_is_ordinary(double square)
+{
+    return square > 0x1p-200 && square < 0x1p200;
+}
+
+/* The areas from one corner a and the edges e, f from it: with D = det(e, f, d) they are D less the
+ * others, det(f, a, d) and det(a, e, d). Every difference of coordinates is off by u = 2^-53 of
+ * itself, and so is d. A component of f x d is off by 4u of its sum of magnitudes, its product with
+ * a by 8u, and by Cauchy and Schwarz det(f, a, d) by 8u sqrt(2) |a| |f| |d|. D is off by as
+ * much with |e| |f| |d|. Where edges are shorter than a quarter of a, all this and two sums come to
+ * less than 2^-48 |a| |d| max(|e|, |f|), whose square is compared. Returns whether the areas are
+ * certainly not 0, and accurate; a facet that is not very small nor seen from its edge takes this
+ * way. */
+static MW_INLINE bool areas_by_edges(const mw_star *star, const uint32_t v[3], const double q[3],
+                                     double area[3])
+{
+    const double *p = mw__star_corner_point(star, v, 0), *s = mw__star_corner_point(star, v, 1),
+                 *t = mw__star_corner_point(star, v, 2);
+    double a[3], d[3], e[3], f[3], fd[3], de[3];
+    for (int k = 0; k < 3; k++) {
+        a[k] = p[k] - star->centre[k];
+        d[k] = q[k] - star->centre[k];
+        e[k] = s[k] - p[k];
+        f[k] = t[k] - p[k];
+    }
+    cross3(f, d, fd);
+    cross3(e, d, de);
+    double sum = dot3(e, fd), one = -dot3(a, fd), two = dot3(a, de);
+    double sign = sum < 0 ? -1 : 1, aa = dot3(a, a), dd = dot3(d, d), ee = dot3(e, e),
+           ff = dot3(f, f), longer = ee > ff ? ee : ff, off = 0x1p-96 * aa * dd * longer;
+    area[0] = sign * (sum - one - two);
+    area[1] = sign * one;
+    area[2] = sign * two;
+    bool positive = area[0] > 0 && area[1] > 0 && area[2] > 0;
+    double least = area[0] < area[1] ? area[0] : area[1];
+    least = least < area[2] ? least : area[2];
+    return positive && square_is_ordinary(aa) && square_is_ordinary(dd) &&
+           square_is_ordinary(longer) && 16 * longer < aa && least * least > off &&
+           9 * off < AREA_ERROR * AREA_ERROR * sum * sum;
+}
+
 /* Compute the areas by areas_shear. Returns whether they are certainly not 0, and accurate. */
 static MW_INLINE bool areas_refine(const mw_star *star, const uint32_t v[3], const double q[3],
                                    double area[3])
@@ -70,7 +124,9 @@ void mw__star_areas(const mw_star *star, const uint32_t v[3], const double q[3],
 {
     const double *c = star->centre;
     bool wide = facet_is_wide(star, v);
-    if (MW_LIKELY(!wide) && MW_LIKELY(areas_refine(star, v, q, area))) return;
+    if (MW_LIKELY(!wide) &&
+        MW_LIKELY(areas_by_edges(star, v, q, area) || areas_refine(star, v, q, area)))
+        return;
     double sum = 0, off = 0;
     bool sure = true;
     for (uint32_t k = 0; k < 3; k++) {
@@ -93,10 +149,12 @@ static void areas_rescale(const mw_star *star, const uint32_t facet[3], const do
                           double area[3])
 {
     const double *c = star->centre;
-    double v[4][3], large[2] = {star->reach, 0}, most[2] = {0, 0}; /* of the facet, of the ray */
+    double v[4][3], large[2] = {0, 0}, most[2] = {0, 0}; /* of the facet, of the ray */
     for (int k = 0; k < 3; k++) {
         large[0] = fmax(large[0], fabs(c[k]));
         large[1] = fmax(large[1], fmax(fabs(c[k]), fabs(q[k])));
+        for (uint32_t i = 0; i < 3; i++)
+            large[0] = fmax(large[0], fabs(mw__star_corner_point(star, facet, i)[k]));
     }
     for (uint32_t i = 0; i < 4; i++) {
         const double *p = i < 3 ? mw__star_corner_point(star, facet, i) : q;

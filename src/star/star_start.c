@@ -72,7 +72,7 @@ static uint32_t star_start_auto(const mw_star *star, uint32_t last, const mw_sta
     if (last < star->facet_count && star_ray_is_near(star, last, walk->f)) return last;
     double half[3];
     for (int k = 0; k < 3; k++) half[k] = walk->q[k] / 2 - star->centre[k] / 2;
-    return mw__star_guide_facet(star, mw__star_curve_key(star, half));
+    return mw__star_guide_facet(star, mw__star_curve_key(star->curve, half));
 }
 
 uint32_t mw__star_start(const mw_star *star, const mw_star_cursor *cursor, uint32_t last,

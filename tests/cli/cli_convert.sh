@@ -36,6 +36,10 @@ run convert a.gr3 b.vtu; exits 0
 says 'has no place for marked edges: open 1, land 1 type 24 are not written; fort.14, gr3 and msh'
 run info b.vtu; exits 0 # XML, but nothing for GDAL
 prints_line '^vertices +5$'
+(echo '<?xml version="1.0"?>' && printf '<!-- %300s -->\n' x && tail -n +2 b.vtu) >long.vtu
+run info long.vtu
+exits 0
+prints_line '^vertices +5$'
 run convert a.gr3 b.14; exits 0
 says "barriers are not written, as their heights are not known: 'land 1 type 24'"
 holds "ADCIRC has triangles only" test "$(sed -n 2p b.14)" = '3 5'

@@ -79,6 +79,28 @@ run prepare m.ply --fields none -o n.mwm; exits 0
 run sample -q n.mwm q.csv; exits 3; says 'neither heights nor fields'
 run prepare m.ply --fields depth,soil -o x.mwm; exits 3; says "m.ply: has no field 'soil'"
 
+# Tiles: a folder that appears when it is complete. The tests of Python read it.
+run prepare m.ply --tiles 3 --fields depth -o t.tiles/; exits 0; says_nothing
+holds "the files of three tiles" test "$(ls t.tiles | tr '\n' ' ')" = \
+    'overview.mwm tile-00000.mwm tile-00001.mwm tile-00002.mwm tiles.json '
+holds "the index counts" grep -q '"vertices": 16, "triangles": 16, "holes": \[0\]' t.tiles/tiles.json
+run locate -q t.tiles/overview.mwm q.csv; exits 0; prints_line '^2.5,2.5,.*hole'
+run info t.tiles/tile-00001.mwm; exits 0; prints_line '^fields +depth,? meshwalk:vertex$'
+cp -r t.tiles kept.tiles
+run prepare m.ply --tiles 3 -o t.tiles; exits 4; says 't.tiles: is there already; remove it first'
+run prepare m.ply --threads 2 --tiles 3 --fields depth -o u.tiles; exits 0
+holds "threads make no difference" diff -r t.tiles u.tiles
+run prepare m.ply --tiles 17 -o v.tiles; exits 3
+says 'm.ply: 17 tiles are more than the 16 triangles with an area'
+run prepare m.ply --tiles 3 -o -; exits 2; says 'not standard output'
+run prepare m.ply --tiles 3 -o none/v.tiles; exits 4; says 'none/v.tiles: No such file'
+sed 's/property double depth/property double meshwalk:vertex/' m.ply >named.ply
+run prepare named.ply --tiles 3 -o v.tiles; exits 3; says "the name 'meshwalk:vertex', which tiles need"
+last='prepare --tiles, with no room for a file of 3 KiB'
+(trap '' XFSZ; ulimit -f 2; exec "$meshwalk" prepare m.ply --tiles 3 -o v.tiles) 2>"$logs/err"
+code=$?; exits 4; says 'overview.mwm: File too large'
+holds "no folder is left" test -z "$(find . -name 'v.tiles*' -o -name '.tiles-*')"
+
 # Refused: nothing is left behind.
 run prepare m.ply; exits 2; says 'needs -o FILE'
 run prepare m.ply -o m.ply; exits 2; says 'is input and output'

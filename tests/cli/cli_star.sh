@@ -82,7 +82,8 @@ for options in '--finish auto' '--finish stochastic' '--finish forgetful' \
     '--walk orthogonal --finish auto' \
     '--walk orthogonal --finish stochastic' '--walk orthogonal --finish forgetful' \
     '--start grid --cells 1' '--start grid --cells 1000' '--start nonuniform-grid --cells 3' \
-    '--start octahedron --levels 1' '--start octahedron --levels 5' '--start sample --sample 1'; do
+    '--start octahedron --levels 1' '--start octahedron --levels 5' '--start sample --sample 1' \
+    '--borrow' '--borrow --start last' '--borrow --walk stochastic --start random'; do
     # shellcheck disable=SC2086 # words
     run_on "$points" star $options octahedron.off -; exits 0; prints "$answers"
 done
@@ -273,6 +274,15 @@ run_on "$points" star --stats --json --walk orthogonal octahedron.off -; exits 0
 holds "the statistics are JSON" is_json "$logs/err"
 says '"angle_bytes": 96'; says '"walk": "orthogonal"'
 
+# Without memory: the same answers; other walks and starts are refused.
+run_on "$points" star --borrow --stats octahedron.off -; exits 0; prints "$answers"
+says '^star bytes +[1-4][0-9][0-9]$'
+run star --borrow --walk straight octahedron.off points.xyz
+refused 2 'the walk on a borrowed star is stochastic, not straight'
+run star --borrow --start grid octahedron.off points.xyz; refused 2 'a borrowed star has no index'
+run star --borrow --start front octahedron.off points.xyz; refused 2 'the starts on a borrowed star'
+run star --borrow --remesh 2 octahedron.off -o o.off; refused 2 "'--borrow' is for DIRECTIONS"
+
 # More rays than one block holds: in order, and the same for any number of threads.
 awk 'BEGIN { for (i = 0; i < 300000; i++)
     printf "%.3f,%.3f\n",
@@ -280,6 +290,8 @@ awk 'BEGIN { for (i = 0; i < 300000; i++)
 run star --lonlat --threads 1 globe.node many.csv -o one.csv; exits 0
 run star --lonlat --threads 2 globe.node many.csv -o two.csv; exits 0
 holds "one thread and two print the same" same_text one.csv two.csv
+run star --lonlat --borrow globe.node many.csv -o borrowed.csv; exits 0
+holds "a borrowed star gives the same answers" same_text one.csv borrowed.csv
 paste -d, many.csv <(tail -n +2 two.csv) |
     awk -F, '$1 != $3 || $2 != $4 || $5 == "bad" { exit 1 } END { if (NR != 300000) exit 1 }'
 holds "there is a row for each, in order" test "${PIPESTATUS[*]}" == "0 0"

@@ -100,7 +100,7 @@ if ! "$meshwalk" --version | grep -q '^  netCDF .*found' ||
     finish
 fi
 run_on "$points" weights square.off - -o w.nc; exits 0; prints ''; says_nothing
-run apply w.npz w.nc -o o.nc; refused 3 'w.npz: '
+run apply w.npz w.nc -o o.nc; refused 3 'w.npz: this is not a netCDF file'
 # A file of weights has fields, too: the coordinates of its vertices, which are linear.
 run apply w.nc w.nc --field xc_a,yc_a -o o.nc --stats; exits 0
 says 'w.nc: remark: 2 of 4 points have no weights; their values are missing'

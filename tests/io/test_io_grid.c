@@ -10,6 +10,7 @@
 #include "support/grid_bytes.h"
 #include "base/random.h"
 #include "io/grid/grid_readers.h"
+#include "io/grid/value_source.h"
 #include "support/environment.h"
 #include "support/write_mesh_file.h"
 
@@ -443,6 +444,31 @@ static void test_npz(void **state)
     }
 }
 
+/* Floats of 16 bits, in either order. */
+static void test_halves(void **state)
+{
+    (void)state;
+    static const struct {
+        unsigned char bytes[2];
+        double value;
+    } cases[] = {{{0x3c, 0}, 1},
+                 {{0xc0, 0}, -2},
+                 {{0, 1}, 0x1p-24},
+                 {{4, 0}, 0x1p-14},
+                 {{0x7b, 0xff}, 65504},
+                 {{0x7c, 0}, INFINITY},
+                 {{0xfc, 0}, -INFINITY},
+                 {{0x35, 0x55}, 0x1.554p-2},
+                 {{0x83, 0xff}, -0x1.ff8p-15}};
+    static const mw_number_type half = {MW_NUMBER_FLOAT, 2};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const unsigned char *b = cases[i].bytes, turned[] = {b[1], b[0]};
+        assert_true(mw__value_of_bytes(b, half, true) == cases[i].value);
+        assert_true(mw__value_of_bytes(turned, half, false) == cases[i].value);
+    }
+    assert_true(isnan(mw__value_of_bytes((const unsigned char[]){0x7e, 0}, half, true)));
+}
+
 typedef mw_status grid_reader(mw_source *source, mw_mesh_builder *builder, mw_error *error);
 
 /* Every file that is cut short, and many that are altered, is refused with its name or read. */
@@ -528,7 +554,7 @@ int main(void)
         cmocka_unit_test(test_vtk),       cmocka_unit_test(test_vtk_fields),
         cmocka_unit_test(test_vtk_names), cmocka_unit_test(test_vtu),
         cmocka_unit_test(test_vtu_names), cmocka_unit_test(test_npz),
-        cmocka_unit_test(test_damaged),
+        cmocka_unit_test(test_halves),    cmocka_unit_test(test_damaged),
     };
     return cmocka_run_group_tests(tests, files_enter, files_leave);
 }

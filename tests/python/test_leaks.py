@@ -125,6 +125,20 @@ def _use_surfaces() -> None:
     _ = surface.check(), surface.describe(), star.describe()
     pickle.loads(pickle.dumps((star, prober)))
     meshwalk.Surface(OCTAHEDRON, FACETS).flip(0, 0)
+    edited = meshwalk.Surface(OCTAHEDRON, FACETS)
+    followers = meshwalk.Star(edited), meshwalk.Prober(edited, boxes=True)
+    editor = meshwalk.SurfaceEditor(edited, undo=9)
+    change = editor.split_triangle(0)
+    _ = repr(change), change.copied, change.heirs, change.before, editor.describe(), editor.copy()
+    editor.cut([0, 2, 1])
+    editor.undo()
+    editor.detach(followers[1])
+    editor.attach(followers[1])
+    editor.remove_triangle(1)
+    _ = editor.triangle(1), editor.triangles_of(0), editor.edge(0, 2), followers[0].ready
+    with contextlib.suppress(meshwalk.InputError):
+        editor.sew([0, 1], [1, 2])
+    editor.compact()
 
 
 def _failures(folder: Path) -> list[Callable[[], Any]]:

@@ -125,6 +125,32 @@ def test_open_surfaces_are_no_stars(octahedron: meshwalk.Surface) -> None:
         star.locate([[1, 1, 1]], lonlat=True)
 
 
+@pytest.mark.parametrize("unchecked", [False, True])
+def test_stars_without_memory(octahedron: meshwalk.Surface, unchecked: bool) -> None:
+    directions = np.random.default_rng(7).normal(size=(500, 3))
+    directions[:6] = OCTAHEDRON
+    star = meshwalk.Star(octahedron)
+    slim = meshwalk.Star(octahedron, borrow=True, unchecked=unchecked)
+    assert slim.describe().bytes < min(500, star.describe().bytes)
+    for kept in (slim, pickle.loads(pickle.dumps(slim))):
+        found = kept.locate(directions)
+        expected = star.locate(directions)
+        np.testing.assert_array_equal(found.triangle, expected.triangle)
+        np.testing.assert_array_equal(found.weights, expected.weights)
+        assert kept.describe().bytes == slim.describe().bytes
+    octahedron.move(2 * octahedron.points)
+    np.testing.assert_array_equal(slim.locate(directions).triangle, expected.triangle)
+    with pytest.raises(ValueError, match="the walk on a borrowed star is stochastic"):
+        slim.locate(directions, walk="straight")
+    with pytest.raises(ValueError, match="'unchecked' goes with 'borrow'"):
+        meshwalk.Star(octahedron, unchecked=True)
+    apart = [[*p] for p in OCTAHEDRON]
+    apart[4] = [0, 0, -9]
+    with pytest.raises(meshwalk.InputError) as raised:
+        meshwalk.Star(meshwalk.Surface(apart, FACETS), borrow=True)
+    assert raised.value.defect is not None
+
+
 def test_what_is_kept_follows_the_surface(octahedron: meshwalk.Surface) -> None:
     star = meshwalk.Star(octahedron)
     prober = meshwalk.Prober(octahedron, boxes=True)

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import json
+import os
 import pickle
 import shutil
+import subprocess
 from pathlib import Path
 from typing import Any
 
@@ -111,6 +113,24 @@ def test_fields(tmp_path: Path, random: Random) -> None:
         hit.interpolate([1, 2])
     with pytest.raises(TypeError, match="ESMF"):
         hit.to_esmf(tmp_path / "w.nc")
+
+
+def test_the_program_makes_the_same_files(tmp_path: Path, random: Random) -> None:
+    points = random.uniform(size=(500, 3))
+    triangles = meshwalk.delaunay(points).triangles[40:]
+    mesh = meshwalk.Mesh(points, triangles, {"depth": points[:, 1]}, crs="EPSG:2056")
+    mesh.write(tmp_path / "mesh.ply")
+    meshwalk.prepare_tiles(meshwalk.read(tmp_path / "mesh.ply"), tmp_path / "module", 5)
+    program = os.environ["MESHWALK"]
+    arguments = ["prepare", "mesh.ply", "--tiles", "5", "-o", "program"]
+    subprocess.run([program, *arguments], cwd=tmp_path, check=True)
+    names = sorted(path.name for path in (tmp_path / "module").iterdir())
+    assert names == sorted(path.name for path in (tmp_path / "program").iterdir())
+    assert len(names) == 7
+    for name in names:
+        assert (tmp_path / "module" / name).read_bytes() == (
+            tmp_path / "program" / name
+        ).read_bytes()
 
 
 def test_tiles_are_given_up(tmp_path: Path, random: Random) -> None:

@@ -72,11 +72,32 @@ static void expect_location(const mw_location *found, const mw_location *expecte
     }
 }
 
+static const mw_star_start_kind borrowed_starts[] = {MW_STAR_START_AUTO, MW_STAR_START_RANDOM,
+                                                     MW_STAR_START_LAST};
+
+/* Stars on the surface's own records, checked or not, give the same answer bit for bit. */
+static void expect_borrowed(mw_star *const borrowed[2], const double q[3],
+                            const mw_location *expected, uint64_t seed)
+{
+    for (int i = 0; i < 6; i++) {
+        mw_star_query_options options = {.start = borrowed_starts[i / 2], .seed = seed};
+        mw_star_cursor cursor;
+        expect_ok(mw_star_cursor_init(borrowed[i % 2], &options, &cursor, NULL), "cursor", NULL);
+        mw_location found = mw_star_locate(borrowed[i % 2], &cursor, q);
+        assert_memory_equal(&found, expected, sizeof found);
+    }
+}
+
 /* Every walk from every start against the oracle. */
 static void check_rays(const star_shape *p, mw_surface_options how, const double c[3], double scale,
                        int rays, uint64_t *seed)
 {
     star_world w = make_world(p, how, (mw_star_options){.centre = {c[0], c[1], c[2]}, .angles = 1});
+    mw_star *borrowed[2];
+    for (int i = 0; i < 2; i++) {
+        mw_star_options options = {.centre = {c[0], c[1], c[2]}, .borrow = 1, .unchecked = i};
+        expect_ok(mw_star_create(w.surface, &options, &borrowed[i], NULL), "borrowed star", NULL);
+    }
     for (int i = 0; i < rays; i++) {
         double q[3];
         draw(p, c, scale, seed, q);
@@ -95,8 +116,10 @@ static void check_rays(const star_shape *p, mw_surface_options how, const double
                 expect_ok(mw_star_cursor_init(w.star, &options, &cursor, NULL), "cursor", NULL);
                 mw_location found = mw_star_locate(w.star, &cursor, q);
                 expect_location(&found, &expected, q);
+                if (walk + start == 0) expect_borrowed(borrowed, q, &found, (uint64_t)i);
             }
     }
+    for (int i = 0; i < 2; i++) mw_star_destroy(borrowed[i]);
     release_world(&w);
 }
 
@@ -489,6 +512,12 @@ static void expect_refused(const star_shape *p, mw_star_options options, mw_defe
     assert_int_equal(mw_star_create(surface, &options, &star, &error), MW_ERROR_INPUT);
     assert_null(star);
     if (triangle != MW_NONE) assert_int_equal(error.triangle, triangle);
+    mw_star_options borrow = options;
+    mw_error same;
+    borrow.borrow = 1;
+    assert_int_equal(mw_star_create(surface, &borrow, &star, &same), MW_ERROR_INPUT);
+    assert_null(star);
+    assert_string_equal(same.message, error.message);
     expect_ok(mw_star_check_arrays(&view, 0, &options, &check, &error), "check", &error);
     assert_false(check.valid);
     bool found = false;

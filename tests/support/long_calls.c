@@ -4,6 +4,7 @@
 #include <meshwalk/io.h>
 #include <meshwalk/operator.h>
 #include <meshwalk/polygons.h>
+#include <meshwalk/prepared.h>
 #include <meshwalk/weights.h>
 #include <meshwalk/segment.h>
 #include <meshwalk/volume.h>
@@ -705,6 +706,24 @@ static mw_status run_star(const call_inputs *in, const call_setting *how, uint64
     return MW_OK;
 }
 
+static mw_status run_star_borrowed(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                                   mw_error *error)
+{
+    mw_star *star;
+    mw_location *at = malloc(in->ball.points * sizeof *at);
+    mw_star_options options = {.borrow = 1, .threads = how->threads, .progress = how->progress};
+    mw_status status = mw_star_create(in->surface, &options, &star, error);
+    expect(!status == (star != NULL), "there is a star");
+    if (!status)
+        status = mw_star_locate_batch(star, in->ball.point, in->ball.points, 3,
+                                      &(mw_star_query_options){.threads = how->threads}, at, NULL,
+                                      error);
+    if (!status) sum_add_locations(sum, at, in->ball.points);
+    free(at);
+    mw_star_destroy(star);
+    return status;
+}
+
 static mw_status star_index_run(const call_inputs *in, mw_star_start_kind start,
                                 const call_setting *how, uint64_t *sum, mw_error *error)
 {
@@ -853,6 +872,22 @@ static mw_status run_probe_all(const call_inputs *in, const call_setting *how, u
     return status;
 }
 
+static mw_status run_nearest_batch(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                                   mw_error *error)
+{
+    size_t n = in->ball.points / 2;
+    mw_nearest_surface_point *at = malloc(n * sizeof *at);
+    mw_nearest_options options = {.threads = how->threads, .progress = how->progress};
+    mw_status status = mw_nearest_on_surface_batch(in->prober, in->ball.point, n, 6, INFINITY,
+                                                   &options, at, error);
+    for (size_t i = 0; i < n && !status; i++) {
+        sum_add(sum, at[i].triangle);
+        sum_add_number(sum, at[i].point[0]);
+    }
+    free(at);
+    return status;
+}
+
 /* --- files ------------------------------------------------------------------------------------ */
 
 static mw_status run_read(const call_inputs *in, const call_setting *how, uint64_t *sum,
@@ -929,6 +964,24 @@ static mw_status run_write_weights(const call_inputs *in, const call_setting *ho
     return status;
 }
 
+static mw_status run_write_tiles(const call_inputs *in, const call_setting *how, uint64_t *sum,
+                                 mw_error *error)
+{
+    static const char *const names[] = {"overview.mwm", "tile-00000.mwm", "tile-00001.mwm",
+                                        "tiles.json"};
+    char folder[80], path[120];
+    mw_tile_options options = {.tiles = 2, .threads = how->threads, .progress = how->progress};
+    (void)sum;
+    snprintf(folder, sizeof folder, "%s.tiles", in->path);
+    mw_status status = mw_write_tiles(in->locator, folder, &options, error);
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        snprintf(path, sizeof path, "%s/%s", folder, names[i]);
+        expect(!status == (unlink(path) == 0), "there is a file of a tile");
+    }
+    expect(!status == (rmdir(folder) == 0), "there is a folder");
+    return status;
+}
+
 const long_call long_calls[] = {
     {"mw_delaunay", run_delaunay},
     {"mw_triangulate, Delaunay", run_kind_delaunay},
@@ -977,6 +1030,7 @@ const long_call long_calls[] = {
     {"mw_surface_check_arrays", run_surface_check},
     {"mw_star_check_arrays", run_star_check},
     {"mw_star_create", run_star},
+    {"mw_star_create, borrowed", run_star_borrowed},
     {"mw_star_index_create, grid", run_star_grid},
     {"mw_star_index_create, octahedron", run_star_octahedron},
     {"mw_star_locate_batch", run_star_batch},
@@ -988,10 +1042,12 @@ const long_call long_calls[] = {
     {"mw_probe_batch", run_probe_batch},
     {"mw_probe_any_batch", run_probe_any},
     {"mw_probe_all_batch", run_probe_all},
+    {"mw_nearest_on_surface_batch", run_nearest_batch},
     {"mw_read_mesh", run_read},
     {"mw_read_constraints", run_read_lines},
     {"mw_write_mesh", run_write},
     {"mw_write_mesh, two files", run_write_pair},
     {"mw_write_weights", run_write_weights},
+    {"mw_write_tiles", run_write_tiles},
 };
 const size_t long_call_count = sizeof long_calls / sizeof *long_calls;

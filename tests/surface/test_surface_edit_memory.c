@@ -25,6 +25,8 @@ typedef struct surface_call {
     mw_surface *surface;
     mw_surface_editor_options options;
     mw_surface_editor *made;
+    mw_star *star;
+    mw_prober *prober;
 } surface_call;
 
 typedef mw_status surface_job(surface_call *call, mw_error *error);
@@ -126,9 +128,59 @@ static void test_creation(void **state)
     shape_free(&s);
 }
 
+/* --- what follows --- */
+
+static mw_status attach_star_job(surface_call *call, mw_error *error)
+{
+    return mw_surface_editor_attach_star(call->made, call->star, error);
+}
+
+static mw_status attach_prober_job(surface_call *call, mw_error *error)
+{
+    return mw_surface_editor_attach_prober(call->made, call->prober, error);
+}
+
+/* A prober and a star are attached, up to date and not: a star that was up to date stays so, and in
+ * the end both follow. */
+static void test_attaching(void **state)
+{
+    (void)state;
+    uint64_t random = 6;
+    shape s = shape_ball(2, 20, 0.3, &random);
+    surface_call call = {.surface = shape_surface(&s, (mw_surface_options){0})};
+    mw_prober_options boxes = {.boxes = 1, .threads = 1};
+    mw_star_options angles = {.angles = 1, .threads = 1};
+    mw_star_cursor cursor = {0};
+    star_twin_counts counts = {0};
+    REQUIRE(mw_surface_editor_create(call.surface, NULL, &call.made, NULL) == MW_OK);
+    REQUIRE(mw_prober_create(call.surface, &boxes, &call.prober, NULL) == MW_OK);
+    REQUIRE(mw_star_create(call.surface, &angles, &call.star, NULL) == MW_OK);
+    for (int round = 0; round < 3; round++) {
+        long before = failures_seen;
+        REQUIRE(exhaust(attach_star_job, &call) == MW_OK);
+        REQUIRE(failures_seen - before >= 3);
+        before = failures_seen;
+        REQUIRE(exhaust(attach_prober_job, &call) == MW_OK);
+        REQUIRE(failures_seen - before >= (round == 1));
+        REQUIRE(mw_surface_edit_split_triangle(call.made, 3, NULL, NULL, NULL) == MW_OK);
+        star_twin_check(call.star, &cursor, 20, &counts, &random);
+        REQUIRE(mw_star_ready(call.star));
+        mw_surface_editor_detach_star(call.made, call.star);
+        mw_surface_editor_detach_prober(call.made, call.prober);
+        if (round == 0) /* out of date */
+            REQUIRE(mw_surface_edit_split_triangle(call.made, 5, NULL, NULL, NULL) == MW_OK);
+    }
+    mw_surface_editor_destroy(call.made);
+    mw_star_destroy(call.star);
+    mw_prober_destroy(call.prober);
+    mw_surface_destroy(call.surface);
+    shape_free(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_edits),
-                                       cmocka_unit_test(test_creation)};
+                                       cmocka_unit_test(test_creation),
+                                       cmocka_unit_test(test_attaching)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

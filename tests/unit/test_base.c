@@ -7,6 +7,7 @@
 
 #include "base/base.h"
 #include "base/hilbert.h"
+#include "base/team_sort.h"
 #include "base/job.h"
 #include "base/random.h"
 
@@ -72,13 +73,19 @@ static void test_sort(void **state)
     (void)state;
     uint64_t random = 1;
     for (uint32_t n = 0; n < 5000; n = n * 3 + 1) {
-        mw_key *key = malloc((2 * (size_t)n + 1) * sizeof *key);
+        mw_key *key = malloc((4 * (size_t)n + 1) * sizeof *key), *given = key + 2 * (size_t)n,
+               *again = key + 3 * (size_t)n;
         for (uint32_t i = 0; i < n; i++)
-            key[i] = (mw_key){(uint32_t)mw__random(&random) >> (n % 2 ? 0 : 24), i};
+            key[i] = given[i] = (mw_key){(uint32_t)mw__random(&random) >> (n % 2 ? 0 : 24), i};
         mw__sort_keys(key, key + n, n);
         for (uint32_t i = 1; i < n; i++)
             assert_true(key[i - 1].key < key[i].key ||
                         (key[i - 1].key == key[i].key && key[i - 1].item < key[i].item));
+        for (uint32_t team = 1; n > 0 && team < 6; team++) {
+            memcpy(again, given, n * sizeof *again);
+            mw__sort_keys_in_team(again, key + n, n, team);
+            assert_memory_equal(again, key, n * sizeof *key);
+        }
         free(key);
     }
 }

@@ -78,7 +78,7 @@ typedef struct mwp_mesh_options {
  * For n triangles and v vertices of a piece: O(n log n); messages of 24 bytes a vertex and 8 bytes
  * a triangle; about 100 bytes for each triangle at a vertex that several ranks share. Each rank
  * keeps the rim of the whole mesh: the triangles at its border and its holes, and triangles without
- * area, in about 250 bytes each.
+ * area, in 250 to 350 bytes each.
  */
 MW_API mw_status mwp_mesh_create(MPI_Comm comm, const mwp_piece *piece,
                                  const mwp_mesh_options *options, mwp_mesh **out, mwp_error *error);
@@ -171,7 +171,7 @@ typedef struct mwp_locate_options {
     /** Points outside the mesh, at most this far from it in mesh units, become MW_NEAR. At least
      * 0; the same on all ranks. */
     double tolerance;
-    /** The most queries of other ranks that a rank takes at a time; 0: 2^18. It bounds memory to 80
+    /** The most queries of other ranks that a rank takes at a time; 0: 2^18. It bounds memory to 64
      * bytes for each of them, whatever the other ranks ask. At least one query of each rank is
      * taken. */
     uint32_t budget;

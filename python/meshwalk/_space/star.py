@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import math
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -22,25 +23,39 @@ if TYPE_CHECKING:
 
 
 class StarInfo(NamedTuple):
-    """What a star keeps beside its surface: the answer of `Star.describe`."""
+    """What a star keeps beside its surface: the answer of `Star.describe`.
+
+    Attributes
+    ----------
+    bytes : int
+        All memory of the star, the surface not counted.
+    angle_bytes : int
+        Of it, spherical coordinates.
+    flat_facets : int
+        Facets without area.
+    centre : tuple[float, float, float]
+        Where the rays begin.
+    """
 
     bytes: int
-    """All memory of the star, the surface not counted."""
     angle_bytes: int
-    """Of it, spherical coordinates."""
     flat_facets: int
-    """Facets without area."""
     centre: tuple[float, float, float]
-    """Where the rays begin."""
 
 
 class Remeshed(NamedTuple):
-    """A polyhedron sampled anew: the answer of `Star.remesh`."""
+    """A polyhedron sampled anew: the answer of `Star.remesh`.
+
+    Attributes
+    ----------
+    surface : Surface
+        The new mesh, with the fields of the polyhedron.
+    hit : Locations
+        The facet and the weights of each new vertex, for other values.
+    """
 
     surface: Surface
-    """The new mesh, with the fields of the polyhedron."""
     hit: Locations
-    """The facet and the weights of each new vertex, for other values."""
 
 
 class Star(_core.Star):
@@ -52,6 +67,14 @@ class Star(_core.Star):
         A closed polyhedron, star-shaped about the centre: each ray meets it once.
     centre : array_like, shape (3,), optional
         Where the rays begin; the origin by default.
+    borrow : bool, optional
+        Keep nothing but the centre: walks follow the surface's own triangles. The answers are the
+        same, bit for bit, and take several times as long. It follows no `SurfaceEditor`: after
+        edits it answers again once `Surface.move` has been called, or at once if `unchecked`.
+    unchecked : bool, optional
+        With `borrow`: trust that the surface is star-shaped, now and after every change. Then
+        making the star takes no time, and moves need no check. If it is not, a facet that is
+        answered meets the ray, but may not be the lowest that does.
     threads : int, optional
         How many threads prepare the star; 0 lets the library choose. The star is the same.
     progress : callable, optional
@@ -79,9 +102,15 @@ class Star(_core.Star):
     array([0, 4], dtype=int32)
     >>> globe.locate([[45, 45], [-45, -45]], lonlat=True).triangle
     array([0, 7], dtype=int32)
+    >>> slim = meshwalk.Star(globe.surface, borrow=True)
+    >>> slim.locate([[1, 2, 3], [0, 0, -7]]).triangle
+    array([0, 4], dtype=int32)
+    >>> slim.describe().bytes < 500 < globe.describe().bytes
+    True
     """
 
-    __slots__ = ("__weakref__", "_centre")
+    __slots__ = ("__weakref__", "_borrows", "_centre")
+    _borrows: tuple[bool, bool]
     _centre: tuple[float, float, float]
     if TYPE_CHECKING:
         surface: Surface
@@ -91,6 +120,8 @@ class Star(_core.Star):
         surface: Surface,
         centre: ArrayLike = (0, 0, 0),
         *,
+        borrow: bool = False,
+        unchecked: bool = False,
         threads: int = 0,
         progress: Progress | None = None,
     ) -> Self:
@@ -102,12 +133,15 @@ class Star(_core.Star):
         x, y, z = (float(value) for value in place[0])
         with surface._lock:
             try:
-                star = _core.star_from_surface(cls, surface, x, y, z, threads, progress)
+                star = _core.star_from_surface(
+                    cls, surface, x, y, z, borrow, unchecked, threads, progress
+                )
             except InputError as error:
                 weld = surface._options[0]
                 found = check_star(surface.points, surface.triangles, (x, y, z), weld=weld)
                 error.defect = next((d for d in found.defects if d.kind != "flat triangle"), None)
                 raise
+            star._borrows = (borrow, unchecked)
             star._centre = (x, y, z)
             surface._keep(star)
         return star
@@ -286,7 +320,9 @@ class Star(_core.Star):
         return f"<Star of {self.surface!r} about {self._centre}>"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return type(self), (self.surface, self._centre)
+        borrow, unchecked = self._borrows
+        make = functools.partial(type(self), borrow=borrow, unchecked=unchecked)
+        return make, (self.surface, self._centre)
 
 
 def _ray_length(centre: tuple[float, float, float]) -> float:

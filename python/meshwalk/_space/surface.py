@@ -26,40 +26,66 @@ if TYPE_CHECKING:
 
 
 class SurfaceInfo(NamedTuple):
-    """What kind of surface it is: the answer of `Surface.describe`."""
+    """What kind of surface it is: the answer of `Surface.describe`.
+
+    Attributes
+    ----------
+    vertices : int
+        Number of vertices.
+    triangles : int
+        Number of triangles.
+    unused_vertices : int
+        Vertices of no triangle.
+    flat_triangles : int
+        Triangles without area.
+    clashing_edges : int
+        Inner edges whose two triangles are oriented differently.
+    pinched_vertices : int
+        Vertices in use where the triangles do not form one fan.
+    border_edges : int
+        Edges of one triangle only.
+    border_loops : int
+        Closed chains of border edges.
+    components : int
+        Pieces that share no vertex.
+    closed : bool
+        There are triangles, and no border edges.
+    oriented : bool
+        There are no clashing edges.
+    euler : int
+        Vertices in use - edges + triangles.
+    low : tuple[float, float, float]
+        Least coordinates of the vertices in use.
+    high : tuple[float, float, float]
+        Largest coordinates of the vertices in use.
+    area : float
+        Sum of the triangles' areas, rounded.
+    volume : float
+        Of a closed oriented surface: enclosed, positive if fronts face out; else NaN;
+        rounded.
+    """
 
     vertices: int
-    """Number of vertices."""
     triangles: int
-    """Number of triangles."""
     unused_vertices: int
-    """Vertices of no triangle."""
     flat_triangles: int
-    """Triangles without area."""
     clashing_edges: int
-    """Inner edges whose two triangles are oriented differently."""
     pinched_vertices: int
-    """Vertices in use where the triangles do not form one fan."""
     border_edges: int
-    """Edges of one triangle only."""
     border_loops: int
-    """Closed chains of border edges."""
     components: int
-    """Pieces that share no vertex."""
     closed: bool
-    """There are triangles, and no border edges."""
     oriented: bool
-    """There are no clashing edges."""
     euler: int
-    """Vertices in use - edges + triangles."""
     low: tuple[float, float, float]
-    """Least coordinates of the vertices in use."""
     high: tuple[float, float, float]
-    """Largest coordinates of the vertices in use."""
     area: float
-    """Sum of the triangles' areas, rounded."""
     volume: float
-    """Of a closed oriented surface: enclosed, positive if fronts face out; else NaN; rounded."""
+
+
+def follows_edits(follower: Any) -> bool:
+    """Whether it keeps something that can follow an editor: a borrowed star does not."""
+    return not getattr(follower, "_borrows", (False, False))[0]
 
 
 class Surface(_core.Surface):
@@ -298,7 +324,7 @@ class Surface(_core.Surface):
         """What was made beside the surface is to be brought up to date with it."""
         self._kept.add(follower)
         editor = None if self._editor is None else self._editor()
-        if editor is not None:
+        if editor is not None and follows_edits(follower):
             editor._attach(follower)
 
     def check(self) -> Check:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from meshwalk import _arrays, _core
-from meshwalk._space.surface import Surface
+from meshwalk._space.surface import Surface, follows_edits
 
 if TYPE_CHECKING:
     from typing import Self
@@ -116,26 +116,39 @@ class SurfaceChange:
 
 
 class SurfaceEditorInfo(NamedTuple):
-    """What is there, and what it takes: the answer of `SurfaceEditor.describe`."""
+    """What is there, and what it takes: the answer of `SurfaceEditor.describe`.
+
+    Attributes
+    ----------
+    vertices : int
+        Vertices that are there.
+    triangles : int
+        Triangles that are there.
+    vertex_range : int
+        All numbers of vertices are below this.
+    triangle_range : int
+        All numbers of triangles are below this.
+    border_edges : int
+        Edges of one triangle.
+    undoable : int
+        Edits that can be undone.
+    bytes : int
+        Memory of the editor, with the room in the surface that edits will use.
+    undo_bytes : int
+        Of it, for undo.
+    edits : int
+        Edits carried out, those undone too.
+    """
 
     vertices: int
-    """Vertices that are there."""
     triangles: int
-    """Triangles that are there."""
     vertex_range: int
-    """All numbers of vertices are below this."""
     triangle_range: int
-    """All numbers of triangles are below this."""
     border_edges: int
-    """Edges of one triangle."""
     undoable: int
-    """Edits that can be undone."""
     bytes: int
-    """Memory of the editor, with the room in the surface that edits will use."""
     undo_bytes: int
-    """Of it, for undo."""
     edits: int
-    """Edits carried out, those undone too."""
 
 
 class SurfaceEditor(_core.SurfaceEditor):
@@ -207,7 +220,8 @@ class SurfaceEditor(_core.SurfaceEditor):
                 cls, surface, 2**64 - 1 if undo == -1 else undo
             )
             for follower in surface._kept:
-                editor._attach(follower)
+                if follows_edits(follower):
+                    editor._attach(follower)
             surface._editor = weakref.ref(editor)
         return editor
 

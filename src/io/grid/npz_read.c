@@ -149,7 +149,7 @@ static bool npy_read_type(npz_array *a, const char *descr)
     char size = known ? descr[1] : 0;
     a->type.size = (size_t)(size - '0');
     return known && descr[2] == '\'' &&
-           (size == '8' || size == '4' || (*descr != 'f' && (size == '1' || size == '2')));
+           (size == '8' || size == '4' || size == '2' || (*descr != 'f' && size == '1'));
 }
 
 /* (rows,) or (rows, columns) */

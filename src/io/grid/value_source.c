@@ -4,6 +4,7 @@
 #include "io/text/number_text.h"
 
 #include <inttypes.h>
+#include <math.h>
 
 mw_status mw__value_word(mw_value_source *values, char **word, mw_error *error)
 {
@@ -59,11 +60,23 @@ static int64_t value_sign_extend(uint64_t bits, size_t size)
     return (int64_t)(bits << shift) >> shift;
 }
 
+/* A number of 16 bits, as IEEE 754 has them. */
+static double value_of_half(unsigned bits)
+{
+    const int exponent = bits >> 10 & 31;
+    const double fraction = bits & 1023;
+    const double size = exponent == 0    ? ldexp(fraction, -24)
+                        : exponent == 31 ? (fraction == 0 ? INFINITY : NAN)
+                                         : ldexp(1024 + fraction, exponent - 25);
+    return bits >> 15 ? -size : size;
+}
+
 double mw__value_of_bytes(const unsigned char *bytes, mw_number_type type, bool big)
 {
     uint64_t bits = mw__get_bytes(bytes, type.size, big);
     if (type.kind == MW_NUMBER_UNSIGNED) return (double)bits;
     if (type.kind == MW_NUMBER_SIGNED) return (double)value_sign_extend(bits, type.size);
+    if (type.size == 2) return value_of_half((unsigned)bits);
     return type.size == 4 ? (double)mw__float_of_bits((uint32_t)bits) : mw__double_of_bits(bits);
 }
 

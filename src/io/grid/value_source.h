@@ -18,7 +18,7 @@ typedef enum mw_number_kind {
 } mw_number_kind;
 typedef struct mw_number_type {
     mw_number_kind kind;
-    size_t size; /* in bytes: 1, 2, 4 or 8 */
+    size_t size; /* in bytes: 1, 2, 4 or 8; of a float at least 2 */
 } mw_number_type;
 
 /* The next word, ended by NUL, which is good until the next call; NULL at the end of the input. */

@@ -66,12 +66,18 @@ mw_status mw__netcdf_open_source(mw_source *source, mw_netcdf **out, void **memo
 
 mw_status mw__netcdf_open_path(const char *path, mw_netcdf **out, void **memory, mw_error *error)
 {
+    enum { HEAD = 8 };
     mw_source source;
+    const char *head;
+    size_t size;
     *out = NULL;
     *memory = NULL;
     mw_status status = mw__source_open(&source, path, error);
     if (status) return status;
-    status = mw__netcdf_open_source(&source, out, memory, error);
+    status = mw__source_peek(&source, HEAD, &head, &size, error);
+    if (!status && !mw__netcdf_begins(head, size))
+        status = mw__fail(error, MW_ERROR_INPUT, "%.240s: this is not a netCDF file", path);
+    if (!status) status = mw__netcdf_open_source(&source, out, memory, error);
     mw__source_close(&source);
     return status;
 }

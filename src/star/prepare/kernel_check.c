@@ -4,6 +4,7 @@
 
 #include "topology/coincident.h"
 
+#include <stdatomic.h>
 #include <stdlib.h>
 
 /* The kinds of facets. */
@@ -313,6 +314,66 @@ static bool kernel_check_run(kernel_check *s)
     if (s->defects->count > before) return true;
     mw__facets_turn(s->star, s->turned);
     return kernel_look_along_ray(s);
+}
+
+/* --- without memory --- */
+
+/* Where each facet that does not vanish faces the centre or turns its back, it can be turned so
+ * that the centre lies behind it; and neighbours then agree if they agree now or face it unlike. So
+ * each facet can be asked by itself, in any order. */
+typedef struct kernel_glance {
+    const mw_star *star;
+    atomic_bool unsure;
+    atomic_uint_fast32_t areas, met;
+} kernel_glance;
+
+/* Does the neighbour at edge k, once both are turned outwards, agree? */
+static bool glance_edge_agrees(const mw_star *star, uint32_t t, uint32_t k, uint8_t facing)
+{
+    const mw_surface *surface = star->surface;
+    uint32_t link = surface->tri[t].link[k];
+    if (link == MW_NONE) return false;
+    if (mw__link_triangle(link) < t) return true; /* it asks */
+    uint8_t other = facet_facing(star, &surface->tri[mw__link_triangle(link)]);
+    return (other == facing) == mw__surface_orientations_agree(surface, t, k);
+}
+
+static bool glance_ray_meets(const mw_star *star, const uint32_t v[3], uint8_t facing)
+{
+    const uint32_t turned[3] = {v[0], v[2], v[1]};
+    return mw__star_ray_meets(star, facing == FRONT ? v : turned);
+}
+
+/* By any thread. */
+static void glance_range(void *work, uint64_t from, uint64_t to)
+{
+    kernel_glance *g = work;
+    uint32_t areas = 0, met = 0;
+    for (uint32_t t = (uint32_t)from; t < to; t++) {
+        const mw_triangle *facet = &g->star->surface->tri[t];
+        uint8_t facing = facet_facing(g->star, facet);
+        bool sure = facing != LEVEL && mw__star_corners_hold(g->star, facet->v);
+        for (uint32_t k = 0; k < 3 && sure && facing != VOID; k++)
+            sure = glance_edge_agrees(g->star, t, k, facing);
+        if (!sure) {
+            atomic_store_explicit(&g->unsure, true, memory_order_relaxed);
+            return;
+        }
+        if (facing == VOID) continue;
+        areas++;
+        met += glance_ray_meets(g->star, facet->v, facing);
+    }
+    atomic_fetch_add_explicit(&g->areas, areas, memory_order_relaxed);
+    atomic_fetch_add_explicit(&g->met, met, memory_order_relaxed);
+}
+
+bool mw__star_kernel_holds(mw_star *star, mw_job *job)
+{
+    kernel_glance g = {.star = star};
+    mw__job_stage(job, "looking at facets", 1);
+    if (!mw__job_ranges(job, star->tri_count, glance_range, &g)) return false;
+    star->area_count = (uint32_t)g.areas;
+    return !g.unsure && g.met == 1;
 }
 
 bool mw__star_kernel_check(mw_star *star, mw_job *job, mw_defects *defects)

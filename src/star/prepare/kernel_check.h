@@ -32,4 +32,9 @@ void mw__facets_turn(mw_star *star, const int8_t *turned);
  * the present part of the job. Returns false when out of memory, or cancelled. */
 bool mw__star_kernel_check(mw_star *star, mw_job *job, mw_defects *defects);
 
+/* Decide the same without memory, for a surface that has no flat facets but void ones: true, with
+ * star->area_count set. False: it is not star-shaped, or has flat facets, or the job is to stop.
+ * Nothing is oriented. A stage that takes the present part of the job. */
+bool mw__star_kernel_holds(mw_star *star, mw_job *job);
+
 #endif

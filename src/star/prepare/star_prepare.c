@@ -51,7 +51,7 @@ static void star_omit_voids(mw_star *star)
         if (mw__star_is_void(&star->tri[t])) star->tri[t].user |= MW_STAR_OMITTED;
 }
 
-static double star_measure_reach(const mw_star *star)
+double mw__star_measure_reach(const mw_star *star)
 {
     double reach = 0;
     for (uint32_t v = 0; v < star->point_count; v++)
@@ -86,7 +86,7 @@ static bool star_store(mw_star *star, mw_job *job)
     bool done = mw__star_lay_out(star, job);
     mw__job_part_end(job, outer);
     if (!done) return false;
-    star->reach = star_measure_reach(star);
+    star->reach = mw__star_measure_reach(star);
     if (star->angle) mw__star_fill_angles(star);
     mw__star_hubs_release(&star->hubs);
     return mw__star_hubs_create(&star->hubs, star);
@@ -118,9 +118,30 @@ static void star_finish(mw_star *star)
     star->ready = true;
 }
 
+/* A borrowed star stores nothing. Only if there are flat facets, or defects to be named, its check
+ * takes memory. */
+static mw_status star_prepare_borrowed(mw_star *star, mw_job *job, mw_error *error)
+{
+    mw_status status = MW_OK;
+    mw_job_span outer = mw__job_part(job, 0.5);
+    star->has_flat = !star->unchecked && !mw__star_kernel_holds(star, job);
+    mw__job_part_end(job, outer);
+    if (star->has_flat) {
+        star->tri = mw__alloc(star->tri_count, sizeof *star->tri);
+        status = star->tri ? star_decide(star, job, error) : mw__fail_memory(error);
+        free(star->tri);
+        star->tri = NULL;
+    }
+    star->version = star->surface->version;
+    star->shape = star->surface->shape;
+    star->ready = status == MW_OK;
+    return status;
+}
+
 mw_status mw__star_prepare(mw_star *star, mw_job *job, mw_error *error)
 {
     star->ready = false;
+    if (star->borrowed) return star_prepare_borrowed(star, job, error);
     star->tri = mw__alloc(star->tri_count, sizeof *star->tri);
     mw_status status = star->tri ? star_decide(star, job, error) : mw__fail_memory(error);
     if (!status && !star_store_sound(star, job)) status = mw__fail_memory(error);
@@ -186,6 +207,8 @@ void mw__star_release_arrays(mw_star *star)
     free(star->owner);
     free(star->guide);
     free(star->angle);
+    free(star->curve);
+    star->curve = NULL;
     star->facet = NULL;
     star->owner = star->guide = NULL;
     star->angle = NULL;
@@ -204,6 +227,9 @@ void mw__star_take_counts(mw_star *star)
 bool mw__star_allocate(mw_star *star, bool angles)
 {
     mw__star_take_counts(star);
+    if (star->borrowed) return true;
+    star->curve = mw__alloc(1, sizeof *star->curve);
+    if (star->curve) *star->curve = mw__star_curve();
     star->tri_room = star->tri_count;
     star->point_room = star->point_count;
     star->facet = mw__alloc_lines(star->tri_count, sizeof *star->facet);
@@ -211,5 +237,5 @@ bool mw__star_allocate(mw_star *star, bool angles)
     star->guide_bits = mw__star_guide_bits(star->tri_count);
     star->guide = mw__alloc((size_t)1 << star->guide_bits, sizeof *star->guide);
     if (angles) star->angle = mw__alloc_lines(star->point_count, 2 * sizeof *star->angle);
-    return star->facet && star->owner && star->guide && (star->angle || !angles);
+    return star->curve && star->facet && star->owner && star->guide && (star->angle || !angles);
 }

@@ -1,5 +1,6 @@
 /* star_batch.c - many queries. A thread interleaves many walks of its chunk. */
 #include "batch/batch.h"
+#include "base/team_sort.h"
 #include "base/random.h"
 #include "star/query/star_locate.h"
 #include "star/star_location.h"
@@ -133,7 +134,7 @@ static mw_counters star_batch_answer(const mw_batch *queries, uint32_t first, ui
     const star_batch *b = (const star_batch *)queries; /* its first member */
     mw_counters counters = {0};
     uint32_t parts = count / LEAST_PART < MW_STAR_LANES ? count / LEAST_PART : MW_STAR_LANES;
-    if (parts > 1 && !b->cursor.count && !b->star->surface->rwlock) {
+    if (parts > 1 && !b->cursor.count && !b->star->surface->rwlock && !b->star->borrowed) {
         star_batch_interleaved(b, first, count, parts);
         return counters;
     }
@@ -146,17 +147,40 @@ static mw_counters star_batch_answer(const mw_batch *queries, uint32_t first, ui
 
 /* --- order --- */
 
-/* Sort queries along a Hilbert curve over the sphere, the same as that of the facets. */
-static void star_batch_sort(const mw_batch *queries, size_t n, mw_key *keys, mw_key *scratch)
+typedef struct star_batch_keys {
+    const mw_batch *queries;
+    mw_key *keys;
+    const mw_hilbert *curve;
+} star_batch_keys;
+
+/* By any thread. */
+static void star_batch_make_keys(void *work, uint64_t from, uint64_t to)
 {
-    const mw_star *star = ((const star_batch *)queries)->star;
-    for (size_t i = 0; i < n; i++) {
+    const star_batch_keys *b = work;
+    const mw_batch *queries = b->queries;
+    const mw_star *star = ((const star_batch *)queries)->star; /* its first member */
+    for (uint64_t i = from; i < to; i++) {
         double d[3];
         for (int k = 0; k < 3; k++)
             d[k] = queries->points[i * queries->stride + (size_t)k] / 2 - star->centre[k] / 2;
-        keys[i] = (mw_key){mw__star_curve_key(star, d), (uint32_t)i};
+        b->keys[i] = (mw_key){mw__star_curve_key(b->curve, d), (uint32_t)i};
     }
-    mw__sort_keys(keys, scratch, n);
+}
+
+/* Sort queries along a Hilbert curve over the sphere, the same as that of the facets. Where the job
+ * is to stop, keys may be missing: nothing is answered any more. */
+static void star_batch_sort(const mw_batch *queries, size_t n, mw_key *keys, mw_key *scratch,
+                            mw_job *job)
+{
+    const mw_star *star = ((const star_batch *)queries)->star;
+    mw_hilbert own;
+    star_batch_keys work = {queries, keys, star->curve};
+    if (!star->curve) { /* borrowed */
+        own = mw__star_curve();
+        work.curve = &own;
+    }
+    if (mw__job_ranges(job, n, star_batch_make_keys, &work))
+        mw__sort_keys_in_team(keys, scratch, n, mw__job_team(job, n >> MW_TEAM_SORT_BITS));
 }
 
 mw_status mw__star_answer_rays(const mw_star *star, const mw_star_rays *rays, mw_job *job,

@@ -2,6 +2,7 @@
  * lowest-numbered of the facets that the ray meets is the answer (lowest_facet). */
 #include "star/query/star_locate.h"
 
+#include "star/borrow/star_borrowed.h"
 #include "star/star_hubs.h"
 #include "star/star_location.h"
 #include "star/star_walk_run.h"
@@ -143,11 +144,41 @@ void mw__star_query_end(const mw_star_cursor *cursor, mw_star_walk *walk, mw_sta
     star_settle(walk->star, walk->t, walk->q, location);
 }
 
+/* May the library choose how to go, with nobody watching? */
+static bool star_query_may_glide(const mw_star_cursor *cursor, const mw_star_trace *trace)
+{
+    return cursor->walk == MW_STAR_WALK_AUTO && !cursor->count && !trace &&
+           (cursor->start == MW_STAR_START_AUTO || cursor->start == MW_STAR_START_LAST);
+}
+
+static mw_location star_answer_borrowed(const mw_star *star, const mw_star_cursor *cursor,
+                                        const double point[3], uint32_t *last, uint64_t *random,
+                                        mw_counters *counters, mw_star_trace *trace)
+{
+    mw_star_work work;
+    bool scanned;
+    mw_location location =
+        mw__star_borrowed_answer(star, cursor, point, last, random, &work, &scanned, trace);
+    if (cursor->count) star_count(counters, &work, scanned);
+    return location;
+}
+
 mw_location mw__star_query_answer(const mw_star *star, const mw_star_cursor *cursor,
                                   const double point[3], uint32_t *last, uint64_t *random,
                                   mw_counters *counters, mw_star_trace *trace)
 {
     if (MW_UNLIKELY(!mw__star_answerable(star, point))) return mw__star_location_none();
+    if (star->borrowed)
+        return star_answer_borrowed(star, cursor, point, last, random, counters, trace);
+    mw_location location;
+    if (MW_LIKELY(star_query_may_glide(cursor, trace))) {
+        uint32_t t = mw__star_glide(star, cursor->start == MW_STAR_START_AUTO, point, *last);
+        if (MW_LIKELY(t != MW_NONE)) {
+            star_settle(star, t, point, &location);
+            *last = t;
+            return location;
+        }
+    }
     mw_star_work work = {0};
     mw_star_walk walk;
     mw__star_query_begin(&walk, star, cursor, point, *last, *random,
@@ -157,7 +188,6 @@ mw_location mw__star_query_answer(const mw_star *star, const mw_star_cursor *cur
     if (MW_UNLIKELY(verdict == MW_STAR_DRY) && star_query_minds_hubs(star, cursor))
         verdict = star_query_walk_on(&walk, trace);
     bool handed_over = mw__star_walk_go_on(&walk, verdict, kernels[cursor->finish], trace);
-    mw_location location;
     star_settle(star, walk.t, point, &location);
     if (cursor->count) star_count(counters, &work, handed_over);
     *last = walk.t;

@@ -12,6 +12,13 @@ bool mw__star_answerable(const mw_star *star, const double q[3]);
 void mw__star_meeting(const mw_star *star, const mw_location *location, const double q[3],
                       double meeting[3]);
 
+/* --- star_glide.c --- */
+
+/* The facet that the ray from the centre through q meets, if it is a few steps from where the query
+ * before ended (`last`, or MW_NONE), or where the guide leads (`guided`), and floats are sure of
+ * all sides on the way. MW_NONE: a walk has to find it. */
+uint32_t mw__star_glide(const mw_star *star, bool guided, const double q[3], uint32_t last);
+
 /* --- a query in two halves, for several interleaved walks --- */
 
 /* Start the walk of a query that can be answered, by the cursor's start. `last`: where the previous

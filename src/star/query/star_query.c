@@ -4,6 +4,22 @@
 #include "star/star_index.h"
 #include "star/query/star_locate.h"
 
+/* What a borrowed star can do. */
+static mw_status star_check_borrowed(const mw_star *star, const mw_star_query_options *options,
+                                     mw_error *error)
+{
+    if (!star->borrowed) return MW_OK;
+    if (options->walk != MW_STAR_WALK_AUTO && options->walk != MW_STAR_WALK_STOCHASTIC)
+        return mw__fail(error, MW_ERROR_ARGUMENT,
+                        "the walk on a borrowed star is stochastic, not %s",
+                        mw_star_walk_name(options->walk));
+    if (options->index || mw_star_start_has_index(options->start) ||
+        options->start == MW_STAR_START_FRONT)
+        return mw__fail(error, MW_ERROR_ARGUMENT,
+                        "the starts on a borrowed star are sample, last, sorted and random");
+    return MW_OK;
+}
+
 mw_status mw_star_cursor_init(const mw_star *star, const mw_star_query_options *options,
                               mw_star_cursor *cursor, mw_error *error)
 {
@@ -16,6 +32,8 @@ mw_status mw_star_cursor_init(const mw_star *star, const mw_star_query_options *
         return mw__fail(error, MW_ERROR_ARGUMENT, "unknown walk");
     if ((unsigned)start >= MW_STAR_START_COUNT)
         return mw__fail(error, MW_ERROR_ARGUMENT, "unknown start");
+    mw_status status = star_check_borrowed(star, options, error);
+    if (status) return status;
     if (options->finish && options->finish != MW_STAR_WALK_STOCHASTIC &&
         options->finish != MW_STAR_WALK_FORGETFUL)
         return mw__fail(error, MW_ERROR_ARGUMENT, "finish must be stochastic or forgetful");
@@ -27,7 +45,7 @@ mw_status mw_star_cursor_init(const mw_star *star, const mw_star_query_options *
                         mw_star_start_name(start));
     if (options->index && mw__star_index_start(options->index) != start)
         return mw__fail(error, MW_ERROR_ARGUMENT, "the index is one of another start");
-    mw_status status = MW_RESERVED_CHECK(mw_star_query_options, options, error);
+    status = MW_RESERVED_CHECK(mw_star_query_options, options, error);
     if (status) return status;
     *cursor = (mw_star_cursor){
         .index = options->index,
