@@ -138,8 +138,8 @@ static MW_INLINE const float *mw__beam_sides(const mw_bvh_node *node, uint32_t o
 }
 
 /* Test the children of a node against the beam. Returns those that it meets, as bits. No point of
- * the line in child i is nearer than near[i], in t, to the point that distances count from. Children
- * that are triangles, or none, are bits of *triangles. */
+ * the line in child i is nearer than near[i], in t, to the point that distances count from.
+ * Children that are triangles, or none, are bits of *triangles. */
 typedef uint32_t mw_beam_meets(const mw_bvh_beam *beam, const mw_bvh_node *node,
                                float near[MW_BVH_WIDTH], uint32_t *triangles);
 
