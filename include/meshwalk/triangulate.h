@@ -174,7 +174,8 @@ typedef struct mw_constraints {
      * segment given twice counts twice. */
     const uint32_t *polygon;
     /** x, y of a point in each region to remove, packed. A point outside removes nothing, and is
-     * counted in mw_constrain_report.idle_holes; a point on a constraint removes the regions on all its sides. */
+     * counted in mw_constrain_report.idle_holes; a point on a constraint removes the regions on all
+     * its sides. */
     const double *hole_seeds;
     size_t hole_seed_count;
 } mw_constraints;

@@ -197,8 +197,8 @@ static PyObject *triangulation_raise(core_state *state, const mw_error *error,
     return NULL;
 }
 
-/* (mesh, number of duplicates, edges, segment of each edge, holes that removed nothing, the first of
- * them) */
+/* (mesh, number of duplicates, edges, segment of each edge, holes that removed nothing, the first
+ * of them) */
 static PyObject *triangulation_constrained_result(core_state *state, PyObject *class, mw_mesh *mesh,
                                                   const mw_constrain_report *report,
                                                   mw_constrained_edges *edges)

@@ -170,8 +170,10 @@ def _fill(
     from matplotlib.collections import PolyCollection
 
     if len(triangles):
-        style = {"facecolor": colour, "alpha": opacity, "linewidth": 0}
-        ax.add_collection(PolyCollection(triangles, label=label, **style))
+        filled = PolyCollection(
+            list(triangles), label=label, facecolor=colour, alpha=opacity, linewidth=0
+        )
+        ax.add_collection(filled)
 
 
 def _sharing(

@@ -183,7 +183,7 @@ static void flood_remove_round(flood *f, uint32_t first)
     }
 }
 
-/* Remove all triangles that q touches, of which t is one. True if q is on a segment, or a vertex. */
+/* Remove all triangles that q touches, of which t is one. True if q is on a segment or a vertex. */
 static bool flood_remove_touched(flood *f, uint32_t t, mw_point q)
 {
     bool on[3], bounded = false;
