@@ -128,6 +128,8 @@ static void query_look(const mwp_locating *l, size_t i, mwp_block *w)
         w->own[w->own_count++] = place;
     else if (here)
         w->shared[w->shared_count++] = place;
+    else /* until an answer comes */
+        l->locations[i].triangle = -1, l->locations[i].where = MW_OUTSIDE;
 }
 
 /* The other ranks that may have the triangle of query i, in w->ranks; none if its answer is
@@ -182,9 +184,11 @@ static mw_status block_sort(const mwp_locating *l, mwp_error *error)
     for (size_t i = l->begin; i < l->end; i++) {
         const double *p = query_point(l, i);
         const bool finite = isfinite(p[0]) && isfinite(p[1]);
-        l->locations[i] = location_nowhere(finite ? MW_OUTSIDE : MW_BAD);
         w->rank[i - l->begin] = NOBODY;
-        if (finite) query_look(l, i, w);
+        if (finite)
+            query_look(l, i, w);
+        else
+            l->locations[i] = location_nowhere(MW_BAD);
     }
     for (size_t k = 0; k < w->shared_count && !status; k += w->room) {
         const size_t left = w->shared_count - k;

@@ -70,7 +70,6 @@ typedef struct mwp_talk {
     bool idle;                       /* nothing is left to do in this block while waiting */
     bool broken;                     /* MPI failed */
     void *asked, *to_send, *to_take; /* questions of others, answers to them, answers to ours */
-    void *ours;                      /* questions of this round */
     size_t asked_room, take_room;
     mw_status status; /* of this rank */
     mwp_error error;
