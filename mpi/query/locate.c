@@ -197,6 +197,15 @@ static mw_status block_sort(const mwp_locating *l, mwp_error *error)
     return status;
 }
 
+static bool asked_make_room(mwp_locating *l, size_t n)
+{
+    if (l->asked && n <= l->asked_room) return true;
+    free(l->asked);
+    l->asked = mwp__alloc(n, sizeof *l->asked);
+    l->asked_room = l->asked ? n : 0;
+    return l->asked;
+}
+
 static mw_status block_pack(mwp_locating *l, mwp_parcels *questions, mwp_error *error)
 {
     const mwp_block *w = l->block;
@@ -204,7 +213,7 @@ static mw_status block_pack(mwp_locating *l, mwp_parcels *questions, mwp_error *
     for (size_t i = l->begin; i < l->end; i++)
         for (int k = query_ranks(l, i, w) - 1; k >= 0; k--) w->count[w->ranks[k]]++;
     if (!mwp__parcels_create(questions, &l->mesh->wire, sizeof(question), w->count) ||
-        !(l->asked = mwp__alloc(questions->total, sizeof *l->asked)))
+        !asked_make_room(l, questions->total))
         return mwp__fail_memory(error);
     for (size_t i = l->begin; i < l->end; i++)
         for (int k = query_ranks(l, i, w) - 1; k >= 0; k--) {
@@ -230,8 +239,6 @@ static mw_status locate_load(void *self, mwp_parcels *questions, bool *more, mwp
     l->end = l->n - l->begin > BLOCK ? l->begin + BLOCK : l->n;
     l->next = l->end;
     *more = l->next < l->n;
-    free(l->asked);
-    l->asked = NULL;
     if (!l->block) { /* the first is the largest */
         const size_t most = l->end - l->begin;
         l->block = block_create(l->mesh, most, locating_room(l->options.threads, most));

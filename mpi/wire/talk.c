@@ -80,7 +80,6 @@ static size_t block_left(const mwp_talk *t)
 static void block_load(mwp_talk *t)
 {
     mwp_error error;
-    mwp__parcels_release(&t->block);
     memset(t->tables->next, 0, (size_t)t->wire->size * sizeof *t->tables->next);
     t->more = false;
     t->idle = !t->about->meanwhile;

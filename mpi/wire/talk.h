@@ -13,8 +13,9 @@
 
 /* What the talk is about. `self` is the user's. Functions that return a status describe the failure
  * in `error`, which is never NULL.
- *   load    Make the questions of the next block, of `question` bytes each, as parcels that the
- *           talk releases. *more: there is a block after this one.
+ *   load    Make the questions of the next block, of `question` bytes each, as parcels, which are
+ *           those of the block before; the talk releases them. *more: there is a block after this
+ *           one.
  *   answer  Answer n questions of other ranks: write at most one answer for each, in order, each of
  *           which begins with the uint32_t number of its question, from 0. Returns how many there
  *           are through *count.
