@@ -2,6 +2,7 @@
  * points, short ones of about ten triangles, and ones across half of the square. One row for each
  * size, length and way: a batch on one thread, a batch on all, one segment after the other. */
 #include "bench/segments/bench_segments.h"
+#include "bench/core/processor_clock.h"
 #include "bench/core/rounds.h"
 #include "bench/core/word_list.h"
 #include "bench/data/dataset.h"
@@ -71,34 +72,37 @@ static mw_status segments_follow_batch(segments_run *r, uint32_t threads, mw_err
     return status;
 }
 
-/* Figure 0: seconds. */
+/* Figures: seconds by the clock, and of the processor. */
 static int segments_time(void *self, size_t way, size_t round, double *figures)
 {
     segments_run *r = self;
     mw_error error;
     (void)round;
-    double begin = monotonic_seconds();
+    double begin = monotonic_seconds(), processor = processor_seconds();
     mw_status status = way == ALONE ? segments_follow_alone(r, &error)
                                     : segments_follow_batch(r, way == ONE_THREAD ? 1 : 0, &error);
     figures[0] = monotonic_seconds() - begin;
+    figures[1] = processor_seconds() - processor;
     return status == MW_OK ? 0 : fail_query(&error);
 }
 
 static void segments_print_row(segments_run *r, size_t vertices, const char *length,
-                               const char *way, double seconds)
+                               const char *way, double seconds, double processor)
 {
     bool tsv = r->settings->format == FORMAT_TSV;
     double each = (double)r->pieces / (double)r->count, ns = 1e9 * seconds / (double)r->count;
     text_printf(&r->table,
-                tsv ? "%zu\t%s\t%s\t%.4g\t%.4g\t%.4g\n" : "%9zu %-8s %-8s %12.4g %12.4g %12.4g\n",
-                vertices, length, way, each, ns, ns / each);
+                tsv ? "%zu\t%s\t%s\t%.4g\t%.4g\t%.4g\t%.4g\n"
+                    : "%9zu %-8s %-8s %12.4g %12.4g %12.4g %12.4g\n",
+                vertices, length, way, each, ns, ns / each,
+                1e9 * processor / (double)r->count / each);
 }
 
 static int segments_measure_length(segments_run *r, size_t vertices, bool are_long)
 {
     const bench_settings *s = r->settings;
     rounds_plan plan = {
-        .entries = WAYS, .figures = 1, .warmups = 1, .rounds = s->rounds ? s->rounds : ROUNDS};
+        .entries = WAYS, .figures = 2, .warmups = 1, .rounds = s->rounds ? s->rounds : ROUNDS};
     rounds_results results = {0};
     size_t all = s->queries ? s->queries : SEGMENTS;
     r->count = are_long ? all / 100 + 1 : all;
@@ -108,7 +112,7 @@ static int segments_measure_length(segments_run *r, size_t vertices, bool are_lo
     int end = rounds_measure(&plan, segments_time, r, &results);
     for (size_t way = 0; way < WAYS && end == 0; way++)
         segments_print_row(r, vertices, lengths[are_long], ways[way],
-                           rounds_minimum(&results, way, 0));
+                           rounds_minimum(&results, way, 0), rounds_minimum(&results, way, 1));
     rounds_release(&results);
     free(r->ends);
     return end;
@@ -154,9 +158,9 @@ int bench_segments(const bench_settings *s, const char *table)
     if (end == 0 && s->sizes) end = word_list_sizes(s->sizes, &sizes);
     if (end == 0) end = files_try_output(s->common.output, NULL);
     text_string(&r.table, s->format == FORMAT_TSV
-                              ? "vertices\tlength\tway\ttriangles\tns\tns_triangle\n"
+                              ? "vertices\tlength\tway\ttriangles\tns\tns_triangle\tprocessor\n"
                               : " vertices length   way         triangles           ns  "
-                                "ns_triangle\n");
+                                "ns_triangle    processor\n");
     for (size_t i = 0; i < sizes.count && end == 0; i++)
         end = segments_measure_size(&r, sizes.size[i] < FEWEST_VERTICES ? FEWEST_VERTICES
                                                                         : sizes.size[i]);

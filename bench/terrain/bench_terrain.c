@@ -6,6 +6,7 @@
  *             has triangles
  * One row for each way; the first way of a task is what its others are compared with. */
 #include "bench/terrain/bench_terrain.h"
+#include "bench/core/processor_clock.h"
 #include "bench/core/rounds.h"
 #include "bench/core/word_list.h"
 #include "bench/terrain/terrain_files.h"

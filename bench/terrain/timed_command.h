@@ -9,9 +9,6 @@ typedef struct command_time {
     double processor; /* of the processor: the program's own, and the system's for it */
 } command_time;
 
-/* Seconds of the processor that this process has used. */
-double processor_seconds(void);
-
 /* Is a program in the path? */
 bool command_is_there(const char *program);
 

@@ -66,7 +66,9 @@ static const option raster_options[] = {
      "and field; --field is a list then (default: all fields over time)",
      NULL},
     {"values", 0, OPTION_TEXT, offsetof(raster_settings, values), "FILE",
-     "the file with the values over time (default: MESH)", NULL},
+     "the file with the values over time, or several with commas between them, each with later "
+     "times than the one before (default: MESH)",
+     NULL},
     {"mean", 0, OPTION_FLAG, offsetof(raster_settings, mean), NULL,
      "the mean over the part of each pixel that MESH covers, by area, instead of the value at its "
      "centre",

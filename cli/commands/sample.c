@@ -82,7 +82,9 @@ static const option sample_options[] = {
      "and point, with the column time; --field is a list then (default: all fields over time)",
      NULL},
     {"values", 0, OPTION_TEXT, offsetof(sample_settings, series.values), "FILE",
-     "the file with the values over time (default: MESH)", NULL},
+     "the file with the values over time, or several with commas between them, each with later "
+     "times than the one before (default: MESH)",
+     NULL},
     {"time-column", 0, OPTION_TEXT, offsetof(sample_settings, series.time_column), "NAME",
      "the column of POINTS with the time of each: its value is interpolated between steps", NULL},
     {"wide", 0, OPTION_FLAG, offsetof(sample_settings, series.wide), NULL,

@@ -1,6 +1,5 @@
 #include "cli/frame/monotonic_clock.h"
 #include "src/base/posix.h"
-#include "src/base/posix.h"
 
 double monotonic_seconds(void)
 {

@@ -1,4 +1,5 @@
 #include "cli/gdal/gdal_directory.h"
+#include "cli/frame/files.h"
 #include "cli/frame/message.h"
 #include "cli/frame/signals.h"
 #include "src/base/posix.h"
@@ -8,6 +9,14 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+int gdal_directory_check(const char *path)
+{
+    struct stat info;
+    if (stat(path, &info) != 0 || S_ISREG(info.st_mode)) return files_try_output(path, NULL);
+    complain("%s: is not a regular file, which GDAL needs", path);
+    return END_RESOURCE;
+}
 
 int gdal_directory_open(gdal_directory *d, const char *path)
 {

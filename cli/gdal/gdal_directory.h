@@ -13,6 +13,11 @@ typedef struct gdal_directory {
     char *temporary; /* of the file in it, with the same name */
 } gdal_directory;
 
+/* Refuse a path that cannot be written, before anything is read. A finished file takes the place of
+ * what has its name: of a file, but not of a device. Returns 0, or an exit code after a complaint.
+ */
+int gdal_directory_check(const char *path);
+
 /* Returns 0, or an exit code after a complaint. Close it in both cases. */
 int gdal_directory_open(gdal_directory *d, const char *path);
 

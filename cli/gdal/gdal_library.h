@@ -23,6 +23,7 @@ bool gdal_library_built(void);
     F(CPLQuietErrorHandler)                                                                        \
     F(CPLErrorReset)                                                                               \
     F(CPLSetConfigOption)                                                                          \
+    F(CPLGetConfigOption)                                                                          \
     F(CPLGetLastErrorType)                                                                         \
     F(CPLGetLastErrorMsg)                                                                          \
     F(GDALAllRegister)                                                                             \
@@ -30,6 +31,8 @@ bool gdal_library_built(void);
     F(GDALGetDriverByName)                                                                         \
     F(GDALCreate)                                                                                  \
     F(GDALCreateCopy)                                                                              \
+    F(GDALGetCacheMax64)                                                                           \
+    F(GDALSetCacheMax64)                                                                           \
     F(GDALGetMetadataItem)                                                                         \
     F(GDALSetGeoTransform)                                                                         \
     F(GDALGetGeoTransform)                                                                         \

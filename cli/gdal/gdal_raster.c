@@ -82,7 +82,7 @@ int gdal_raster_check(const char *path, const char *driver)
         return END_USAGE;
     }
     if (driver_writes_rasters(gdal, gdal->GDALGetDriverByName(name)))
-        return files_try_output(path, NULL);
+        return gdal_directory_check(path);
     complain("%s: this GDAL does not write rasters as '%.60s'", path, name);
     return END_USAGE;
 }
@@ -160,6 +160,18 @@ static int raster_describe_bands(gdal_raster *r)
     return 0;
 }
 
+/* GDAL keeps up to a twentieth of the memory of what is written. A few rows of tiles are enough,
+ * and quicker: memory is used again. GDAL_CACHEMAX is the user's. */
+static void raster_limit_cache(const gdal_raster *r)
+{
+    enum { ROWS = 1024 };
+    const gdal_raster_form *f = &r->form;
+    const GIntBig rows = (GIntBig)ROWS * f->columns * f->bands * gdal_raster_size(f->type),
+                  least = (GIntBig)1 << 26, most = rows > least ? rows : least;
+    if (!r->gdal->CPLGetConfigOption("GDAL_CACHEMAX", NULL) && most < r->gdal->GDALGetCacheMax64())
+        r->gdal->GDALSetCacheMax64(most);
+}
+
 int gdal_raster_create(gdal_raster **raster, const char *path, const gdal_raster_form *form)
 {
     gdal_raster *r = *raster = calloc(1, sizeof *r);
@@ -170,6 +182,7 @@ int gdal_raster_create(gdal_raster **raster, const char *path, const gdal_raster
     if (end == 0) end = raster_choose_drivers(r);
     if (end) return end;
     char *scratch_options[] = {"BIGTIFF=IF_SAFER", NULL};
+    raster_limit_cache(r);
     r->gdal->CPLErrorReset();
     r->set = r->gdal->GDALCreate(r->driver, r->scratch, (int)form->columns, (int)form->rows,
                                  (int)form->bands, types[form->type],

@@ -1,5 +1,4 @@
 #include "cli/gdal/gdal_rows.h"
-#include "cli/frame/files.h"
 #include "cli/frame/message.h"
 #include "cli/frame/text.h"
 #include "cli/gdal/gdal_crs.h"
@@ -176,7 +175,7 @@ int gdal_rows_check(const char *path)
         complain("%s: GDAL, which would write it, cannot be loaded (" MW_GDAL ")", path);
         return END_USAGE;
     }
-    if (gdal->GDALGetDriverByName(format->driver)) return files_try_output(path, NULL);
+    if (gdal->GDALGetDriverByName(format->driver)) return gdal_directory_check(path);
     complain("%s: this GDAL does not write %s", path, format->driver);
     return END_USAGE;
 }

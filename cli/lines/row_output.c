@@ -116,7 +116,8 @@ int row_output_close(row_output *o, bool commit)
     mw_error error;
     int end = commit && o->count > 0 ? row_output_flush(o) : 0;
     bool good = commit && end == 0;
-    if (o->out && mw_output_close(o->out, good, &error) != MW_OK &&
+    bool failed = o->out && mw_output_failed(o->out); /* what failed is told, and not kept */
+    if (o->out && mw_output_close(o->out, good || failed, &error) != MW_OK &&
         (end == 0 || end == END_RESOURCE))
         end = fail_writing(&error);
     int closed = gdal_rows_close(o->rows, good);

@@ -120,8 +120,14 @@ static int choice_find_fields(series_choice *c, const char *names)
 int series_choose(series_choice *c, const series_request *request, size_t vertices, size_t faces)
 {
     mw_error error;
-    *c = (series_choice){.path = request->path ? request->path : request->mesh};
+    *c = (series_choice){.path = request->mesh};
     mw_series_options options = {.layout = request->layout};
+    if (request->path) {
+        if (!series_paths_split(&c->files, request->path)) return fail_memory();
+        c->path = c->files.paths[0];
+        options.more_paths = c->files.paths + 1;
+        options.more_count = c->files.count - 1;
+    }
     if (request->path) options.vertex_count = vertices;
     if (request->path) options.face_count = faces;
     if (mw_series_open(c->path, &options, &c->series, &error) != MW_OK) return fail_reading(&error);
@@ -143,5 +149,6 @@ int series_choose(series_choice *c, const series_request *request, size_t vertic
 void series_close(series_choice *c)
 {
     mw_series_close(c->series);
+    series_paths_release(&c->files);
     free(c->field);
 }

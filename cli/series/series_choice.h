@@ -3,12 +3,14 @@
 #ifndef MW_CLI_SERIES_SERIES_CHOICE_H
 #define MW_CLI_SERIES_SERIES_CHOICE_H
 
+#include "cli/series/series_paths.h"
+
 #include <meshwalk/meshwalk.h>
 #include <stdbool.h>
 
 /* What the user asks for; NULL where an option was not given. */
 typedef struct series_request {
-    const char *path;   /* of the values; NULL: `mesh` holds them */
+    const char *path;   /* of the values, or several; NULL: `mesh` holds them */
     const char *mesh;   /* the path of the mesh */
     const char *layout; /* --layout */
     const char *fields; /* names, separated by commas; NULL: all that depend on time */
@@ -18,8 +20,9 @@ typedef struct series_request {
 typedef struct series_choice {
     mw_series *series;
     const mw_series_info *info;
-    const char *path;
-    size_t *field; /* numbers of the fields */
+    series_paths files;
+    const char *path; /* of the first */
+    size_t *field;    /* numbers of the fields */
     size_t field_count;
     size_t first, last; /* steps, both included */
 } series_choice;

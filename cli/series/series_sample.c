@@ -328,16 +328,28 @@ static int run_prepare(series_run *r, const char *const *operands)
     return end ? end : located_points_read(&r->points, &r->query, operands[1], s->time_column);
 }
 
+/* Refuse an output that is one of the files with the values. */
+static int run_check_values(const series_run *r)
+{
+    series_paths files;
+    if (!r->settings->values) return 0;
+    int end = series_paths_split(&files, r->settings->values)
+                  ? files_check_output(r->output, files.paths, (int)files.count)
+                  : fail_memory();
+    series_paths_release(&files);
+    return end;
+}
+
 /* Refuse an output that is an input, and tables in netCDF. */
 static int run_check_output(const series_run *r, const char *const *operands)
 {
-    const char *const inputs[] = {operands[0], operands[1], r->settings->values};
     if (run_is_netcdf(r) && (r->settings->wide || r->settings->status)) {
         complain("--%s is for tables; netCDF has %s", r->settings->wide ? "wide" : "status",
                  r->settings->wide ? "all steps of a point anyway" : "the status anyway");
         return END_USAGE;
     }
-    return files_check_output(r->output, inputs, r->settings->values ? 3 : 2);
+    int end = files_check_output(r->output, operands, 2);
+    return end ? end : run_check_values(r);
 }
 
 int series_sample(const point_query_settings *query, const series_settings *settings,

@@ -65,6 +65,13 @@ def _plain_footnotes(app, what, name, thing, options, lines):
     lines[:] = [re.sub(r" ?\[\d\]_|\.\. \[\d\] ", "", line) for line in lines]
 
 
+def _leave_out_aliases(app, what, name, thing, skip, options):
+    """Leave out fields of tuples: the docstring of their class tells what they are."""
+    alias = (getattr(thing, "__doc__", None) or "").startswith("Alias for field number")
+    return True if alias else None
+
+
 def setup(app):
     """Tell Sphinx about it."""
+    app.connect("autodoc-skip-member", _leave_out_aliases)
     app.connect("autodoc-process-docstring", _plain_footnotes)

@@ -34,7 +34,7 @@ def make(pages: Pages, package: Path) -> str:
     files: dict[str, Path] = {}
     for node in ast.walk(tree):  # some are there for type checkers only
         if isinstance(node, ast.ImportFrom):
-            names = [a.name for a in node.names if a.name in meshwalk.__all__]
+            names = [a.name for a in node.names if a.name in dir(meshwalk)]
             if names:
                 module = node.module.removeprefix("meshwalk.")
                 group = module.rpartition(".")[2].removeprefix("_")

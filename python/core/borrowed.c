@@ -68,12 +68,12 @@ static PyObject *borrowed_locate(PyObject *module, PyObject *args)
     mw_error error;
     mw_status status;
     if (!PyArg_ParseTuple(args, "OOOpppOOsO&O", &arrays[0], &arrays[1], &arrays[2], &across,
-                          &options.unchecked, &options.convex, &points, &out, &walk, option_uint32,
+                          &options.unchecked, &options.convex, &points, &out, &walk, option_threads,
                           &query.threads, &function))
         return NULL;
     query.walk = mw_walk_by_name(walk);
     if (query.walk == MW_WALK_COUNT)
-        return PyErr_Format(PyExc_ValueError, "there is no walk '%s'", walk);
+        return option_raise_unknown("walk", walk, option_walk_name, MW_WALK_COUNT);
     if (borrowed_get(arrays, points, out, &call)) return NULL;
     call.arrays.layout = across ? MW_NEIGHBOUR_ACROSS_EDGE : MW_NEIGHBOUR_OPPOSITE;
     options.threads = query.threads;

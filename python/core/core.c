@@ -20,7 +20,7 @@ static int core_exec(PyObject *module)
                    layouts_init(module) || triangulation_init(module) || files_init(module) ||
                    points_init(module) || borrowed_init(module) || segments_init(module) ||
                    overlap_init(module) || sight_init(module) || prepared_init(module) ||
-                   core_add_numbers(module)
+                   options_init(module) || core_add_numbers(module)
                ? -1
                : 0;
 }

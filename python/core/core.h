@@ -131,9 +131,19 @@ typedef struct buffer_mesh {
 int buffer_get_mesh(PyObject *points, PyObject *triangles, size_t width, buffer_mesh *mesh);
 void buffer_release_mesh(buffer_mesh *mesh);
 
-/* --- options.c: numbers, for "O&" --- */
+/* --- options.c: numbers, for "O&", and names --- */
 
 int option_uint32(PyObject *object, void *number);
+/* A number of threads, a uint32: the message names the argument. */
+int option_threads(PyObject *object, void *number);
+/* A ValueError that lists the names from name_of(0) to name_of(count - 1); returns NULL. */
+PyObject *option_raise_unknown(const char *what, const char *name, const char *(*name_of)(int),
+                               int count);
+/* Names of walks and starts in the plane by their numbers, for option_raise_unknown. */
+const char *option_walk_name(int walk);
+const char *option_start_name(int start);
+/* Add both lists to the module. */
+int options_init(PyObject *module);
 int option_uint64(PyObject *object, void *number);
 
 /* --- progress.c: long calls are watched --- */

@@ -74,8 +74,8 @@ static PyObject *editor_from_mesh(PyObject *module, PyObject *args)
     mw_error error;
     mw_status status = MW_OK;
     if (!PyArg_ParseTuple(args, "OO!O!iO&pOO&O", &class, state->mesh_type, &mesh, &PyList_Type,
-                          &fields, &mode, option_uint64, &undo, &options.log, &edges, option_uint32,
-                          &options.threads, &function) ||
+                          &fields, &mode, option_uint64, &undo, &options.log, &edges,
+                          option_threads, &options.threads, &function) ||
         editor_set_fields(state, ((mesh_object *)mesh)->mesh, fields) ||
         buffer_get_all(edges, 2 * sizeof(uint32_t), &edge_view, &options.constrained_edge_count))
         return NULL;
@@ -380,7 +380,7 @@ static PyObject *editor_locate(PyObject *self, PyObject *args)
     buffer_batch batch;
     mw_error error;
     mw_status status;
-    if (!PyArg_ParseTuple(args, "OOOO&O", &points, &out, &hints, option_uint32, &options.threads,
+    if (!PyArg_ParseTuple(args, "OOOO&O", &points, &out, &hints, option_threads, &options.threads,
                           &function) ||
         editor_is_busy(object) ||
         buffer_get_batch(points, 2, out, sizeof(mw_location), hints, &batch))

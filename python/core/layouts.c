@@ -45,6 +45,18 @@ static int layout_add_nearest(PyObject *module)
                                     "itemsize", (Py_ssize_t)sizeof(mw_nearest_surface_point)));
 }
 
+static int layout_add_border(PyObject *module)
+{
+    return layout_add(module, "BORDER_LAYOUT",
+                      Py_BuildValue("{s:n,s:n,s:n,s:n,s:n,s:n}",
+                                    LAYOUT_MEMBER(mw_nearest_border_point, "triangle", triangle),
+                                    LAYOUT_MEMBER(mw_nearest_border_point, "edge", edge),
+                                    LAYOUT_MEMBER(mw_nearest_border_point, "distance", distance),
+                                    LAYOUT_MEMBER(mw_nearest_border_point, "point", point),
+                                    LAYOUT_MEMBER(mw_nearest_border_point, "weights", weight),
+                                    "itemsize", (Py_ssize_t)sizeof(mw_nearest_border_point)));
+}
+
 static int layout_add_piece(PyObject *module)
 {
     return layout_add(module, "PIECE_LAYOUT",
@@ -90,7 +102,7 @@ int layouts_init(PyObject *module)
 {
     return layout_add_location(module) || layout_add_touch(module) || layout_add_nearest(module) ||
                    layout_add_changed(module) || layout_add_changed_vertex(module) ||
-                   layout_add_piece(module) || layout_add_sight(module)
+                   layout_add_piece(module) || layout_add_border(module) || layout_add_sight(module)
                ? -1
                : 0;
 }

@@ -1,6 +1,8 @@
 /* location.c - Location: where one point lies, as an object. */
 #include "core.h"
 
+#include <string.h>
+
 typedef struct location_object {
     PyObject_HEAD
     core_state *state;
@@ -88,6 +90,44 @@ static PyObject *location_repr(PyObject *self)
     return text;
 }
 
+/* A pickle holds the record as it is. */
+static PyObject *location_reduce(PyObject *self, PyObject *unused)
+{
+    PyObject *module = PyImport_ImportModule("meshwalk._core");
+    PyObject *make = module ? PyObject_GetAttrString(module, "location_from_bytes") : NULL;
+    PyObject *result = make ? Py_BuildValue("O(y#)", make, (const char *)location_of(self),
+                                            (Py_ssize_t)sizeof(mw_location))
+                            : NULL;
+    (void)unused;
+    Py_XDECREF(make);
+    Py_XDECREF(module);
+    return result;
+}
+
+/* location_from_bytes(record) */
+static PyObject *location_from_bytes(PyObject *module, PyObject *args)
+{
+    const char *bytes;
+    Py_ssize_t size;
+    mw_location location;
+    if (!PyArg_ParseTuple(args, "y#", &bytes, &size)) return NULL;
+    if (size != sizeof location) return PyErr_Format(PyExc_ValueError, "this is no location");
+    memcpy(&location, bytes, sizeof location);
+    if (location.where >= MW_WHERE_COUNT)
+        return PyErr_Format(PyExc_ValueError, "this is no location");
+    return location_new(PyModule_GetState(module), &location);
+}
+
+static PyMethodDef location_methods[] = {
+    {"__reduce__", location_reduce, METH_NOARGS, NULL},
+    {NULL, NULL, 0, NULL},
+};
+
+static PyMethodDef location_functions[] = {
+    {"location_from_bytes", location_from_bytes, METH_VARARGS, NULL},
+    {NULL, NULL, 0, NULL},
+};
+
 static PyGetSetDef location_members[] = {
     {"triangle", location_triangle, NULL, "Number of the triangle, -1 for none.", NULL},
     {"where", location_where, NULL, "A member of Where: inside, on an edge, outside ...", NULL},
@@ -105,6 +145,7 @@ static PyType_Slot location_slots[] = {
     {Py_tp_doc, "Where one point lies: the answer of Locator.locate_one."},
     {Py_tp_dealloc, location_dealloc},
     {Py_tp_repr, location_repr},
+    {Py_tp_methods, location_methods},
     {Py_tp_getset, location_members},
     {0, NULL},
 };
@@ -132,5 +173,5 @@ int location_init(PyObject *module, core_state *state)
     state->where_members = location_find_where();
     if (!state->where_members) return -1;
     state->location_type = objects_add_type(module, &location_spec);
-    return state->location_type ? 0 : -1;
+    return state->location_type ? PyModule_AddFunctions(module, location_functions) : -1;
 }

@@ -1,6 +1,7 @@
 /* locator.c - Locator: a mw_locator as an object, which keeps its mesh alive. */
 #include "core.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 /* What a query of a batch is asked with; the strings are names of walks and starts. */
@@ -9,20 +10,15 @@ typedef struct locator_query {
     const char *walk, *start;
 } locator_query;
 
-static PyObject *locator_raise_name(const char *what, const char *name)
-{
-    return PyErr_Format(PyExc_ValueError, "there is no %s '%s'", what, name);
-}
-
 static int locator_resolve_names(locator_query *query)
 {
     mw_query_options *options = &query->options;
     options->walk = mw_walk_by_name(query->walk);
     options->start = mw_start_by_name(query->start);
     if (options->walk == MW_WALK_COUNT)
-        locator_raise_name("walk", query->walk);
+        option_raise_unknown("walk", query->walk, option_walk_name, MW_WALK_COUNT);
     else if (options->start == MW_START_COUNT)
-        locator_raise_name("start", query->start);
+        option_raise_unknown("start", query->start, option_start_name, MW_START_COUNT);
     else
         return 0;
     return -1;
@@ -56,7 +52,7 @@ static PyObject *locator_from_mesh(PyObject *module, PyObject *args)
     mw_status status;
     if (!PyArg_ParseTuple(args, "OO!pppiO&O&O", &class, state->mesh_type, &mesh, &options.any,
                           &options.border, &options.areas, &fill, option_uint64, &options.queries,
-                          option_uint32, &options.threads, &function))
+                          option_threads, &options.threads, &function))
         return NULL;
     options.fill = (mw_fill_mode)fill;
     options.progress = progress_begin(state, function, &progress);
@@ -102,7 +98,7 @@ static PyObject *locator_locate(PyObject *self, PyObject *args)
     mw_error error;
     mw_status status;
     if (!PyArg_ParseTuple(args, "OOOssdO&O&O", &points, &out, &hints, &query.walk, &query.start,
-                          &options->tolerance, option_uint32, &options->lanes, option_uint32,
+                          &options->tolerance, option_uint32, &options->lanes, option_threads,
                           &options->threads, &function) ||
         locator_resolve_names(&query) ||
         buffer_get_batch(points, 2, out, sizeof(mw_location), hints, &batch))
@@ -159,6 +155,42 @@ static PyObject *locator_nearest_border(PyObject *self, PyObject *args)
     return Py_BuildValue("IId(dd)(ddd)", nearest.triangle, nearest.edge, nearest.distance,
                          nearest.point[0], nearest.point[1], nearest.weight[0], nearest.weight[1],
                          nearest.weight[2]);
+}
+
+/* Answer many points; one that is not finite has none. */
+static mw_status locator_fill_borders(const mw_locator *locator, const buffer_points *points,
+                                      mw_nearest_border_point *out, mw_error *error)
+{
+    mw_status status = MW_OK;
+    for (size_t i = 0; i < points->count && !status; i++) {
+        const double *p = points->points + i * points->stride;
+        if (isfinite(p[0]) && isfinite(p[1]))
+            status = mw_nearest_border(locator, p[0], p[1], &out[i], error);
+        else
+            out[i] = (mw_nearest_border_point){
+                MW_NONE, MW_NONE, NAN, {NAN, NAN}, {NAN, NAN, NAN},
+            };
+    }
+    return status;
+}
+
+/* _nearest_borders(points, out): a mw_nearest_border_point for each point */
+static PyObject *locator_nearest_borders(PyObject *self, PyObject *args)
+{
+    locator_object *object = (locator_object *)self;
+    PyObject *points, *out;
+    buffer_batch batch;
+    mw_error error;
+    mw_status status;
+    if (!PyArg_ParseTuple(args, "OO", &points, &out) ||
+        buffer_get_batch(points, 2, out, sizeof(mw_nearest_border_point), Py_None, &batch))
+        return NULL;
+    Py_BEGIN_ALLOW_THREADS
+    status = locator_fill_borders(object->locator, &batch.points, batch.out.buf, &error);
+    Py_END_ALLOW_THREADS
+    buffer_release_batch(&batch);
+    if (status) return errors_raise(object->state, &error);
+    Py_RETURN_NONE;
 }
 
 /* The triangles of a walk, and how many; NULL when out of memory. Each call begins anew, so two of
@@ -233,6 +265,7 @@ static PyMethodDef locator_methods[] = {
     {"_locate", locator_locate, METH_VARARGS, NULL},
     {"locate_one", (PyCFunction)(void (*)(void))locator_locate_one, METH_FASTCALL, locator_one_doc},
     {"_nearest_border", locator_nearest_border, METH_VARARGS, NULL},
+    {"_nearest_borders", locator_nearest_borders, METH_VARARGS, NULL},
     {"_walk_path", locator_walk_path, METH_VARARGS, NULL},
     {"_segment", locator_segment, METH_VARARGS, NULL},
     {"_describe", locator_describe, METH_NOARGS, NULL},

@@ -46,7 +46,7 @@ static PyObject *mesh_from_arrays(PyObject *module, PyObject *args)
     mw_error error;
     mw_status status;
     if (!PyArg_ParseTuple(args, "OOOpiO&O", &class, &points, &triangles, &options.tolerant, &layout,
-                          option_uint32, &options.threads, &function))
+                          option_threads, &options.threads, &function))
         return NULL;
     options.layout = (mw_mesh_layout)layout;
     options.progress = progress_begin(state, function, &progress);
@@ -119,7 +119,7 @@ static PyObject *mesh_interpolate_table(PyObject *self, PyObject *args)
     size_t count;
     mw_error error;
     mw_status status;
-    if (!PyArg_ParseTuple(args, "OpOOO&O", &values, &narrow, &locations, &out, option_uint32,
+    if (!PyArg_ParseTuple(args, "OpOOO&O", &values, &narrow, &locations, &out, option_threads,
                           &options.threads, &function) ||
         buffer_get_table(values, narrow, mw_mesh_vertex_count(object->mesh), &table))
         return NULL;

@@ -38,7 +38,7 @@ static PyObject *operator_from_locations(PyObject *module, PyObject *args)
     mw_operator *weights;
     mw_error error;
     mw_status status;
-    if (!PyArg_ParseTuple(args, "O!OO&O", state->mesh_type, &mesh, &locations, option_uint32,
+    if (!PyArg_ParseTuple(args, "O!OO&O", state->mesh_type, &mesh, &locations, option_threads,
                           &options.threads, &function) ||
         buffer_get_all(locations, sizeof(mw_location), &view, &count))
         return NULL;
@@ -66,7 +66,7 @@ static PyObject *operator_on_surface(PyObject *module, PyObject *args)
     mw_error error;
     mw_status status;
     if (!PyArg_ParseTuple(args, "O!sOO&O", state->surface_type, &surface, &kind, &records,
-                          option_uint32, &options.threads, &function))
+                          option_threads, &options.threads, &function))
         return NULL;
     const int touches = strcmp(kind, "touches") == 0, nearest = strcmp(kind, "nearest") == 0;
     const size_t size = touches   ? sizeof(mw_touch)
@@ -126,7 +126,7 @@ static PyObject *operator_transpose(PyObject *self, PyObject *args)
     mw_operator *turned;
     mw_error error;
     mw_status status;
-    if (!PyArg_ParseTuple(args, "O&O", option_uint32, &options.threads, &function)) return NULL;
+    if (!PyArg_ParseTuple(args, "O&O", option_threads, &options.threads, &function)) return NULL;
     options.progress = progress_begin(state, function, &progress);
     Py_BEGIN_ALLOW_THREADS
     status = mw_operator_transpose(operator_of(self), &options, &turned, &error);
@@ -150,7 +150,7 @@ static PyObject *operator_apply(PyObject *self, PyObject *args)
     int narrow, left_out;
     mw_operator_describe(object->weights, &info);
     if (!PyArg_ParseTuple(args, "OpOppO&O", &values, &narrow, &out, &left_out, &options.zero_empty,
-                          option_uint32, &options.threads, &function) ||
+                          option_threads, &options.threads, &function) ||
         buffer_get_table(values, narrow, info.columns, &table))
         return NULL;
     if (buffer_get_writable(out, table.size, info.rows * table.table.count, &out_view)) {

@@ -35,7 +35,7 @@ static PyObject *overlap_volume_above(PyObject *module, PyObject *args)
     mw_error error;
     mw_status status;
     if (!PyArg_ParseTuple(args, "O!OdO&O", state->locator_type, &surface, &heights, &base,
-                          option_uint32, &options.threads, &function) ||
+                          option_threads, &options.threads, &function) ||
         overlap_get_heights(heights, surface, &view))
         return NULL;
     options.progress = progress_begin(state, function, &progress);
@@ -58,7 +58,7 @@ static PyObject *overlap_volume_between(PyObject *module, PyObject *args)
     mw_error error;
     mw_status status;
     if (!PyArg_ParseTuple(args, "O!OO!OO&O", state->locator_type, &surface, &heights,
-                          state->locator_type, &other, &other_heights, option_uint32,
+                          state->locator_type, &other, &other_heights, option_threads,
                           &options.threads, &function) ||
         overlap_get_heights(heights, surface, &view))
         return NULL;
@@ -88,7 +88,7 @@ static PyObject *overlap_surface_area(PyObject *module, PyObject *args)
     mw_error error;
     mw_status status;
     if (!PyArg_ParseTuple(args, "O!OO!O&O", state->locator_type, &surface, &heights,
-                          state->locator_type, &region, option_uint32, &options.threads,
+                          state->locator_type, &region, option_threads, &options.threads,
                           &function) ||
         overlap_get_heights(heights, surface, &view))
         return NULL;
@@ -166,7 +166,7 @@ static PyObject *overlap_remap_to_mesh(PyObject *module, PyObject *args)
     mw_status status;
     if (!PyArg_ParseTuple(args, "O!OnO!OnpppO&O", state->locator_type, &locator[0], &face[0],
                           &count[0], state->locator_type, &locator[1], &face[1], &count[1],
-                          &options.vertices, &options.degrees, &options.covered, option_uint32,
+                          &options.vertices, &options.degrees, &options.covered, option_threads,
                           &options.threads, &function) ||
         overlap_get_cells(locator[0], face[0], (size_t)count[0], &source))
         return NULL;
@@ -200,7 +200,7 @@ static PyObject *overlap_remap_to_pixels(PyObject *module, PyObject *args)
     if (!PyArg_ParseTuple(args, "O!On(ddddO&O&)pppO&O", state->locator_type, &locator, &face,
                           &count, &pixels.west, &pixels.north, &pixels.width, &pixels.height,
                           option_uint32, &pixels.columns, option_uint32, &pixels.rows,
-                          &options.vertices, &options.degrees, &options.covered, option_uint32,
+                          &options.vertices, &options.degrees, &options.covered, option_threads,
                           &options.threads, &function) ||
         overlap_get_cells(locator, face, (size_t)count, &source))
         return NULL;

@@ -48,7 +48,7 @@ static PyObject *polygons_from_rings(PyObject *module, PyObject *args)
     size_t count;
     mw_error error;
     mw_status status;
-    if (!PyArg_ParseTuple(args, "OOOO&O", &points, &segments, &polygon, option_uint32, &threads,
+    if (!PyArg_ParseTuple(args, "OOOO&O", &points, &segments, &polygon, option_threads, &threads,
                           &function) ||
         buffer_get_points(points, 2, &rows))
         return NULL;
@@ -136,7 +136,7 @@ static PyObject *polygons_at(PyObject *self, PyObject *args)
     buffer_points rows;
     mw_error error;
     mw_status status;
-    if (!PyArg_ParseTuple(args, "OO&O", &points, option_uint32, &options.threads, &function) ||
+    if (!PyArg_ParseTuple(args, "OO&O", &points, option_threads, &options.threads, &function) ||
         buffer_get_points(points, 2, &rows))
         return NULL;
     options.progress = progress_begin(object->state, function, &progress);

@@ -78,7 +78,7 @@ static PyObject *prepared_map(PyObject *module, PyObject *args)
     mw_error error;
     mw_status status;
     if (!PyArg_ParseTuple(args, "OOypO&O", &classes[0], &classes[1], &path, &options.trust,
-                          option_uint32, &options.threads, &function))
+                          option_threads, &options.threads, &function))
         return NULL;
     options.progress = progress_begin(state, function, &progress);
     Py_BEGIN_ALLOW_THREADS

@@ -16,7 +16,7 @@ static PyObject *prober_from_surface(PyObject *module, PyObject *args)
     mw_error error;
     mw_status status;
     if (!PyArg_ParseTuple(args, "OO!ppO&O", &class, state->surface_type, &surface, &options.boxes,
-                          &options.guide, option_uint32, &options.threads, &function))
+                          &options.guide, option_threads, &options.threads, &function))
         return NULL;
     options.progress = progress_begin(state, function, &progress);
     Py_BEGIN_ALLOW_THREADS
@@ -67,6 +67,10 @@ static int prober_choice(const char *(*name_of)(int number), int count, const ch
     return i;
 }
 
+static const char *prober_start_name(int i)
+{
+    return mw_probe_start_name((mw_probe_start)i);
+}
 static const char *prober_extent_name(int i)
 {
     return mw_probe_extent_name((mw_probe_extent)i);
@@ -83,9 +87,9 @@ static int prober_set_ray(mw_probe_options *options, const char *extent, const c
         (mw_probe_extent)prober_choice(prober_extent_name, MW_PROBE_EXTENT_COUNT, extent);
     options->faces = (mw_probe_faces)prober_choice(prober_faces_name, MW_PROBE_FACES_COUNT, faces);
     if (options->extent == MW_PROBE_EXTENT_COUNT)
-        PyErr_Format(PyExc_ValueError, "there is no extent '%s'", extent);
+        option_raise_unknown("extent", extent, prober_extent_name, MW_PROBE_EXTENT_COUNT);
     else if (options->faces == MW_PROBE_FACES_COUNT)
-        PyErr_Format(PyExc_ValueError, "there are no faces '%s'", faces);
+        option_raise_unknown("faces", faces, prober_faces_name, MW_PROBE_FACES_COUNT);
     return PyErr_Occurred() ? -1 : 0;
 }
 
@@ -103,12 +107,12 @@ static PyObject *prober_probe(PyObject *self, PyObject *args)
     mw_status status;
     if (!PyArg_ParseTuple(args, "OOddpsssO&O&O", &queries, &out, &options.min_distance,
                           &options.max_distance, &options.certain, &extent, &faces, &start,
-                          option_uint32, &options.iterations, option_uint32, &options.threads,
+                          option_uint32, &options.iterations, option_threads, &options.threads,
                           &function))
         return NULL;
     options.start = prober_start_by_name(start);
     if (options.start == MW_PROBE_START_COUNT)
-        return PyErr_Format(PyExc_ValueError, "there is no start '%s'", start);
+        return option_raise_unknown("start", start, prober_start_name, MW_PROBE_START_COUNT);
     if (prober_set_ray(&options, extent, faces)) return NULL;
     if (buffer_get_batch(queries, 6, out, sizeof(mw_touch), Py_None, &batch)) return NULL;
     options.progress = progress_begin(object->state, function, &progress);
@@ -134,7 +138,7 @@ static PyObject *prober_any(PyObject *self, PyObject *args)
     mw_error error;
     mw_status status;
     if (!PyArg_ParseTuple(args, "OOssddO&O", &queries, &out, &extent, &faces, &options.min_distance,
-                          &options.max_distance, option_uint32, &options.threads, &function) ||
+                          &options.max_distance, option_threads, &options.threads, &function) ||
         prober_set_ray(&options, extent, faces) ||
         buffer_get_batch(queries, 6, out, 1, Py_None, &batch))
         return NULL;
@@ -175,7 +179,7 @@ static PyObject *prober_lists(PyObject *self, PyObject *args)
     mw_error error;
     mw_status status;
     if (!PyArg_ParseTuple(args, "OpssddO&O", &queries, &one_per_place, &extent, &faces,
-                          &options.min_distance, &options.max_distance, option_uint32,
+                          &options.min_distance, &options.max_distance, option_threads,
                           &options.threads, &function) ||
         prober_set_ray(&options, extent, faces) || buffer_get_points(queries, 6, &rows))
         return NULL;
@@ -200,7 +204,7 @@ static PyObject *prober_nearest(PyObject *self, PyObject *args)
     buffer_batch batch;
     mw_error error;
     mw_status status;
-    if (!PyArg_ParseTuple(args, "OOdO&O", &points, &out, &max_distance, option_uint32,
+    if (!PyArg_ParseTuple(args, "OOdO&O", &points, &out, &max_distance, option_threads,
                           &options.threads, &function) ||
         buffer_get_batch(points, 3, out, sizeof(mw_nearest_surface_point), Py_None, &batch))
         return NULL;
@@ -225,7 +229,7 @@ static PyObject *prober_deviation(PyObject *self, PyObject *args)
     mw_deviation d;
     mw_error error;
     mw_status status;
-    if (!PyArg_ParseTuple(args, "O!O&O", object->state->surface_type, &surface, option_uint32,
+    if (!PyArg_ParseTuple(args, "O!O&O", object->state->surface_type, &surface, option_threads,
                           &options.threads, &function))
         return NULL;
     options.progress = progress_begin(object->state, function, &progress);
@@ -301,7 +305,7 @@ static PyObject *prober_inside(PyObject *self, PyObject *args)
     buffer_batch batch;
     mw_error error;
     mw_status status;
-    if (!PyArg_ParseTuple(args, "OOO&", &points, &out, option_uint32, &threads) ||
+    if (!PyArg_ParseTuple(args, "OOO&", &points, &out, option_threads, &threads) ||
         buffer_get_batch(points, 3, out, 1, Py_None, &batch))
         return NULL;
     Py_BEGIN_ALLOW_THREADS

@@ -10,7 +10,12 @@ static int progress_report(void *context, const char *stage, double fraction)
     PyGILState_STATE lock = PyGILState_Ensure();
     /* After the last report nothing is left to cancel: the interpreter looks for signals itself. */
     int stop = fraction < 1 && PyErr_CheckSignals();
-    if (!stop && function != Py_None) {
+    if (!stop && function != Py_None && !PyCallable_Check(function)) {
+        PyErr_Format(PyExc_TypeError,
+                     "progress must be a function of a text and a fraction, not %R", function);
+        if (fraction >= 1) PyErr_WriteUnraisable(function);
+        stop = fraction < 1;
+    } else if (!stop && function != Py_None) {
         PyObject *result = PyObject_CallFunction(function, "sd", stage, fraction);
         Py_XDECREF(result);
         if (!result && fraction >= 1) PyErr_WriteUnraisable(function);

@@ -28,7 +28,7 @@ PyObject *segments_follow(core_state *state, const mw_locator *locator, PyObject
     mw_segment_pieces pieces;
     mw_error error;
     mw_status status;
-    if (!PyArg_ParseTuple(args, "OO&O", &ends, option_uint32, &options.threads, &function) ||
+    if (!PyArg_ParseTuple(args, "OO&O", &ends, option_threads, &options.threads, &function) ||
         buffer_get_points(ends, 4, &points))
         return NULL;
     options.progress = progress_begin(state, function, &progress);
@@ -86,9 +86,12 @@ static PyObject *segments_weights(PyObject *module, PyObject *args)
                          : buffer_get_writable(given[got + 1], sizes[got], count, &view[got]))
                 break;
         if (got == 4 &&
-            !segments_check(((mesh_object *)mesh)->mesh, &ends, view[0].buf, view[1].buf, count))
+            !segments_check(((mesh_object *)mesh)->mesh, &ends, view[0].buf, view[1].buf, count)) {
+            Py_BEGIN_ALLOW_THREADS
             segments_weigh(((mesh_object *)mesh)->mesh, &ends, view[0].buf, view[1].buf, count,
                            view[2].buf, view[3].buf);
+            Py_END_ALLOW_THREADS
+        }
     }
     for (int i = 0; i < got; i++) PyBuffer_Release(&view[i]);
     PyBuffer_Release(&ends.view);

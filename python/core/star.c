@@ -14,7 +14,7 @@ static PyObject *star_from_surface(PyObject *module, PyObject *args)
     mw_status status;
     if (!PyArg_ParseTuple(args, "OO!dddppO&O", &class, state->surface_type, &surface,
                           &options.centre[0], &options.centre[1], &options.centre[2],
-                          &options.borrow, &options.unchecked, option_uint32, &options.threads,
+                          &options.borrow, &options.unchecked, option_threads, &options.threads,
                           &function))
         return NULL;
     options.progress = progress_begin(state, function, &progress);
@@ -49,6 +49,16 @@ static void star_dealloc(PyObject *self)
     objects_free(self);
 }
 
+static const char *star_walk_name(int walk)
+{
+    return mw_star_walk_name((mw_star_walk_kind)walk);
+}
+
+static const char *star_start_name(int start)
+{
+    return mw_star_start_name((mw_star_start_kind)start);
+}
+
 /* _locate(points, out, walk, start, threads, progress) */
 static PyObject *star_locate(PyObject *self, PyObject *args)
 {
@@ -60,15 +70,15 @@ static PyObject *star_locate(PyObject *self, PyObject *args)
     buffer_batch batch;
     mw_error error;
     mw_status status;
-    if (!PyArg_ParseTuple(args, "OOssO&O", &points, &out, &walk, &start, option_uint32,
+    if (!PyArg_ParseTuple(args, "OOssO&O", &points, &out, &walk, &start, option_threads,
                           &options.threads, &function))
         return NULL;
     options.walk = mw_star_walk_by_name(walk);
     options.start = mw_star_start_by_name(start);
     if (options.walk == MW_STAR_WALK_COUNT)
-        return PyErr_Format(PyExc_ValueError, "there is no walk '%s'", walk);
+        return option_raise_unknown("walk", walk, star_walk_name, MW_STAR_WALK_COUNT);
     if (options.start == MW_STAR_START_COUNT)
-        return PyErr_Format(PyExc_ValueError, "there is no start '%s'", start);
+        return option_raise_unknown("start", start, star_start_name, MW_STAR_START_COUNT);
     if (buffer_get_batch(points, 3, out, sizeof(mw_location), Py_None, &batch)) return NULL;
     options.progress = progress_begin(object->state, function, &progress);
     Py_BEGIN_ALLOW_THREADS
@@ -91,7 +101,7 @@ static PyObject *star_project(PyObject *self, PyObject *args)
     Py_buffer view;
     mw_error error;
     mw_status status;
-    if (!PyArg_ParseTuple(args, "OOOO&O", &points, &out, &locations, option_uint32,
+    if (!PyArg_ParseTuple(args, "OOOO&O", &points, &out, &locations, option_threads,
                           &options.threads, &function) ||
         buffer_get_batch(points, 3, out, 3 * sizeof(double), Py_None, &batch))
         return NULL;
@@ -124,7 +134,7 @@ static PyObject *star_remesh(PyObject *self, PyObject *args)
     mw_status status = MW_OK;
     int got = 0;
     if (!PyArg_ParseTuple(args, "O&OOOO&O", option_uint32, &level, &given[0], &given[1], &given[2],
-                          option_uint32, &options.threads, &function))
+                          option_threads, &options.threads, &function))
         return NULL;
     if (mw_icosphere_size(level, &vertices, &triangles, &error))
         return errors_raise(object->state, &error);

@@ -157,7 +157,7 @@ static PyObject *surface_move(PyObject *self, PyObject *args)
     mw_status status = MW_OK;
     int failed;
     if (!PyArg_ParseTuple(args, "OOO!dO&", &points, &numbers, &PyList_Type, &list, &motion.farthest,
-                          option_uint32, &motion.threads))
+                          option_threads, &motion.threads))
         return NULL;
     if (numbers != Py_None && buffer_get_all(numbers, sizeof(uint32_t), &number_view, &count))
         return NULL;
@@ -193,7 +193,7 @@ static PyObject *surface_flip(PyObject *self, PyObject *args)
     mw_error error;
     mw_status status;
     if (!PyArg_ParseTuple(args, "O&O&O!O&", option_uint32, &triangle, option_uint32, &edge,
-                          &PyList_Type, &list, option_uint32, &threads))
+                          &PyList_Type, &list, option_threads, &threads))
         return NULL;
     if (surface_sort_kept(object->state, list, &kept)) {
         surface_release_kept(&kept);

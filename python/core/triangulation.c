@@ -36,7 +36,7 @@ static PyObject *triangulation_delaunay(PyObject *module, PyObject *args)
     mw_mesh *mesh;
     mw_error error;
     mw_status status;
-    if (!PyArg_ParseTuple(args, "OOOO&O", &class, &points, &duplicates, option_uint32,
+    if (!PyArg_ParseTuple(args, "OOOO&O", &class, &points, &duplicates, option_threads,
                           &options.threads, &function) ||
         triangulation_get_input(points, duplicates, &in))
         return NULL;
@@ -51,13 +51,18 @@ static PyObject *triangulation_delaunay(PyObject *module, PyObject *args)
     return object ? Py_BuildValue("Nn", object, (Py_ssize_t)report.duplicates) : NULL;
 }
 
+static const char *triangulation_kind_name(int kind)
+{
+    return mw_kind_name((mw_triangulation_kind)kind);
+}
+
 /* The kind of a name; MW_KIND_COUNT with an exception for none. */
 static mw_triangulation_kind triangulation_kind_by_name(const char *name)
 {
     for (int kind = 0; kind < MW_KIND_COUNT; kind++)
         if (strcmp(mw_kind_name((mw_triangulation_kind)kind), name) == 0)
             return (mw_triangulation_kind)kind;
-    PyErr_Format(PyExc_ValueError, "there is no kind of triangulation '%s'", name);
+    option_raise_unknown("kind of triangulation", name, triangulation_kind_name, MW_KIND_COUNT);
     return MW_KIND_COUNT;
 }
 
@@ -88,7 +93,7 @@ static PyObject *triangulation_of_kind(PyObject *module, PyObject *args)
     mw_error error;
     mw_status status;
     if (!PyArg_ParseTuple(args, "OOOsOO&O&O", &class, &points, &duplicates, &name, &weights,
-                          option_uint32, &options.limit, option_uint32, &options.threads,
+                          option_uint32, &options.limit, option_threads, &options.threads,
                           &function) ||
         (kind = triangulation_kind_by_name(name)) == MW_KIND_COUNT ||
         triangulation_get_input(points, duplicates, &in) ||
@@ -192,7 +197,8 @@ static PyObject *triangulation_raise(core_state *state, const mw_error *error,
     return NULL;
 }
 
-/* (mesh, number of duplicates, edges, segment of each edge) */
+/* (mesh, number of duplicates, edges, segment of each edge, holes that removed nothing, the first
+ * of them) */
 static PyObject *triangulation_constrained_result(core_state *state, PyObject *class, mw_mesh *mesh,
                                                   const mw_constrain_report *report,
                                                   mw_constrained_edges *edges)
@@ -202,7 +208,9 @@ static PyObject *triangulation_constrained_result(core_state *state, PyObject *c
     PyObject *segments = memory_new(state, edges->segment, edges->count * sizeof(uint32_t));
     PyObject *result =
         object && ends && segments
-            ? Py_BuildValue("OnOO", object, (Py_ssize_t)report->delaunay.duplicates, ends, segments)
+            ? Py_BuildValue("OnOOnn", object, (Py_ssize_t)report->delaunay.duplicates, ends,
+                            segments, (Py_ssize_t)report->idle_holes,
+                            (Py_ssize_t)report->first_idle_hole)
             : NULL;
     Py_XDECREF(object);
     Py_XDECREF(ends);
@@ -226,7 +234,7 @@ static PyObject *triangulation_constrained(PyObject *module, PyObject *args)
     mw_error error;
     mw_status status;
     if (!PyArg_ParseTuple(args, "OOOOOOipO&O", &class, &objects[0], &objects[1], &objects[2],
-                          &objects[3], &objects[4], &keep, &options.split, option_uint32,
+                          &objects[3], &objects[4], &keep, &options.split, option_threads,
                           &options.threads, &function) ||
         triangulation_get_constraints(objects, &c))
         return NULL;

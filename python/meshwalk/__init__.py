@@ -12,7 +12,8 @@ array([ True, False])
 array([ 4., nan])
 
 Arrays of any real type are taken if doubles hold their numbers exactly. The interpreter lock is
-released while the library works, and objects may be used by any number of threads.
+released while the library works, and any number of threads may use an object at a time, but a
+`Cursor`, which serves one.
 """
 
 from __future__ import annotations
@@ -48,7 +49,7 @@ if TYPE_CHECKING:
         write,
     )
     from meshwalk._locations import Locations
-    from meshwalk._locator import Locator, LocatorInfo, NearestBorder
+    from meshwalk._locator import Locator, LocatorInfo, NearestBorder, start_names, walk_names
     from meshwalk._mend import MendChange, Mended, mend
     from meshwalk._mesh import Mesh, MeshInfo, Reordered
     from meshwalk._operator import Operator
@@ -63,8 +64,8 @@ if TYPE_CHECKING:
     )
     from meshwalk._plot import explain, plot
     from meshwalk._polygons import PolygonHits, Polygons
-    from meshwalk._prepared import map
-    from meshwalk._segments import Segments
+    from meshwalk._prepared import map as map
+    from meshwalk._segments import Exits, Segments
     from meshwalk._sight import Sights, SightState, visible
     from meshwalk._space.prober import (
         Deviation,
@@ -88,6 +89,7 @@ if TYPE_CHECKING:
     from meshwalk._tiling import prepare_tiles
     from meshwalk._triangulate import (
         DuplicateWarning,
+        HoleWarning,
         OptimumWarning,
         constrained_delaunay,
         delaunay,
@@ -118,7 +120,7 @@ _MODULES = {
         "write",
     ),
     "_locations": ("Locations",),
-    "_locator": ("Locator", "LocatorInfo", "NearestBorder"),
+    "_locator": ("Locator", "LocatorInfo", "NearestBorder", "start_names", "walk_names"),
     "_mend": ("MendChange", "Mended", "mend"),
     "_mesh": ("Mesh", "MeshInfo", "Reordered"),
     "_operator": ("Operator",),
@@ -143,7 +145,7 @@ _MODULES = {
         "TouchState",
         "Touches",
     ),
-    "_segments": ("Segments",),
+    "_segments": ("Exits", "Segments"),
     "_sight": ("SightState", "Sights", "visible"),
     "_space.star": ("Remeshed", "Star", "StarInfo", "direction_to_lonlat", "lonlat_to_direction"),
     "_space.surface": ("Surface", "SurfaceInfo"),
@@ -152,6 +154,7 @@ _MODULES = {
     "_tiling": ("prepare_tiles",),
     "_triangulate": (
         "DuplicateWarning",
+        "HoleWarning",
         "OptimumWarning",
         "constrained_delaunay",
         "delaunay",
@@ -160,6 +163,7 @@ _MODULES = {
 }
 _HOMES = {name: module for module, names in _MODULES.items() for name in names}
 
+# All but `map`, which `from meshwalk import *` would put in the place of Python's own.
 __all__ = [
     "BorrowedMesh",
     "Change",
@@ -176,6 +180,8 @@ __all__ = [
     "EditorInfo",
     "EditorLocations",
     "Error",
+    "Exits",
+    "HoleWarning",
     "InputError",
     "LimitError",
     "Location",
@@ -226,7 +232,6 @@ __all__ = [
     "direction_to_lonlat",
     "explain",
     "lonlat_to_direction",
-    "map",
     "mend",
     "mesh_formats",
     "plot",
@@ -235,10 +240,12 @@ __all__ = [
     "read_constraints",
     "read_points",
     "remap",
+    "start_names",
     "surface_area",
     "triangulate",
     "visible",
     "volume",
+    "walk_names",
     "write",
 ]
 
@@ -252,4 +259,4 @@ def __getattr__(name: str) -> Any:
 
 
 def __dir__() -> list[str]:
-    return sorted(__all__)
+    return sorted([*__all__, "map"])

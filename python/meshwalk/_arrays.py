@@ -7,6 +7,7 @@ one is refused.
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -14,7 +15,7 @@ import numpy as np
 from meshwalk._errors import LimitError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Callable
 
     from numpy.typing import ArrayLike, NDArray
 
@@ -108,6 +109,17 @@ def vertices(
     return _as_rows(array), array.shape[1]
 
 
+def _shape_hint(shape: tuple[int, ...], name: str, width: int) -> str:
+    """How to make points of an array of another shape."""
+    stacked = f"np.column_stack(({', '.join('xyz'[:width])}))"
+    if len(shape) == 1:
+        return f"; coordinates in arrays of their own are joined by {stacked}"
+    if len(shape) == 2 and shape[0] == width:
+        return f"; take {name}.T, or {stacked}"
+    more = len(shape) > 1 and shape[-1] > width
+    return f"; leave columns out as in {name}[..., :{width}]" if more else ""
+
+
 def queries(given: ArrayLike, name: str, width: int) -> tuple[NDArray[np.float64], tuple[int, ...]]:
     """Points to be located: rows of doubles, and the shape of the answers.
 
@@ -117,10 +129,9 @@ def queries(given: ArrayLike, name: str, width: int) -> tuple[NDArray[np.float64
     if array.shape == (0,):
         array = array.reshape(0, width)
     if array.ndim == 0 or array.shape[-1] != width:
-        hint = f"; leave columns out as in {name}[..., :{width}]"
-        more = array.ndim > 0 and array.shape[-1] > width
         raise ValueError(
-            f"{name} must have the shape (..., {width}), not {array.shape}{hint if more else ''}"
+            f"{name} must have the shape (..., {width}), not {array.shape}"
+            f"{_shape_hint(array.shape, name, width)}"
         )
     rows = array if array.ndim == 2 else array.reshape(-1, width)
     return _as_rows(rows), array.shape[:-1]
@@ -190,7 +201,7 @@ def _integer_type(array: NDArray[Any], name: str) -> type[np.integer[Any]]:
     if array.dtype.kind == "u" and array.dtype.itemsize == 8:
         large = array > np.iinfo(np.int64).max
         if large.any():
-            raise ValueError(f"{_place(name, large)} is not a vertex")
+            raise ValueError(f"{_place(name, large)} is no vertex: {array[large][0]}")
         return np.int64
     if array.dtype.itemsize == 8:
         return np.int64
@@ -263,11 +274,23 @@ def interpolated(
     return result.transpose(*range(here), *reversed(range(here, result.ndim)))
 
 
+def number(given: Any, name: str) -> float:
+    """One number, of any real type."""
+    if isinstance(given, (str, bytes)) or np.ndim(given):
+        raise TypeError(f"{name} must be a number, not {type(given).__name__}")
+    try:
+        return float(given)
+    except TypeError:
+        raise TypeError(f"{name} must be a number, not {type(given).__name__}") from None
+
+
 def field(given: ArrayLike, name: str, count: int) -> NDArray[np.float64]:
     """Values of a field of a mesh: one double for each vertex, a copy that cannot be written."""
     array = _as_doubles(_masked_to_nan(_as_array(given, name), name), name)
     if array.shape != (count,):
-        raise ValueError(f"{name} must have the shape ({count},), not {array.shape}")
+        vector = array.ndim == 2 and len(array) == count
+        hint = "; of a vector make a field of each component" if vector else ""
+        raise ValueError(f"{name} must have the shape ({count},), not {array.shape}{hint}")
     own = np.array(array, order="C")
     own.flags.writeable = False
     return own
@@ -277,6 +300,11 @@ def fields(
     given: Mapping[str, ArrayLike] | None, count: int, what: str = "fields"
 ) -> dict[str, NDArray[np.float64]]:
     """Fields of a mesh by name, each a copy that cannot be written."""
+    if given is not None and not isinstance(given, Mapping):
+        raise TypeError(
+            f"{what} must be a mapping of names to values, such as {{'z': z}}, not"
+            f" {type(given).__name__}"
+        )
     return {
         name: field(values, f"{what}[{name!r}]", count) for name, values in (given or {}).items()
     }
@@ -332,6 +360,13 @@ def records(given: NDArray[Any], kind: np.dtype[Any], count: int) -> NDArray[Any
             " triangles: are these answers of another mesh?"
         )
     return frozen(own)
+
+
+def chosen(records: NDArray[Any], index: slice | NDArray[np.intp]) -> NDArray[Any]:
+    """Some of a row of answers, moved as bytes: NumPy moves records field by field."""
+    kind = records.dtype
+    part = np.ascontiguousarray(records).view((np.void, kind.itemsize))[index]
+    return np.ascontiguousarray(part).view(kind)
 
 
 def numbers(array: NDArray[np.uint32]) -> NDArray[np.int32] | NDArray[np.int64]:

@@ -110,20 +110,26 @@ class BorrowedMesh:
             self.convex = self._run(*nothing, True, "auto", threads, progress)
 
     @classmethod
-    def from_scipy(cls, delaunay: Any, *, check: bool = False) -> Self:
+    def from_scipy(cls, delaunay: Any, *, check: bool = True) -> Self:
         """Borrow a ``scipy.spatial.Delaunay`` of points in the plane.
 
         Parameters
         ----------
         delaunay : scipy.spatial.Delaunay
-            Triangles that SciPy has rounded may leave gaps along the hull, so points beyond a
-            border edge are looked for everywhere unless the check finds the mesh convex.
+            Its arrays are not copied.
         check : bool, optional
-            Look at all triangles first.
+            Look at all triangles first, which tells whether they fill their convex hull: SciPy
+            rounds, and may leave gaps along the hull. Without it, each point that is outside is
+            looked for in all triangles; leave it out only for points that are inside.
 
         Returns
         -------
         BorrowedMesh
+
+        Notes
+        -----
+        ``Mesh(delaunay.points, delaunay.simplices)`` with a `Locator` takes about half as long as
+        the check, and its queries are faster; it needs memory of its own.
 
         Examples
         --------
@@ -136,7 +142,7 @@ class BorrowedMesh:
         return cls(delaunay.points, delaunay.simplices, delaunay.neighbors, check=check)
 
     @classmethod
-    def from_matplotlib(cls, triangulation: Any, *, check: bool = False) -> Self:
+    def from_matplotlib(cls, triangulation: Any, *, check: bool = True) -> Self:
         """Borrow a ``matplotlib.tri.Triangulation``, without a mask.
 
         Parameters
@@ -144,7 +150,7 @@ class BorrowedMesh:
         triangulation : matplotlib.tri.Triangulation
             Its x and y are copied, since they lie apart.
         check : bool, optional
-            Look at all triangles first.
+            As of `from_scipy`.
 
         Returns
         -------

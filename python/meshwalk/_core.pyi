@@ -12,8 +12,11 @@ CHANGED_LAYOUT: dict[str, int]
 CHANGED_VERTEX_LAYOUT: dict[str, int]
 PIECE_LAYOUT: dict[str, int]
 SIGHT_LAYOUT: dict[str, int]
+BORDER_LAYOUT: dict[str, int]
 MAX_TRIANGLES: int
 MESH_FORMATS: tuple[str, ...]
+WALK_NAMES: tuple[str, ...]
+START_NAMES: tuple[str, ...]
 version: str
 
 Buffer: TypeAlias = NDArray[Any]
@@ -67,6 +70,8 @@ class Location:
     def inside(self) -> bool:
         """True if a triangle contains the point, its border included."""
 
+def location_from_bytes(location: bytes, /) -> Location: ...
+
 class Locator:
     @property
     def mesh(self) -> Mesh: ...
@@ -89,6 +94,7 @@ class Locator:
     def _segment(
         self, ends: Buffer, threads: int, progress: Progress | None, /
     ) -> tuple[memoryview, memoryview]: ...
+    def _nearest_borders(self, points: Buffer, out: Buffer, /) -> None: ...
     def _nearest_border(
         self, x: float, y: float, /
     ) -> tuple[int, int, float, tuple[float, float], tuple[float, float, float]]: ...
@@ -481,7 +487,7 @@ def constrained_delaunay(
     threads: int,
     progress: Progress | None,
     /,
-) -> tuple[_Mesh, int, memoryview, memoryview]: ...
+) -> tuple[_Mesh, int, memoryview, memoryview, int, int]: ...
 def read_mesh(
     path: bytes, layout: str | None, progress: Progress | None, /
 ) -> tuple[

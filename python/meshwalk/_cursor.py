@@ -50,8 +50,25 @@ class Cursor:
     >>> xy
     array([[6., 1.],
            [8., 3.]])
-    >>> cursor.locate(xy + [1, 0])
+    >>> before, xy = xy, xy + [1, 0]
+    >>> hit = cursor.locate(xy)
+    >>> hit
     <Locations: 2 points; 1 inside, 1 outside>
+
+    Where did it leave the mesh?
+
+    >>> gone = hit.triangle < 0
+    >>> way = cursor.locator.segment(before[gone], xy[gone])
+    >>> way.exits().point  # none: it was on the border, and has gone outwards
+    array([[nan, nan]])
+    >>> way = cursor.locator.segment(before[gone] - [1, 0], xy[gone])
+    >>> out = way.exits()
+    >>> out.point, out.triangle, out.hole
+    (array([[8., 3.]]), array([1], dtype=int32), array([-1], dtype=int32))
+
+    See Also
+    --------
+    Segments.exits : where segments leave the mesh, and how a particle goes on from there.
     """
 
     __slots__ = ("_hints", "locator")

@@ -29,22 +29,34 @@ _making = threading.Lock()
 
 
 class EditKind(enum.IntEnum):
-    """What an edit does."""
+    """What an edit does.
+
+    Attributes
+    ----------
+    INSERT : 0
+        A vertex at x, y.
+    REMOVE : 1
+        The vertex goes.
+    MOVE : 2
+        The vertex goes to x, y.
+    FLIP : 3
+        The edge from the vertex to the other is exchanged for the other diagonal.
+    CONSTRAIN : 4
+        The straight way from the vertex to the other becomes an edge that stays, or
+        several.
+    RELEASE : 5
+        The constraints on the straight way from the vertex to the other end.
+    VALUE : 6
+        The field of the vertex becomes the value.
+    """
 
     INSERT = 0
-    """A vertex at x, y."""
     REMOVE = 1
-    """The vertex goes."""
     MOVE = 2
-    """The vertex goes to x, y."""
     FLIP = 3
-    """The edge from the vertex to the other is exchanged for the other diagonal."""
     CONSTRAIN = 4
-    """The straight way from the vertex to the other becomes an edge that stays, or several."""
     RELEASE = 5
-    """The constraints on the straight way from the vertex to the other end."""
     VALUE = 6
-    """The field of the vertex becomes the value."""
 
 
 class Edit(NamedTuple):
@@ -60,16 +72,24 @@ class Edit(NamedTuple):
 
 
 class EdgeKind(enum.IntEnum):
-    """What joins two vertices."""
+    """What joins two vertices.
+
+    Attributes
+    ----------
+    NONE : 0
+        No edge of the mesh.
+    UNCONSTRAINED : 1
+        An inner edge that may be flipped away.
+    CONSTRAINED : 2
+        An edge that stays.
+    BORDER : 3
+        An edge of one triangle only.
+    """
 
     NONE = 0
-    """No edge of the mesh."""
     UNCONSTRAINED = 1
-    """An inner edge that may be flipped away."""
     CONSTRAINED = 2
-    """An edge that stays."""
     BORDER = 3
-    """An edge of one triangle only."""
 
 
 class Change:
@@ -134,34 +154,51 @@ class Change:
 
 
 class EditorInfo(NamedTuple):
-    """What is there, and what it takes: the answer of `Editor.describe`."""
+    """What is there, and what it takes: the answer of `Editor.describe`.
+
+    Attributes
+    ----------
+    vertices : int
+        Vertices that are there.
+    triangles : int
+        Triangles that are there.
+    vertex_range : int
+        All numbers of vertices are below this.
+    triangle_range : int
+        All numbers of triangles are below this.
+    constrained_edges : int
+        Edges that are fixed, the border not counted.
+    delaunay : bool
+        The mesh is kept Delaunay.
+    convex : bool
+        It fills its convex hull, which grows and shrinks; else its border is fixed.
+    undoable : int
+        Edits that can be undone.
+    bytes : int
+        Memory in use.
+    undo_bytes : int
+        Of it, for undo and the log.
+    index_bytes : int
+        Of it, of what leads to the first triangle of a walk.
+    edits : int
+        Edits carried out, those undone too.
+    refreshes : int
+        Times that what leads to the first triangle was built anew.
+    """
 
     vertices: int
-    """Vertices that are there."""
     triangles: int
-    """Triangles that are there."""
     vertex_range: int
-    """All numbers of vertices are below this."""
     triangle_range: int
-    """All numbers of triangles are below this."""
     constrained_edges: int
-    """Edges that are fixed, the border not counted."""
     delaunay: bool
-    """The mesh is kept Delaunay."""
     convex: bool
-    """It fills its convex hull, which grows and shrinks; else its border is fixed."""
     undoable: int
-    """Edits that can be undone."""
     bytes: int
-    """Memory in use."""
     undo_bytes: int
-    """Of it, for undo and the log."""
     index_bytes: int
-    """Of it, of what leads to the first triangle of a walk."""
     edits: int
-    """Edits carried out, those undone too."""
     refreshes: int
-    """Times that what leads to the first triangle was built anew."""
 
 
 class Editor(_core.Editor):
@@ -585,6 +622,10 @@ class EditorLocations(Locations):
                 raise RuntimeError("the mesh was edited since the points were located")
             self.editor._interpolate(number, records, out)
         return out.reshape(self.shape)
+
+    def gradient(self, values: Any) -> Any:
+        """Not of the mesh of an editor: locate in its `Editor.mesh`."""
+        raise TypeError("the mesh of an editor has no gradients; locate in editor.mesh()")
 
     def operator(self) -> Any:
         """Not of the mesh of an editor: locate in its `Editor.mesh`."""

@@ -205,22 +205,34 @@ class SkippedRingWarning(UserWarning):
 
 
 class Constraints(NamedTuple):
-    """What a file has for `constrained_delaunay`: the answer of `read_constraints`."""
+    """What a file has for `constrained_delaunay`: the answer of `read_constraints`.
+
+    Attributes
+    ----------
+    points : ndarray of float64
+        x, y of each point, shape (n, 2); and z, NaN where there is none, if the file has
+        any.
+    segments : NDArray[np.int32] | NDArray[np.int64]
+        The two points of each segment, shape (k, 2).
+    holes : ndarray of float64
+        A point in each part that is to be removed, shape (h, 2).
+    polygons : NDArray[np.int32] | NDArray[np.int64]
+        The polygon that each segment bounds, -1 for a line, shape (k,).
+    records : ndarray of uint32
+        Where each segment comes from: the number of a line or feature, shape (k,).
+    record : str
+        What `records` counts: ``"line"``, from 1, or ``"feature"``, from 0.
+    fields : dict[str, ndarray of float64]
+        Further values at the points by name.
+    """
 
     points: NDArray[np.float64]
-    """x, y of each point, shape (n, 2); and z, NaN where there is none, if the file has any."""
     segments: NDArray[np.int32] | NDArray[np.int64]
-    """The two points of each segment, shape (k, 2)."""
     holes: NDArray[np.float64]
-    """A point in each part that is to be removed, shape (h, 2)."""
     polygons: NDArray[np.int32] | NDArray[np.int64]
-    """The polygon that each segment bounds, -1 for a line, shape (k,)."""
     records: NDArray[np.uint32]
-    """Where each segment comes from: the number of a line or feature, shape (k,)."""
     record: str
-    """What `records` counts: ``"line"``, from 1, or ``"feature"``, from 0."""
     fields: dict[str, NDArray[np.float64]]
-    """Further values at the points by name."""
 
 
 def read_constraints(

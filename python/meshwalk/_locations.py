@@ -114,7 +114,11 @@ class Locations:
 
     @property
     def inside(self) -> NDArray[np.bool_]:
-        """True where a triangle contains the point, its border included: a new array each time."""
+        """True where a triangle contains the point, its border included: a new array each time.
+
+        False for points that are ``Where.NEAR``, which have a triangle and values, too: all points
+        that have some are ``hit.triangle >= 0``.
+        """
         return np.asarray(self.where <= Where.VERTEX)
 
     @property
@@ -145,7 +149,8 @@ class Locations:
         Returns
         -------
         ndarray, shape ``hit.shape + values.shape[1:]``
-            NaN where there is no triangle, and where a vertex with a weight has NaN. Float32 for
+            NaN where there is no triangle (points that are ``Where.NEAR`` have one), and where a
+            vertex with a weight has NaN. Float32 for
             values of float16 and float32, which are interpolated in doubles and rounded once; else
             float64. The values at a vertex are exactly that vertex's.
 
@@ -165,6 +170,41 @@ class Locations:
         else:
             array = _arrays.values(values, "values", self._mesh.vertex_count)
         return self._interpolate_array(array, threads, progress)
+
+    def gradient(self, values: ArrayLike | str) -> NDArray[np.float64]:
+        """How fast values at the vertices change along x and y: constant in each triangle.
+
+        Parameters
+        ----------
+        values : array_like, shape (n_vertices, ...), or str
+            As of `interpolate`.
+
+        Returns
+        -------
+        ndarray, shape ``hit.shape + values.shape[1:] + (2,)``
+            The derivatives along x and y, in doubles, rounded. NaN where there is no triangle,
+            where a vertex of the triangle has NaN, and where the triangle has no area. On an edge
+            or a vertex it is that of the triangle which has the point.
+
+        Examples
+        --------
+        >>> import meshwalk
+        >>> mesh = meshwalk.Mesh([[0, 0], [4, 0], [0, 4]], [[0, 1, 2]])
+        >>> hit = meshwalk.Locator(mesh).locate([[1, 1], [9, 9]])
+        >>> hit.gradient([0.0, 4.0, 8.0])
+        array([[ 1.,  2.],
+               [nan, nan]])
+        """
+        if self._mesh.points.shape[1] != 2:
+            raise TypeError("gradients are those of a mesh in the plane, not of a surface")
+        if isinstance(values, str):
+            values = _arrays.named(self._mesh.fields, values)
+        array = _arrays.values(values, "values", self._mesh.vertex_count)
+        there = self.triangle >= 0
+        out = np.full((*self.shape, *array.shape[1:], 2), np.nan)
+        corners = self._mesh.triangles[self.triangle[there]]
+        out[there] = _gradients(self._mesh.points, array, corners)
+        return out
 
     def of_triangles(self, values: ArrayLike | str, missing: Any = np.nan) -> NDArray[Any]:
         """Take the values of the triangles that contain the points, without interpolation.
@@ -220,7 +260,7 @@ class Locations:
         scipy.sparse.csr_array, shape (number of points, n_vertices)
             Points in the order of ``ravel``. A row holds the weights that are not 0. Rows of points
             without a triangle are empty, so the product is 0 there, where `interpolate` gives NaN:
-            ``numpy.where(hit.inside.ravel(), operator @ values, numpy.nan)``.
+            ``numpy.where(hit.triangle.ravel() >= 0, operator @ values, numpy.nan)``.
 
         Raises
         ------
@@ -337,3 +377,19 @@ class Locations:
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Locations, (self._mesh, self._records)
+
+
+def _gradients(
+    points: NDArray[np.float64], values: NDArray[Any], corners: NDArray[Any]
+) -> NDArray[np.float64]:
+    """Gradients in triangles, whose vertices are `corners`: x and y of each field of each."""
+    one, two, three = corners.T
+    (bx, by), (cx, cy) = (points[two] - points[one]).T, (points[three] - points[one]).T
+    first = values[one].astype(np.float64)
+    b, c = values[two] - first, values[three] - first
+    bx, by, cx, cy = (part.reshape(-1, *(1,) * (values.ndim - 1)) for part in (bx, by, cx, cy))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        twice_area = bx * cy - by * cx
+        twice_area[twice_area == 0] = np.nan
+        out = np.stack([b * cy - c * by, c * bx - b * cx], axis=-1)
+        return np.asarray(out / twice_area[..., None])

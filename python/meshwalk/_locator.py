@@ -20,54 +20,101 @@ if TYPE_CHECKING:
 
     from meshwalk._core import Progress
 
+walk_names: tuple[str, ...] = _core.WALK_NAMES
+"""The walks of `Locator.locate` and `Locator.walk_path`; ``"auto"`` lets the library choose."""
+
+start_names: tuple[str, ...] = _core.START_NAMES
+"""The ways to find the first triangle of a walk; ``"auto"`` lets the library choose."""
+
+_BORDER = _arrays.record_type(
+    _core.BORDER_LAYOUT,
+    {
+        "triangle": np.int32,
+        "edge": np.int32,
+        "distance": np.float64,
+        "point": (np.float64, (2,)),
+        "weights": (np.float64, (3,)),
+    },
+)
+_BLOCK = 1 << 14
+"""Points that are worked on at a time: Ctrl-C is looked for in between."""
+
 _FILLS = {"auto": 0, "yes": 1, "no": 2}
 
 
 class NearestBorder(NamedTuple):
-    """The border edge nearest to a point: the answer of `Locator.nearest_border`."""
+    """The border edge nearest to a point: the answer of `Locator.nearest_border`.
 
-    triangle: int
-    """The triangle that has the edge; of several at the same distance the lowest."""
-    edge: int
-    """Its local edge, which joins the local vertices k and (k + 1) mod 3."""
-    distance: float
-    """In units of the mesh, rounded; 0 for a point on the border."""
-    point: tuple[float, float]
-    """The nearest point of that edge, rounded."""
-    weights: tuple[float, float, float]
-    """The same point as weights of the triangle's vertices."""
+    For an array of points, each member is an array.
+
+    Attributes
+    ----------
+    triangle : int
+        The triangle that has the edge; of several at the same distance the lowest.
+    edge : int
+        Its local edge, which joins the local vertices k and (k + 1) mod 3.
+    distance : float
+        In units of the mesh, rounded; 0 for a point on the border.
+    point : tuple[float, float]
+        The nearest point of that edge, rounded.
+    weights : tuple[float, float, float]
+        The same point as weights of the triangle's vertices.
+    """
+
+    triangle: Any
+    edge: Any
+    distance: Any
+    point: Any
+    weights: Any
 
 
 class LocatorInfo(NamedTuple):
-    """What a locator has built beside the mesh: the answer of `Locator.describe`."""
+    """What a locator has built beside the mesh: the answer of `Locator.describe`.
+
+    Attributes
+    ----------
+    bytes : int
+        All memory of the locator, the mesh not counted.
+    border_bytes : int
+        Of it, the index of the border.
+    area_bytes : int
+        Of it, stored areas.
+    fill_bytes : int
+        Of it, the triangles that fill pockets and holes, and the copy that they are in.
+    guide_bytes : int
+        Of it, the guide.
+    guide : str or None
+        The start that leads queries to their first triangle where nothing is said;
+        ``"chains"`` where walks from the others would be long; None if nothing is built.
+    ghost_triangles : int
+        Triangles that fill pockets and holes.
+    holes : int
+        Holes of the mesh.
+    components : int
+        Pieces that share no place; only where pockets and holes are open, else 1.
+    copied : bool
+        Walks run on a copy of the triangles.
+    embedding : bool
+        False only with ``any=True``.
+    unfilled : bool
+        Pockets and holes are not filled.
+    void_promise : str or None
+        Of a mesh that is no embedding: which promise does not hold.
+    """
 
     bytes: int
-    """All memory of the locator, the mesh not counted."""
     border_bytes: int
-    """Of it, the index of the border."""
     area_bytes: int
-    """Of it, stored areas."""
     fill_bytes: int
-    """Of it, the triangles that fill pockets and holes, and the copy that they are in."""
     guide_bytes: int
-    """Of it, the guide."""
     guide: str | None
-    """The start that leads queries to their first triangle where nothing is said; ``"chains"``
-    where walks from the others would be long; None if nothing is built."""
     ghost_triangles: int
-    """Triangles that fill pockets and holes."""
     holes: int
-    """Holes of the mesh."""
     components: int
-    """Pieces that share no place; only where pockets and holes are open, else 1."""
     copied: bool
-    """Walks run on a copy of the triangles."""
     embedding: bool
-    """False only with ``any=True``."""
     unfilled: bool
-    """Pockets and holes are not filled."""
     void_promise: str | None
-    """Of a mesh that is no embedding: which promise does not hold."""
 
 
 class Locator(_core.Locator):
@@ -174,8 +221,9 @@ class Locator(_core.Locator):
             copied if these are doubles whose rows have no gaps within, such as
             ``table[:, :2]``. A point that is NaN, infinite or masked is ``Where.BAD``.
         tolerance : float, optional
-            Points outside at most so far from the mesh are ``Where.NEAR``, with the nearest
-            triangle. Needs a locator with ``border=True``.
+            Points outside at most so far from the mesh are ``Where.NEAR``: they get the nearest
+            triangle and its values, though `Locations.inside` is False for them. Needs a locator
+            with ``border=True``.
         hints : array_like of int, optional
             For each point a triangle where its search begins, such as `triangle` of the answer
             before; of the shape of the answer. -1 is no hint, and a number that no triangle has is
@@ -184,8 +232,8 @@ class Locator(_core.Locator):
         threads : int, optional
             How many threads answer; 0 lets the library choose. The answers are the same.
         walk, start : str, optional
-            By which walk, and from which first triangle, as on the command line (`walk_names`,
-            `start_names`). The answers are the same.
+            By which walk, and from which first triangle: one of `meshwalk.walk_names`, such as
+            ``"straight"``, and of `meshwalk.start_names`. The answers are the same.
         lanes : int, optional
             Walks in flight at a time; 0 lets the library choose.
         progress : callable, optional
@@ -244,34 +292,57 @@ class Locator(_core.Locator):
         _core.write_prepared(self, path, fields, others, mesh.crs, tiles, progress)
 
     def _check_tolerance(self, tolerance: float) -> None:
-        if tolerance > 0 and not self._options["border"]:
+        if np.ndim(tolerance):
+            raise TypeError(
+                "tolerance must be a number, not an array; points are one array of shape (..., 2),"
+                " such as np.column_stack((x, y))"
+            )
+        if _arrays.number(tolerance, "tolerance") > 0 and not self._options["border"]:
             raise ValueError("a tolerance needs a Locator that was made with border=True")
 
-    def nearest_border(self, x: float, y: float) -> NearestBorder:
-        """Find the border edge nearest to a point, exactly.
+    def nearest_border(self, x: ArrayLike, y: float | None = None) -> NearestBorder:
+        """Find the border edge nearest to a point, or to each of many, exactly.
 
         Parameters
         ----------
-        x, y : float
-            A finite point, in the units of the mesh.
+        x, y : float, or one array_like of shape (..., 2)
+            A finite point, in the units of the mesh; or an array of points, as of `locate`.
 
         Returns
         -------
         NearestBorder
+            Of an array, its members are arrays of the shape of the points; a point that is NaN,
+            infinite or masked has -1 and NaN.
 
         Raises
         ------
         ValueError
-            The locator was made without ``border=True``, or the point is not finite.
+            The locator was made without ``border=True``, or the one point is not finite.
+
+        Notes
+        -----
+        One thread works on an array; Ctrl-C ends it.
 
         Examples
         --------
         >>> import meshwalk
         >>> mesh = meshwalk.Mesh([[0, 0], [4, 0], [0, 4]], [[0, 1, 2]])
-        >>> meshwalk.Locator(mesh, border=True).nearest_border(1, -2)
+        >>> locator = meshwalk.Locator(mesh, border=True)
+        >>> locator.nearest_border(1, -2)
         NearestBorder(triangle=0, edge=0, distance=2.0, point=(1.0, 0.0), weights=(0.75, 0.25, 0.0))
+        >>> locator.nearest_border([[1, -2], [-3, 1]]).distance
+        array([2., 3.])
         """
-        return NearestBorder(*self._nearest_border(x, y))
+        if y is not None:
+            one = _arrays.number(x, "x"), _arrays.number(y, "y")
+            return NearestBorder(*self._nearest_border(*one))
+        points, shape = _arrays.queries(x, "x", 2)
+        out = np.empty(len(points), _BORDER)
+        for first in range(0, max(len(points), 1), _BLOCK):
+            part = slice(first, first + _BLOCK)
+            self._nearest_borders(points[part], out[part])
+        out = out.reshape(shape)
+        return NearestBorder(*(out[name] for name in NearestBorder._fields))
 
     def walk_path(
         self, x: float, y: float, *, walk: str = "auto", start: str = "auto", seed: int = 0
@@ -283,8 +354,8 @@ class Locator(_core.Locator):
         x, y : float
             The point, in the units of the mesh.
         walk, start : str, optional
-            By which walk, and from which first triangle; as on the command line, such as
-            ``"straight"`` and ``"random"``.
+            By which walk, and from which first triangle: one of `meshwalk.walk_names`, such as
+            ``"straight"``, and of `meshwalk.start_names`, such as ``"random"``.
         seed : int, optional
             Of random choices.
 
@@ -331,6 +402,15 @@ class Locator(_core.Locator):
         ValueError
             Pockets and holes are open (``fill="no"``), or the mesh is no embedding.
 
+        See Also
+        --------
+        Segments.exits : where each segment leaves the mesh for the first time.
+
+        Notes
+        -----
+        A segment that begins on the border and goes outwards has no pieces, as one that is wholly
+        outside: `locate` its beginning to tell them apart.
+
         Examples
         --------
         >>> import meshwalk
@@ -351,9 +431,8 @@ class Locator(_core.Locator):
         ends[..., 2:] = end[0].reshape(*end[1], 2)
         rows = ends.reshape(-1, 4)
         offsets, records = self._segment(rows, threads, progress)
-        return Segments(
-            self.mesh, rows, np.frombuffer(offsets, np.int64), np.frombuffer(records, PIECE)
-        )
+        first, pieces = np.frombuffer(offsets, np.int64), np.frombuffer(records, PIECE)
+        return Segments(self.mesh, rows, first, pieces, self)
 
     def describe(self) -> LocatorInfo:
         """Tell what the locator has built beside the mesh, in bytes.

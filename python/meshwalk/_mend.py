@@ -30,35 +30,54 @@ _KINDS = (
 
 
 class MendChange(NamedTuple):
-    """One change of `mend`, in the numbers of the arrays given; -1 where one does not apply."""
+    """One change of `mend`, in the numbers of the arrays given; -1 where one does not apply.
+
+    Attributes
+    ----------
+    kind : str
+        Such as ``"welded"``, ``"dropped, flat"``, ``"split"``, ``"turned"``.
+    text : str
+        A sentence that names the place.
+    triangle : int
+        The triangle that was changed.
+    vertex : int
+        The vertex concerned: welded, missing, or where the triangle was split.
+    other : int
+        What `vertex` was welded to, or the triangle that `triangle` repeated.
+    """
 
     kind: str
-    """Such as ``"welded"``, ``"dropped, flat"``, ``"split"``, ``"turned"``."""
     text: str
-    """A sentence that names the place."""
     triangle: int
-    """The triangle that was changed."""
     vertex: int
-    """The vertex concerned: welded, missing, or where the triangle was split."""
     other: int
-    """What `vertex` was welded to, or the triangle that `triangle` repeated."""
 
 
 class Mended(NamedTuple):
-    """A mended mesh, and how it came about: the answer of `mend`."""
+    """A mended mesh, and how it came about: the answer of `mend`.
+
+    Attributes
+    ----------
+    points : ndarray of float64
+        The vertices that are left, in their order, with the columns given.
+    triangles : NDArray[np.int32] | NDArray[np.int64]
+        Their triangles, in their order; the parts of one that was split follow each other.
+    vertex_from : NDArray[np.int32] | NDArray[np.int64]
+        The old number of each new vertex: ``values[vertex_from]`` are its values.
+    vertex_to : NDArray[np.int32] | NDArray[np.int64]
+        The new number of each old vertex.
+    triangle_from : NDArray[np.int32] | NDArray[np.int64]
+        The old triangle that each new one is, or is a part of.
+    changes : list[MendChange]
+        What was done, in order.
+    """
 
     points: NDArray[np.float64]
-    """The vertices that are left, in their order, with the columns given."""
     triangles: NDArray[np.int32] | NDArray[np.int64]
-    """Their triangles, in their order; the parts of one that was split follow each other."""
     vertex_from: NDArray[np.int32] | NDArray[np.int64]
-    """The old number of each new vertex: ``values[vertex_from]`` are its values."""
     vertex_to: NDArray[np.int32] | NDArray[np.int64]
-    """The new number of each old vertex."""
     triangle_from: NDArray[np.int32] | NDArray[np.int64]
-    """The old triangle that each new one is, or is a part of."""
     changes: list[MendChange]
-    """What was done, in order."""
 
     def mesh(
         self, fields: Mapping[str, ArrayLike] | None = None, *, crs: str | None = None

@@ -28,54 +28,81 @@ class MeshInfo(NamedTuple):
     """What kind of mesh it is: the answer of `Mesh.describe`.
 
     Holes, convexity and the embedding are decided exactly.
+
+    Attributes
+    ----------
+    vertices : int
+        Number of vertices.
+    triangles : int
+        Number of triangles.
+    unused_vertices : int
+        Vertices of no triangle.
+    flat_triangles : int
+        Triangles without area.
+    clockwise_triangles : int
+        Triangles that turn clockwise.
+    clashing_edges : int
+        Inner edges whose two triangles are oriented differently.
+    border_edges : int
+        Edges of one triangle only.
+    border_loops : int
+        Closed chains of border edges.
+    components : int
+        Pieces that share no vertex.
+    holes : int
+        Bounded pieces of the plane without the mesh; 0 if it is no embedding.
+    oriented : bool
+        There are no clashing edges.
+    embedding : bool
+        The triangles do not overlap and meet in whole edges and vertices only.
+    convex : bool
+        An embedding that fills its convex hull.
+    delaunay : bool
+        An embedding, and no inner edge has a vertex across it in a circle.
+    low : tuple[float, float]
+        Least x and y of the vertices in use.
+    high : tuple[float, float]
+        Largest x and y of the vertices in use.
+    area : float
+        Sum of the triangles' areas.
     """
 
     vertices: int
-    """Number of vertices."""
     triangles: int
-    """Number of triangles."""
     unused_vertices: int
-    """Vertices of no triangle."""
     flat_triangles: int
-    """Triangles without area."""
     clockwise_triangles: int
-    """Triangles that turn clockwise."""
     clashing_edges: int
-    """Inner edges whose two triangles are oriented differently."""
     border_edges: int
-    """Edges of one triangle only."""
     border_loops: int
-    """Closed chains of border edges."""
     components: int
-    """Pieces that share no vertex."""
     holes: int
-    """Bounded pieces of the plane without the mesh; 0 if it is no embedding."""
     oriented: bool
-    """There are no clashing edges."""
     embedding: bool
-    """The triangles do not overlap and meet in whole edges and vertices only."""
     convex: bool
-    """An embedding that fills its convex hull."""
     delaunay: bool
-    """An embedding, and no inner edge has a vertex across it in a circle."""
     low: tuple[float, float]
-    """Least x and y of the vertices in use."""
     high: tuple[float, float]
-    """Largest x and y of the vertices in use."""
     area: float
-    """Sum of the triangles' areas."""
 
 
 class Reordered(NamedTuple):
-    """A mesh with other numbers, and the old ones: the answer of `Mesh.reordered`."""
+    """A mesh with other numbers, and the old ones: the answer of `Mesh.reordered`.
+
+    Attributes
+    ----------
+    mesh : Mesh
+        The same mesh, whose neighbours have near numbers.
+    vertices : ndarray of uint32, shape (n,)
+        The old number of each new vertex: new vertex i is vertex ``vertices[i]`` of the old mesh,
+        so ``values[vertices]`` are the values of the old vertices in the new order.
+    triangles : ndarray of uint32, shape (m,)
+        The old number of each new triangle, likewise.
+    """
 
     mesh: Mesh
-    """The same mesh, whose neighbours have near numbers."""
     vertices: NDArray[np.uint32]
-    """The old number of each vertex, shape (n,): ``values[vertices]`` are values in the new order.
-    """
     triangles: NDArray[np.uint32]
-    """The old number of each triangle, shape (m,)."""
 
 
 class Mesh(_core.Mesh):
@@ -109,8 +136,9 @@ class Mesh(_core.Mesh):
     Raises
     ------
     InputError
-        A triangle names a vertex that does not exist, or has a vertex twice, a coordinate is NaN or
-        infinite, or an edge belongs to three triangles. `check` lists all such places.
+        A triangle names a vertex that does not exist, or has a vertex twice, or one with a
+        coordinate that is NaN or infinite, or an edge belongs to three triangles. `check` lists all
+        such places. Vertices of no triangle may have any coordinates.
     LimitError
         More than 2**30 triangles.
     TypeError, ValueError
@@ -190,12 +218,12 @@ class Mesh(_core.Mesh):
         self._crs = None
         self._triangle_fields = {}
         self._constraints = (np.empty((0, 2), np.uint32), np.empty(0, np.uint32))
-        given = dict(fields or {})
+        own = _arrays.fields(fields, self.vertex_count)
         if heights is not None:
-            if "z" in given:
+            if "z" in own:
                 raise ValueError("z is given twice: as a field, and as the third column of points")
-            given = {"z": heights, **given}
-        self._fields = _arrays.fields(given, self.vertex_count)
+            own = {**_arrays.fields({"z": heights}, self.vertex_count), **own}
+        self._fields = own
 
     def _set_mapped(
         self,

@@ -116,7 +116,7 @@ class Operator:
         Parameters
         ----------
         values : array_like, shape (n_vertices, ...)
-            As of `Locations.interpolate`.
+            As of `Locations.interpolate`, but no name of a field.
         threads : int, optional
             How many threads work on it; 0 lets the library choose. The values are the same.
         leave_out_missing : bool, optional
@@ -129,6 +129,11 @@ class Operator:
         ndarray, shape ``hit.shape + values.shape[1:]``
             NaN where there is no triangle.
         """
+        if isinstance(values, str):
+            raise TypeError(
+                "values must be an array: an operator keeps nothing of its mesh, so it knows no"
+                f" field {values!r}; take mesh.fields[{values!r}]"
+            )
         given = np.asanyarray(values)
         there = len(self._values)
         if there != 1 and given.shape[:there] == self._values:

@@ -21,39 +21,60 @@ if TYPE_CHECKING:
 
 
 class VolumeInfo(NamedTuple):
-    """Cut and fill: the answer of `volume`. Areas are those of the plane."""
+    """Cut and fill: the answer of `volume`. Areas are those of the plane.
+
+    Attributes
+    ----------
+    cut : float
+        Volume where the surface is above the other: to be cut off.
+    fill : float
+        Volume where it is below, as a positive number: to be filled.
+    cut_area : float
+        Area where the surface is above.
+    fill_area : float
+        Area where it is below.
+    level_area : float
+        Area of common parts of triangles where both are equal throughout.
+    area : float
+        Area where both have a height: the sum of these three.
+    surface_only : float
+        Area where only the surface has a height.
+    other_only : float
+        Area where only the other one has.
+    parts : int
+        Common parts of triangles that were added.
+    """
 
     cut: float
-    """Volume where the surface is above the other: to be cut off."""
     fill: float
-    """Volume where it is below, as a positive number: to be filled."""
     cut_area: float
-    """Area where the surface is above."""
     fill_area: float
-    """Area where it is below."""
     level_area: float
-    """Area of common parts of triangles where both are equal throughout."""
     area: float
-    """Area where both have a height: the sum of these three."""
     surface_only: float
-    """Area where only the surface has a height."""
     other_only: float
-    """Area where only the other one has."""
     parts: int
-    """Common parts of triangles that were added."""
 
 
 class SurfaceAreaInfo(NamedTuple):
-    """The answer of `surface_area`."""
+    """The answer of `surface_area`.
+
+    Attributes
+    ----------
+    area : float
+        Area of the plane that both the region and the surface cover.
+    surface_area : float
+        Area of the surface over it, slopes included.
+    region_area : float
+        Area of the region.
+    parts : int
+        Common parts of triangles that were added.
+    """
 
     area: float
-    """Area of the plane that both the region and the surface cover."""
     surface_area: float
-    """Area of the surface over it, slopes included."""
     region_area: float
-    """Area of the region."""
     parts: int
-    """Common parts of triangles that were added."""
 
 
 def volume(
@@ -165,20 +186,30 @@ def surface_area(
 
 
 class Pixels(NamedTuple):
-    """The pixels of a raster, as a target of `remap`: rows run east, columns run south."""
+    """The pixels of a raster, as a target of `remap`: rows run east, columns run south.
+
+    Attributes
+    ----------
+    west : float
+        The western edge of the first pixel.
+    north : float
+        Its northern edge.
+    width : float
+        Of a pixel, positive.
+    height : float
+        Of a pixel, positive.
+    columns : int
+        Pixels in a row.
+    rows : int
+        Number of rows.
+    """
 
     west: float
-    """The western edge of the first pixel."""
     north: float
-    """Its northern edge."""
     width: float
-    """Of a pixel, positive."""
     height: float
-    """Of a pixel, positive."""
     columns: int
-    """Pixels in a row."""
     rows: int
-    """Number of rows."""
 
 
 class Remap:

@@ -25,14 +25,21 @@ SIGHT = _arrays.record_type(
 
 
 class SightState(enum.IntEnum):
-    """Whether a target is seen: the numbers in `Sights.state`."""
+    """Whether a target is seen: the numbers in `Sights.state`.
+
+    Attributes
+    ----------
+    VISIBLE : 0
+        No terrain is above the line.
+    HIDDEN : 1
+        Terrain is above the line.
+    UNKNOWN : 2
+        The ground at the target has no height, or the target is not finite.
+    """
 
     VISIBLE = 0
-    """No terrain is above the line."""
     HIDDEN = 1
-    """Terrain is above the line."""
     UNKNOWN = 2
-    """The ground at the target has no height, or the target is not finite."""
 
 
 class Sights:

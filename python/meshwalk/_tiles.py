@@ -354,6 +354,26 @@ class TileLocations(Locations):
 
         return self._gather(values, self.tiles.vertex_count, "vertices", take)
 
+    def gradient(self, values: ArrayLike | str) -> NDArray[np.float64]:
+        """Tell how fast values change along x and y, as `Locations.gradient` does.
+
+        Parameters
+        ----------
+        values : array_like, shape (n_vertices of the whole mesh, ...), or str
+            As of `Locations.gradient`.
+
+        Returns
+        -------
+        ndarray
+        """
+
+        def take(mapped: _Tile, hit: Locations, given: Any) -> NDArray[Any]:
+            if not isinstance(given, str):
+                given = given[mapped.vertices.astype(np.int64)]
+            return hit.gradient(given)
+
+        return self._gather(values, self.tiles.vertex_count, "vertices", take)
+
     def of_triangles(self, values: ArrayLike | str, missing: Any = np.nan) -> NDArray[Any]:
         """Take the values of the triangles, as `Locations.of_triangles` does.
 

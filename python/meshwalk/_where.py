@@ -8,6 +8,24 @@ import enum
 class Where(enum.IntEnum):
     """Where a point lies: the members of ``Locations.where``.
 
+    Attributes
+    ----------
+    INSIDE : 0
+        Inside the triangle.
+    EDGE : 1
+        On an edge of the triangle.
+    VERTEX : 2
+        At a vertex of the triangle.
+    OUTSIDE : 3
+        In no triangle and no hole.
+    HOLE : 4
+        In a hole: a bounded part of the plane that the mesh surrounds.
+    NEAR : 5
+        Outside or in a hole, but within the tolerance: the triangle, the weights and interpolated
+        values are those of the nearest place of the mesh, yet `Locations.inside` is False.
+    BAD : 6
+        The point has a coordinate that is NaN or infinite.
+
     Examples
     --------
     >>> import meshwalk
@@ -18,16 +36,9 @@ class Where(enum.IntEnum):
     """
 
     INSIDE = 0
-    """Inside the triangle."""
     EDGE = 1
-    """On an edge of the triangle."""
     VERTEX = 2
-    """At a vertex of the triangle."""
     OUTSIDE = 3
-    """In no triangle and no hole."""
     HOLE = 4
-    """In a hole: a bounded part of the plane that the mesh surrounds."""
     NEAR = 5
-    """Outside or in a hole, but within the tolerance; the triangle is the nearest one."""
     BAD = 6
-    """The point has a coordinate that is NaN or infinite."""

@@ -119,6 +119,9 @@ class Delaunay:
 
     Notes
     -----
+    SciPy's own interpolators, such as ``scipy.interpolate.CloughTocher2DInterpolator``, take a
+    triangulation of Qhull only: give them points, or a ``scipy.spatial.Delaunay``.
+
     Every triangle is a Delaunay triangle, decided exactly, and every point that no other one equals
     is a corner. Where four points lie on one circle, and in the order of triangles and of their
     corners, the result may differ from Qhull's. Any number of threads may use an object. O(n log n)

@@ -39,7 +39,8 @@ static mw_status mend_work_create(mw_mend_work *w, const mw_arrays *arrays, mw_e
             if (v >= w->vertex_count && !(w->repairs & MW_REPAIR_DROP))
                 return mw__fail_at(error, t, -1,
                                    "triangle %" PRIu32
-                                   ": corner %zu is not a vertex; 'drop' would remove the triangle",
+                                   ": local vertex %zu does not exist; 'drop' would remove the"
+                                   " triangle",
                                    t, k);
         }
     }

@@ -29,15 +29,43 @@ static bool array_vertex_is_finite(const mw_arrays *arrays, size_t dimension, ui
     return isfinite(p[0]) && isfinite(p[1]) && (dimension < 3 || isfinite(p[2]));
 }
 
+/* Are the numbers of vertices from 1 to their count? Then they were counted from 1. */
+static bool array_counts_from_one(const mw_arrays *arrays)
+{
+    bool last = false;
+    for (size_t i = 0; i < 3 * arrays->triangle_count; i++) {
+        uint32_t v = mw__index_at(arrays, i);
+        if (v == 0 || v > arrays->point_count) return false;
+        last = last || v == arrays->point_count;
+    }
+    return last;
+}
+
+/* A number as it was given, also a negative one. */
+static int64_t array_number(const mw_arrays *arrays, size_t i)
+{
+    if (arrays->integer_type == MW_INT64) return ((const int64_t *)arrays->triangles)[i];
+    if (arrays->integer_type == MW_INT32) return ((const int32_t *)arrays->triangles)[i];
+    return ((const uint32_t *)arrays->triangles)[i];
+}
+
+/* Corner k of triangle t is no vertex. */
+static mw_status array_vertex_is_missing(const mw_arrays *arrays, uint32_t t, size_t k,
+                                         mw_error *error)
+{
+    return mw__fail_at(error, t, -1,
+                       "triangle %" PRIu32 ": vertex %" PRId64
+                       " does not exist; there are %zu, numbered from 0%s",
+                       t, array_number(arrays, 3 * (size_t)t + k), arrays->point_count,
+                       array_counts_from_one(arrays) ? ": these seem to be numbered from 1" : "");
+}
+
 mw_status mw__copy_triangle(const mw_arrays *arrays, size_t dimension, bool tolerant, uint32_t t,
                             mw_triangle *tri, mw_error *error)
 {
     for (size_t k = 0; k < 3; k++) {
         uint32_t v = mw__index_at(arrays, 3 * (size_t)t + k);
-        if (v >= arrays->point_count)
-            return mw__fail_at(error, t, -1,
-                               "triangle %" PRIu32 ": corner %zu is not a vertex; there are %zu", t,
-                               k, arrays->point_count);
+        if (v >= arrays->point_count) return array_vertex_is_missing(arrays, t, k, error);
         if (!tolerant && !array_vertex_is_finite(arrays, dimension, v))
             return mw__fail_at(error, t, v,
                                "triangle %" PRIu32 ": vertex %" PRIu32 " is not finite", t, v);

@@ -78,6 +78,32 @@ static void volume_add_triangle(volume_sums *s, double area, double u, double v,
 
 /* --- pairs of triangles --- */
 
+static void volume_corner(const mw_overlap_tile *t, int k, double corner[3])
+{
+    corner[0] = t->p[k].x;
+    corner[1] = t->p[k].y;
+    corner[2] = t->value[k];
+}
+
+/* Do both triangles lie in one plane? Then the differences d, which are rounded, should be 0. Asked
+ * exactly if all of them are small. */
+static bool volume_is_level(const mw_overlap_tile *p, const mw_overlap_tile *q, const double *d,
+                            uint32_t count)
+{
+    double most = 0, a[3], b[3], c[3], corner[3];
+    for (int k = 0; k < 3; k++) most = fmax(most, fmax(fabs(p->value[k]), fabs(q->value[k])));
+    for (uint32_t i = 0; i < count; i++)
+        if (fabs(d[i]) > 0x1p-32 * most) return false;
+    volume_corner(q, 0, a);
+    volume_corner(q, 1, b);
+    volume_corner(q, 2, c);
+    for (int k = 0; k < 3; k++) {
+        volume_corner(p, k, corner);
+        if (mw__orient3d(a, b, c, corner) != 0) return false;
+    }
+    return true;
+}
+
 static void volume_add_part(volume_sums *s, const mw_clip *clip, const mw_overlap_tile *p,
                             const mw_overlap_tile *q)
 {
@@ -88,8 +114,14 @@ static void volume_add_part(volume_sums *s, const mw_clip *clip, const mw_overla
         for (int k = 0; k < 3; k++)
             d[i] += c->p[k] * (p->value[k] - zero) - c->q[k] * (q->value[k] - zero);
     }
-    for (uint32_t k = 1; k + 1 < clip->count; k++)
-        volume_add_triangle(s, mw__clip_part(clip, k), d[0], d[k], d[k + 1]);
+    const bool level = volume_is_level(p, q, d, clip->count);
+    for (uint32_t k = 1; k + 1 < clip->count; k++) {
+        const double part = mw__clip_part(clip, k);
+        if (level)
+            volume_add(s, VOLUME_LEVEL_AREA, part);
+        else
+            volume_add_triangle(s, part, d[0], d[k], d[k + 1]);
+    }
     s->parts++;
 }
 

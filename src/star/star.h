@@ -61,7 +61,9 @@ typedef struct mw_star_track {
     uint32_t unsound; /* facets through the centre, or with a corner that is not finite */
     uint32_t wrong;   /* half-edges without a neighbour, or with one of another orientation */
     uint32_t met;     /* facets that one ray meets */
-    bool on;          /* all this holds */
+    uint32_t tended_section; /* the next one of the guide to be looked at */
+    uint32_t dropped;        /* how many facets went */
+    bool on;                 /* all this holds */
 } mw_star_track;
 
 struct mw_star {

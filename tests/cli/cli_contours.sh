@@ -246,5 +246,9 @@ run contours gap.off --levels 1 --base 2; refused 2 "'--base' is for --interval"
 run contours gap.off --interval 1e-9; refused 4 'more than 1000000 levels'
 run contours gap.off --levels 1 --field depth; refused 3 "has no field 'depth'"
 run contours absent.off --levels 1; refused 3 'absent.off'
+# More rows than are written at a time.
+if [[ -w /dev/full ]]; then
+    run contours gap.off --interval 0.001 -o /dev/full; exits 4; says 'No space left on device'
+fi
 run contours gap.off --levels 1 -o gap.off; refused 2 'gap.off'
 finish

@@ -180,6 +180,13 @@ run raster absent.off -o out.tif --driver Nothing
 refused 2 "this GDAL does not write rasters as 'Nothing'"
 run raster absent.off -o absent/out.tif; refused 4 'absent/out\.tif: No such file'
 run raster absent.off; refused 2 'a raster is written to a file: -o DEM\.tif'
+# A file takes the place of a file, never of a device.
+mkfifo pipe.tif
+run raster absent.off -o pipe.tif; refused 4 'pipe\.tif: is not a regular file, which GDAL needs'
+ln -s pipe.tif link.gpkg
+run contours absent.off --levels 1 -o link.gpkg; refused 4 'link\.gpkg: is not a regular file'
+holds 'pipes stay' test -p pipe.tif -a -p link.gpkg
+rm pipe.tif link.gpkg
 run raster absent.off -o out.tif --crs nowhere; refused 2 "'--crs' must be a coordinate system"
 run raster square.off -o square.off --driver GTiff; refused 2 'square\.off'
 printf '%s\n' "$overlap" >overlap.off

@@ -32,6 +32,32 @@ prints "$(<all.csv)"
 run sample square.off points.csv --values flow.nc -q; refused 3 'square.off'
 run sample flow.nc points.csv --values flow.nc -q; exits 0; prints "$(<all.csv)"
 
+# Several files are one series, if times go on; here they are 4, 5 and 7 hours in the second.
+cp flow.nc later.nc
+printf '\100\20\0\0\0\0\0\0\100\24\0\0\0\0\0\0\100\34\0\0\0\0\0\0' |
+    dd of=later.nc bs=1 seek=920 conv=notrunc status=none
+run sample flow.nc points.csv --values flow.nc,later.nc --time all
+exits 0
+says '^meshwalk: flow.nc: remark: 6 of 6 steps; times are in hours since 2020-01-01$'
+prints "$(cat all.csv && tail -n +2 all.csv |
+    sed 's/,0,\([^,]*,[^,]*\)$/,4,\1/; t; s/,1,\([^,]*,[^,]*\)$/,5,\1/; t
+        s/,3,\([^,]*,[^,]*\)$/,7,\1/')"
+run sample flow.nc points.csv --values flow.nc,later.nc --time-column t --field zeta -q
+exits 0
+prints_line '^e,0,0,4,0$'
+cp flow.nc a,b.nc
+run sample flow.nc points.csv --values a,b.nc --time all -q
+exits 0
+prints "$(<all.csv)"
+run sample flow.nc points.csv --values later.nc,flow.nc --time all
+refused 3 'flow.nc: its first time, 0, is not later than the last one of the file before, 7'
+run sample flow.nc points.csv --values flow.nc,none.nc --time all
+refused 3 'none.nc: No such file'
+run sample flow.nc points.csv --values flow.nc, --time all
+exits 3
+run sample flow.nc points.csv --values flow.nc,later.nc --time all -o later.nc
+refused 2 'later.nc'
+
 run sample flow.nc points.csv --time 1..2 --wide --field u,zeta --status -q; exits 0
 prints $'id,x,y,t,u@1,zeta@1,u@3,zeta@3,status
 a,0.75,0.25,0.5,2,11,5,31,inside\nb,0.25,0.75,2,4,11,9,31,inside\nc,5,5,1,,,,,outside

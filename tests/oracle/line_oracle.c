@@ -47,7 +47,7 @@ void line_oracle_load(line_oracle *o, const double p[LINE_ORACLE_COORDINATES])
     }
     for (int i = 0; i < LINE_ORACLE_COORDINATES; i++) {
         double fraction = frexp(p[i], &exponent);
-        mpz_set_si(o->v[i], (long)ldexp(fraction, 53));
+        mpz_set_d(o->v[i], ldexp(fraction, 53)); /* a whole number */
         if (p[i] != 0) mpz_mul_2exp(o->v[i], o->v[i], (mp_bitcnt_t)(exponent - 53 - o->base));
     }
     line_oracle_hit(o, o->v + 6, 0);

@@ -28,7 +28,7 @@ long predicate_oracle_load(predicate_oracle *o, const double *p, int n)
     }
     for (int i = 0; i < n; i++) {
         double fraction = frexp(p[i], &exponent);
-        mpz_set_si(o->v[i], (long)ldexp(fraction, 53));
+        mpz_set_d(o->v[i], ldexp(fraction, 53)); /* a whole number */
         if (p[i] != 0) mpz_mul_2exp(o->v[i], o->v[i], (mp_bitcnt_t)(exponent - 53 - base));
     }
     return base;

@@ -232,6 +232,34 @@ static double slope_of(const double p[6], const double z[3])
 }
 
 /* Areas of a surface over another mesh, which is a region. */
+/* Two triangulations of one plane: it is level throughout, however the differences are rounded. */
+static void test_one_plane(void **state)
+{
+    (void)state;
+    uint64_t random = environment_print_seed("test_volume one plane", 8);
+    ground g[2];
+    for (int i = 0; i < 2; i++) {
+        g[i] = ground_make(arrays_grid(6 + (uint32_t)i, 0.7, &random), 1, &random);
+        const double scale = i == 0 ? 7 : 6; /* both fill the square from 0 to 42 */
+        for (uint32_t v = 0; v < 2 * g[i].of.point_count; v++)
+            g[i].of.points[v] = ldexp(round(ldexp(g[i].of.points[v] * scale, 20)), -20);
+        mw_locator_destroy(g[i].locator);
+        mw_mesh_destroy(g[i].mesh);
+        g[i].mesh = arrays_mesh(&g[i].of, (mw_mesh_options){0});
+        g[i].locator = mesh_locator(g[i].mesh, (mw_locator_options){.threads = 1});
+        for (uint32_t v = 0; v < g[i].of.point_count; v++)
+            g[i].heights[v] = 3 * g[i].of.points[2 * v] - 0.375 * g[i].of.points[2 * v + 1] + 1;
+    }
+    const mw_volume_info is = volume_of(&g[0], &g[1], 1);
+    assert_true(is.cut == 0 && is.fill == 0 && is.cut_area == 0 && is.fill_area == 0);
+    expect_near(is.level_area, 42 * 42, 42 * 42);
+    g[0].heights[20] += 0x1p-40;
+    const mw_volume_info raised = volume_of(&g[0], &g[1], 1);
+    assert_true(raised.cut > 0 && raised.level_area < is.level_area - 1);
+    ground_release(&g[0]);
+    ground_release(&g[1]);
+}
+
 static void test_surface_area(void **state)
 {
     (void)state;
@@ -381,7 +409,7 @@ int main(void)
         cmocka_unit_test(test_walls),        cmocka_unit_test(test_itself),
         cmocka_unit_test(test_above),        cmocka_unit_test(test_editor),
         cmocka_unit_test(test_surface_area), cmocka_unit_test(test_memory),
-        cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_refusals),     cmocka_unit_test(test_one_plane),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

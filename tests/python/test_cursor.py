@@ -87,7 +87,7 @@ def test_fewer_and_more_points(square: meshwalk.Mesh) -> None:
     assert list(cursor.triangle) == [0, 1, -1, 0]
     with pytest.raises(ValueError, match="made with border=True"):
         cursor.locate(xy, tolerance=1)
-    with pytest.raises(OverflowError, match=r"-1 is not from 0 to 2\*\*32 - 1"):
+    with pytest.raises(ValueError, match=r"threads must be from 0 to 2\*\*32 - 1, not -1"):
         cursor.locate(xy[[0, 1, 2, 0]], threads=-1)
     assert cursor.locator.locate([], hints=[]).shape == (0,)
     with pytest.raises(TypeError, match=r"a meshwalk\.Locator or Editor, not Mesh"):

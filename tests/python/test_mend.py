@@ -64,7 +64,7 @@ def test_what_is_refused() -> None:
     for tolerance in (-1, np.nan, np.inf):
         with pytest.raises(ValueError, match="tolerance"):
             meshwalk.mend(POINTS, TRIANGLES, tolerance=tolerance)
-    with pytest.raises(meshwalk.InputError, match="corner 2 is not a vertex"):
+    with pytest.raises(meshwalk.InputError, match="local vertex 2 does not exist"):
         meshwalk.mend(POINTS, [[0, 1, 8]], "orient")
     with pytest.raises(ValueError, match="shape"):
         meshwalk.mend(np.zeros((3, 2)), [[0, 1, 2]], space=True)

@@ -169,5 +169,5 @@ except KeyboardInterrupt:
 
 
 def test_what_is_no_function() -> None:
-    with pytest.raises(TypeError, match="callable"):
+    with pytest.raises(TypeError, match="progress must be a function of a text"):
         meshwalk.delaunay(POINTS, progress=3)  # type: ignore[arg-type]

@@ -33,7 +33,7 @@ def test_values_are_linear(scattered: meshwalk.Mesh, random: np.random.Generator
     np.testing.assert_allclose(pieces.interpolate(scattered.points), points, atol=1e-9)
     values = random.uniform(0, 1, (scattered.vertex_count, 3))
     z = pieces.interpolate(values)
-    assert z.shape == (len(pieces), 2, 3)
+    assert z.shape == (len(pieces.records), 2, 3)
     meets = (pieces.segment[1:] == pieces.segment[:-1]) & ~pieces.gap[1:]
     assert meets.any()
     np.testing.assert_array_equal(z[1:, 0][meets], z[:-1, 1][meets])

@@ -333,7 +333,8 @@ static void test_defects_are_named(void **state)
     mw_error error;
     s.triangles[7] = 8;
     error = refused(solid_view(&s), (mw_surface_options){0}, MW_ERROR_INPUT);
-    assert_string_equal(error.message, "triangle 2: corner 1 is not a vertex; there are 8");
+    assert_string_equal(error.message,
+                        "triangle 2: vertex 8 does not exist; there are 8, numbered from 0");
     assert_int_equal(error.triangle, 2);
     error = refused(solid_view(&s), (mw_surface_options){.tolerant = 1}, MW_ERROR_INPUT);
     s.triangles[7] = 4;

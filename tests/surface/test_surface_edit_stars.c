@@ -218,6 +218,72 @@ static void test_hubs(void **state)
     }
 }
 
+/* A pole merges into a vertex beside it, which becomes a hub in its place. */
+static void test_hub_merges(void **state)
+{
+    (void)state;
+    uint64_t random = 5;
+    edited_star s = edited_star_make(star_shape_globe(80, 3), 0, &random);
+    assert_int_equal(mw_surface_edit_collapse(s.editor, 0, 2, NULL, NULL, NULL), MW_OK);
+    assert_true(mw_star_ready(s.star));
+    check(&s, 50);
+    assert_int_equal(s.star->hubs.count, 2);
+    assert_int_equal(s.star->hubs.hub[1].vertex, 2);
+    assert_int_equal(mw_surface_edit_undo(s.editor, NULL, NULL), MW_OK);
+    check(&s, 50);
+    assert_int_equal(s.star->hubs.hub[0].vertex, 0);
+    edited_star_free(&s);
+}
+
+/* --- starts --- */
+
+/* Facets that a query visits on average. */
+static double visits(const mw_star *star, uint64_t *random)
+{
+    mw_star_query_options options = {.counters = 1};
+    mw_star_cursor cursor;
+    expect_ok(mw_star_cursor_init(star, &options, &cursor, NULL), "cursor", NULL);
+    for (int i = 0; i < 4000; i++) {
+        double q[3];
+        for (int k = 0; k < 3; k++) q[k] = random_unit(random) - 0.5;
+        assert_int_not_equal(mw_star_locate(star, &cursor, q).where, MW_BAD);
+    }
+    return (double)cursor.counters.triangles_visited / (double)cursor.counters.queries;
+}
+
+/* Queries of a star that has followed many edits begin about as near as those of a new one. */
+static void expect_near_starts(const edited_star *s)
+{
+    mw_star *fresh;
+    expect_ok(mw_star_create(s->surface, NULL, &fresh, NULL), "star", NULL);
+    double is = visits(s->star, s->random), should = visits(fresh, s->random);
+    printf("%u facets: %.2f visited, by a new star %.2f\n", fresh->facet_count, is, should);
+    assert_true(is < 2 * should);
+    mw_star_destroy(fresh);
+}
+
+/* Each facet is split, and then all new vertices go again. */
+static void test_starts(void **state)
+{
+    (void)state;
+    uint64_t random = environment_print_seed("starts that follow edits", 33);
+    edited_star s = edited_star_make(star_shape_octahedron(5), 0, &random);
+    uint32_t facets = mw_surface_triangle_count(s.surface),
+             vertices = mw_surface_vertex_count(s.surface), at, v[3];
+    for (uint32_t t = 0; t < facets; t++)
+        assert_int_equal(mw_surface_edit_split_triangle(s.editor, t, NULL, NULL, NULL), MW_OK);
+    expect_near_starts(&s);
+    for (uint32_t i = vertices; i < vertices + facets; i++) {
+        mw_surface_editor_triangles_of(s.editor, i, &at, 1);
+        assert_true(mw_surface_editor_triangle(s.editor, at, v));
+        uint32_t kept = v[0] == i ? v[1] : v[0];
+        assert_int_equal(mw_surface_edit_collapse(s.editor, i, kept, NULL, NULL, NULL), MW_OK);
+    }
+    assert_true(mw_star_ready(s.star));
+    expect_near_starts(&s);
+    edited_star_free(&s);
+}
+
 /* --- single cases --- */
 
 static int ready_after(edited_star *s, mw_status status)
@@ -278,8 +344,9 @@ static void test_arguments(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_streams), cmocka_unit_test(test_hubs),
-                                       cmocka_unit_test(test_hole),
-                                       cmocka_unit_test(test_arguments)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_streams),    cmocka_unit_test(test_hubs),
+        cmocka_unit_test(test_hub_merges), cmocka_unit_test(test_starts),
+        cmocka_unit_test(test_hole),       cmocka_unit_test(test_arguments)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -46,50 +46,81 @@ NEAREST = _arrays.record_type(
 
 
 class TouchState(enum.IntEnum):
-    """What a probe found: the members of ``Touches.state``."""
+    """What a probe found: the members of ``Touches.state``.
+
+    Attributes
+    ----------
+    HIT : 0
+        It touches the triangle.
+    NONE : 1
+        Surely nothing within the distance.
+    LIMIT : 2
+        Nothing was found within the limit of iterations: there may be something.
+    BAD : 3
+        A coordinate is NaN or infinite, or the motion is zero.
+    """
 
     HIT = 0
-    """It touches the triangle."""
     NONE = 1
-    """Surely nothing within the distance."""
     LIMIT = 2
-    """Nothing was found within the limit of iterations: there may be something."""
     BAD = 3
-    """A coordinate is NaN or infinite, or the motion is zero."""
 
 
 class SurfaceSide(enum.IntEnum):
-    """Where a point is with respect to a closed surface: the answers of `Prober.inside`."""
+    """Where a point is with respect to a closed surface: the answers of `Prober.inside`.
+
+    Attributes
+    ----------
+    OUTSIDE : 0
+        Outside of the surface.
+    INSIDE : 1
+        Surrounded by it.
+    ON : 2
+        Exactly on a triangle.
+    BAD : 3
+        A coordinate is NaN or infinite.
+    """
 
     OUTSIDE = 0
     INSIDE = 1
     ON = 2
-    """Exactly on a triangle."""
     BAD = 3
-    """A coordinate is NaN or infinite."""
 
 
 class Deviation(NamedTuple):
-    """How far the points of a surface are from another one: the answer of `Prober.deviation`."""
+    """How far the points of a surface are from another one: the answer of `Prober.deviation`.
+
+    Attributes
+    ----------
+    largest : float
+        The largest distance of a sample; between samples a point may be farther.
+    at_most : float
+        No point is farther than this, up to rounding.
+    mean : float
+        By area.
+    point : tuple[float, float, float]
+        The sample with the largest distance.
+    nearest : tuple[float, float, float]
+        The point of the other surface nearest to it.
+    triangle : int
+        A triangle that has this sample.
+    nearest_triangle : int
+        The triangle of the other surface.
+    samples : int
+        How many distances were measured.
+    area : float
+        Of the surface, rounded.
+    """
 
     largest: float
-    """The largest distance of a sample; between samples a point may be farther."""
     at_most: float
-    """No point is farther than this, up to rounding."""
     mean: float
-    """By area."""
     point: tuple[float, float, float]
-    """The sample with the largest distance."""
     nearest: tuple[float, float, float]
-    """The point of the other surface nearest to it."""
     triangle: int
-    """A triangle that has this sample."""
     nearest_triangle: int
-    """The triangle of the other surface."""
     samples: int
-    """How many distances were measured."""
     area: float
-    """Of the surface, rounded."""
 
 
 class Found:

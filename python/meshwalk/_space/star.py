@@ -23,25 +23,39 @@ if TYPE_CHECKING:
 
 
 class StarInfo(NamedTuple):
-    """What a star keeps beside its surface: the answer of `Star.describe`."""
+    """What a star keeps beside its surface: the answer of `Star.describe`.
+
+    Attributes
+    ----------
+    bytes : int
+        All memory of the star, the surface not counted.
+    angle_bytes : int
+        Of it, spherical coordinates.
+    flat_facets : int
+        Facets without area.
+    centre : tuple[float, float, float]
+        Where the rays begin.
+    """
 
     bytes: int
-    """All memory of the star, the surface not counted."""
     angle_bytes: int
-    """Of it, spherical coordinates."""
     flat_facets: int
-    """Facets without area."""
     centre: tuple[float, float, float]
-    """Where the rays begin."""
 
 
 class Remeshed(NamedTuple):
-    """A polyhedron sampled anew: the answer of `Star.remesh`."""
+    """A polyhedron sampled anew: the answer of `Star.remesh`.
+
+    Attributes
+    ----------
+    surface : Surface
+        The new mesh, with the fields of the polyhedron.
+    hit : Locations
+        The facet and the weights of each new vertex, for other values.
+    """
 
     surface: Surface
-    """The new mesh, with the fields of the polyhedron."""
     hit: Locations
-    """The facet and the weights of each new vertex, for other values."""
 
 
 class Star(_core.Star):

@@ -26,40 +26,61 @@ if TYPE_CHECKING:
 
 
 class SurfaceInfo(NamedTuple):
-    """What kind of surface it is: the answer of `Surface.describe`."""
+    """What kind of surface it is: the answer of `Surface.describe`.
+
+    Attributes
+    ----------
+    vertices : int
+        Number of vertices.
+    triangles : int
+        Number of triangles.
+    unused_vertices : int
+        Vertices of no triangle.
+    flat_triangles : int
+        Triangles without area.
+    clashing_edges : int
+        Inner edges whose two triangles are oriented differently.
+    pinched_vertices : int
+        Vertices in use where the triangles do not form one fan.
+    border_edges : int
+        Edges of one triangle only.
+    border_loops : int
+        Closed chains of border edges.
+    components : int
+        Pieces that share no vertex.
+    closed : bool
+        There are triangles, and no border edges.
+    oriented : bool
+        There are no clashing edges.
+    euler : int
+        Vertices in use - edges + triangles.
+    low : tuple[float, float, float]
+        Least coordinates of the vertices in use.
+    high : tuple[float, float, float]
+        Largest coordinates of the vertices in use.
+    area : float
+        Sum of the triangles' areas, rounded.
+    volume : float
+        Of a closed oriented surface: enclosed, positive if fronts face out; else NaN;
+        rounded.
+    """
 
     vertices: int
-    """Number of vertices."""
     triangles: int
-    """Number of triangles."""
     unused_vertices: int
-    """Vertices of no triangle."""
     flat_triangles: int
-    """Triangles without area."""
     clashing_edges: int
-    """Inner edges whose two triangles are oriented differently."""
     pinched_vertices: int
-    """Vertices in use where the triangles do not form one fan."""
     border_edges: int
-    """Edges of one triangle only."""
     border_loops: int
-    """Closed chains of border edges."""
     components: int
-    """Pieces that share no vertex."""
     closed: bool
-    """There are triangles, and no border edges."""
     oriented: bool
-    """There are no clashing edges."""
     euler: int
-    """Vertices in use - edges + triangles."""
     low: tuple[float, float, float]
-    """Least coordinates of the vertices in use."""
     high: tuple[float, float, float]
-    """Largest coordinates of the vertices in use."""
     area: float
-    """Sum of the triangles' areas, rounded."""
     volume: float
-    """Of a closed oriented surface: enclosed, positive if fronts face out; else NaN; rounded."""
 
 
 def follows_edits(follower: Any) -> bool:

@@ -116,26 +116,39 @@ class SurfaceChange:
 
 
 class SurfaceEditorInfo(NamedTuple):
-    """What is there, and what it takes: the answer of `SurfaceEditor.describe`."""
+    """What is there, and what it takes: the answer of `SurfaceEditor.describe`.
+
+    Attributes
+    ----------
+    vertices : int
+        Vertices that are there.
+    triangles : int
+        Triangles that are there.
+    vertex_range : int
+        All numbers of vertices are below this.
+    triangle_range : int
+        All numbers of triangles are below this.
+    border_edges : int
+        Edges of one triangle.
+    undoable : int
+        Edits that can be undone.
+    bytes : int
+        Memory of the editor, with the room in the surface that edits will use.
+    undo_bytes : int
+        Of it, for undo.
+    edits : int
+        Edits carried out, those undone too.
+    """
 
     vertices: int
-    """Vertices that are there."""
     triangles: int
-    """Triangles that are there."""
     vertex_range: int
-    """All numbers of vertices are below this."""
     triangle_range: int
-    """All numbers of triangles are below this."""
     border_edges: int
-    """Edges of one triangle."""
     undoable: int
-    """Edits that can be undone."""
     bytes: int
-    """Memory of the editor, with the room in the surface that edits will use."""
     undo_bytes: int
-    """Of it, for undo."""
     edits: int
-    """Edits carried out, those undone too."""
 
 
 class SurfaceEditor(_core.SurfaceEditor):

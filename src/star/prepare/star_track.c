@@ -109,16 +109,44 @@ static uint32_t guide_section(const mw_star *star, const uint32_t v[3])
     return mw__star_facet_key(star, v) >> (32 - star->guide_bits);
 }
 
+/* So far from its own section a facet may be named. */
+#define GUIDE_NEAR 8u
+
 /* What names `from`, a facet with these corners, is to name `to`: its section of the curve, and
- * empty ones before it. */
+ * sections near it that have no facet, or were one section before the guide was refined. */
 static void guide_rename(mw_star *star, const uint32_t v[3], uint32_t from, uint32_t to)
 {
-    enum { EMPTY = 16 };
-    uint32_t section = guide_section(star, v), tries = 0;
-    if (star->guide[section] == from) star->guide[section] = to;
-    while (section-- > 0 && star->guide[section] == from && tries++ < EMPTY)
-        star->guide[section] = to;
+    uint32_t section = guide_section(star, v), end = UINT32_C(1) << star->guide_bits,
+             i = section > GUIDE_NEAR ? section - GUIDE_NEAR : 0;
+    if (end - section > GUIDE_NEAR + 1) end = section + GUIDE_NEAR + 1;
+    for (; i < end; i++)
+        if (star->guide[i] == from) star->guide[i] = to;
     if (star->front == from) star->front = to;
+}
+
+/* How far along the curve a facet is from a section, in sections. */
+static uint32_t guide_distance(const mw_star *star, uint32_t facet, uint32_t section)
+{
+    if (facet >= star->facet_count) return UINT32_MAX;
+    uint32_t is = guide_section(star, star->facet[facet].v);
+    return is > section ? is - section : section - is;
+}
+
+/* Facets that went, or moved along the curve, are still named by sections far from where they were
+ * last. So with every fourth that goes, some sections are looked at, in turn: one that names a
+ * facet far away names that of the section before it, if that is near. */
+static void guide_tend(mw_star *star)
+{
+    enum { SECTIONS = 4 };
+    mw_star_track *track = &star->track;
+    const uint32_t last = (UINT32_C(1) << star->guide_bits) - 1;
+    for (int i = 0; i < SECTIONS; i++) {
+        uint32_t section = track->tended_section++ & last,
+                 before = star->guide[(section - 1) & last];
+        if (guide_distance(star, star->guide[section], section) > GUIDE_NEAR &&
+            guide_distance(star, before, section) <= GUIDE_NEAR)
+            star->guide[section] = before;
+    }
 }
 
 /* --- places --- */
@@ -217,21 +245,32 @@ void mw__star_track_link(mw_star *star, uint32_t t)
     }
 }
 
+/* Where a facet is that is near one that goes: the one that took its place, or the lowest at a
+ * corner of it; any, if there is none. */
+static uint32_t facet_find_heir(const mw_star *star, uint32_t t, const uint32_t v[3])
+{
+    const uint32_t *place = star->track.place;
+    uint32_t heir = MW_NONE;
+    if (t < star->surface->tri_count) heir = star->surface->tri[t].user & MW_USER_MASK;
+    for (uint32_t k = 0; k < 3 && (heir >= star->tri_room || place[heir] == MW_NONE); k++)
+        heir = star->owner[v[k]];
+    return heir < star->tri_room && place[heir] != MW_NONE ? place[heir] : 0;
+}
+
 void mw__star_track_drop(mw_star *star, uint32_t t)
 {
     mw_star_track *track = &star->track;
-    uint32_t place = track->place[t], heir = 0;
+    uint32_t place = track->place[t];
     if (place == MW_NONE) return;
     const mw_star_facet facet = star->facet[place];
     facet_set_state(track, t, 0);
     track->place[t] = MW_NONE;
     facet_change_corners(star, t, facet.v, NULL);
     facet_touch_hubs(star, facet.v);
-    for (uint32_t k = 0; k < 3; k++) /* something near, if it can be had */
-        if (facet.link[k] != MW_NONE && mw__link_triangle(facet.link[k]) < star->facet_count - 1)
-            heir = mw__link_triangle(facet.link[k]);
-    guide_rename(star, facet.v, place, heir);
+    uint32_t heir = facet_find_heir(star, t, facet.v);
+    if (heir != star->facet_count - 1) guide_rename(star, facet.v, place, heir); /* else it comes */
     facet_move_last(star, place);
+    if (track->dropped++ % 4 == 0) guide_tend(star);
 }
 
 /* --- memory --- */
