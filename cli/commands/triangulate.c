@@ -213,11 +213,22 @@ static int triangulate_fail_constrained(const triangulate_settings *s, const cha
         return constraint_file_fail_crossing(s->constraints, &w->constraints,
                                              w->vertices.file.points, cross, s->split);
     if (error->status == MW_ERROR_INPUT && w->constrained.triangles_removed > 0) {
-        complain("%s: %s; --keep hull keeps them", s->constraints, error->message);
+        complain("%s: %s; --keep hull keeps all", s->constraints, error->message);
         return END_INPUT;
     }
     bool given = points && error->vertex >= 0 && (size_t)error->vertex < w->vertices.points;
     return fail_mesh(given ? points : s->constraints, error);
+}
+
+static void triangulate_warn_of_holes(const triangulate_settings *s,
+                                      const mw_constrain_report *done, const mw_constraint_file *c)
+{
+    if (done->idle_holes == 0 || s->common.quiet) return;
+    const double *seed = &c->hole_seeds[2 * (size_t)done->first_idle_hole];
+    complain("%s: warning: %" PRIu32
+             " of %zu holes remove nothing, the first at (%.17g, %.17g): its "
+             "point is outside, or in a part that is removed already",
+             s->constraints, done->idle_holes, c->hole_seed_count, seed[0], seed[1]);
 }
 
 /* Triangulate the constraints, together with POINTS if they are given. */
@@ -248,6 +259,7 @@ static int triangulate_with_constraints(const triangulate_settings *s, const cha
     if (mw_constrained_delaunay(&constraints, &options, w->duplicate_of, &w->constrained, &w->edges,
                                 &mesh, &error) != MW_OK)
         return triangulate_fail_constrained(s, points, w, &error);
+    triangulate_warn_of_holes(s, &w->constrained, c);
     int end = triangulate_take_mesh(s, points ? points : s->constraints, w, mesh);
     bool on_a_line = false;
     if (end == 0)

@@ -210,8 +210,8 @@ typedef struct mw_probe_cursor {
     mw_probe_options options;   /* resolved */
     const mw_prober *prober;
     uint64_t random;
-    uint32_t last;
-    uint32_t reserved[5];
+    uint32_t last, before; /* triangles touched last, and before that */
+    uint32_t reserved[4];
 } mw_probe_cursor;
 
 /**

@@ -173,8 +173,9 @@ typedef struct mw_constraints {
      * segments. So rings may come in any order and direction: outlines, holes, islands in holes. A
      * segment given twice counts twice. */
     const uint32_t *polygon;
-    /** x, y of a point in each region to remove, packed. A point outside the hull removes nothing;
-     * a point on a constraint removes the regions on all its sides. */
+    /** x, y of a point in each region to remove, packed. A point outside removes nothing, and is
+     * counted in mw_constrain_report.idle_holes; a point on a constraint removes the regions on all
+     * its sides. */
     const double *hole_seeds;
     size_t hole_seed_count;
 } mw_constraints;
@@ -209,7 +210,9 @@ typedef struct mw_constrain_report {
     uint64_t triangles_crossed;  /**< by segments */
     /** After MW_ERROR_INPUT for crossing segments: the two segments; else MW_NONE. */
     uint32_t crossing_segments[2];
-    uint32_t reserved[6];
+    uint32_t idle_holes; /**< hole seeds that removed nothing: outside, or in what is removed */
+    uint32_t first_idle_hole; /**< the first of them; MW_NONE without any */
+    uint32_t reserved[4];
 } mw_constrain_report;
 
 /**
@@ -249,7 +252,8 @@ MW_API void mw_constrained_edges_release(mw_constrained_edges *edges);
  * @return MW_OK; MW_ERROR_INPUT as mw_delaunay(), and for crossing segments
  *         (report->crossing_segments), or with `split` for segments that rounding cannot separate,
  *         for a polygon whose rings are not closed if polygons decide what is kept (the error
- *         names the point as its vertex), and if nothing is left; MW_ERROR_ARGUMENT for NULL, a
+ *         names the point as its vertex), and if nothing is left (the message tells whether no ring
+ *         is closed, or which hole seed removed the rest); MW_ERROR_ARGUMENT for NULL, a
  *         stride of 1, an unknown `keep`, a segment that names no point, or a hole seed that is
  *         not finite; MW_ERROR_LIMIT for more than 2^29 points, crossings included (k segments may
  *         cross in k^2 / 2 points), or 2^32 - 2 segments; MW_ERROR_MEMORY, MW_CANCELLED.

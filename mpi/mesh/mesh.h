@@ -16,7 +16,8 @@ struct mwp_locating {
     size_t begin, end; /* the present block */
     size_t next;       /* where the next block begins */
     uint32_t *asked;   /* per question of the block: its query, from `begin` */
-    mwp_block *block;  /* how its queries are sorted; NULL before the first */
+    size_t asked_room;
+    mwp_block *block; /* how its queries are sorted; NULL before the first */
     mwp_talk talk;
 };
 

@@ -99,6 +99,49 @@ static bool router_build(mwp_router *router, const mwp_parcels *all)
     return true;
 }
 
+/* --- the grid --------------------------------------------------------------------------------- */
+
+enum { SIDE = 128, MOST_BOXES = 64 * 64 };
+
+/* The column or row of a coordinate within the box of all. It does not fall where the coordinate
+ * rises, so the cells of a box's ends enclose those of its points. */
+static uint32_t grid_place(const mwp_router *r, double x, int axis)
+{
+    const mwp_box *all = &r->box[r->level[r->levels - 1]];
+    const double at = (x - all->low[axis]) * r->scale[axis];
+    return at < SIDE - 1 ? (uint32_t)at : SIDE - 1;
+}
+
+static void grid_add_box(mwp_router *r, const mwp_box *box)
+{
+    const uint32_t begin = grid_place(r, box->low[0], 0), end = grid_place(r, box->high[0], 0);
+    for (uint32_t row = grid_place(r, box->low[1], 1); row <= grid_place(r, box->high[1], 1); row++)
+        for (uint32_t column = begin; column <= end; column++) {
+            int32_t *cell = &r->cell[row * SIDE + column];
+            if (*cell == MWP_CELL_EMPTY)
+                *cell = box->rank;
+            else if (*cell != box->rank)
+                *cell = MWP_CELL_SEVERAL;
+        }
+}
+
+/* Without memory for it, or where a side has no finite length, there is no grid. */
+static void router_make_grid(mwp_router *r)
+{
+    if (r->count == 0 || r->count > MOST_BOXES) return;
+    const mwp_box *all = &r->box[r->level[r->levels - 1]];
+    for (int axis = 0; axis < 2; axis++) {
+        r->scale[axis] = SIDE / (all->high[axis] - all->low[axis]);
+        if (!(r->scale[axis] > 0 && r->scale[axis] < INFINITY)) return;
+    }
+    r->cell = mwp__alloc(SIDE * SIDE, sizeof *r->cell);
+    if (!r->cell) return;
+    for (size_t i = 0; i < SIDE * SIDE; i++) r->cell[i] = MWP_CELL_EMPTY;
+    for (uint32_t i = 0; i < r->count; i++) grid_add_box(r, &r->box[i]);
+}
+
+/* --- all of it -------------------------------------------------------------------------------- */
+
 mw_status mwp__router_create(mwp_router *router, const mwp_wire *wire, const mw_mesh *mesh,
                              uint32_t triangles, mwp_error *error)
 {
@@ -113,6 +156,7 @@ mw_status mwp__router_create(mwp_router *router, const mwp_wire *wire, const mw_
     if (!status)
         status = mwp__wire_agree(wire, router_build(router, &all) ? MW_OK : mwp__fail_memory(error),
                                  error);
+    if (!status) router_make_grid(router);
     mwp__parcels_release(&all);
     free(mine);
     return status;
@@ -122,12 +166,14 @@ void mwp__router_release(mwp_router *router)
 {
     free(router->box);
     free(router->level);
+    free(router->cell);
     *router = (mwp_router){0};
 }
 
 size_t mwp__router_bytes(const mwp_router *router)
 {
-    return router->levels ? router->level[router->levels] * sizeof *router->box : 0;
+    const size_t cells = router->cell ? SIDE * SIDE * sizeof *router->cell : 0;
+    return cells + (router->levels ? router->level[router->levels] * sizeof *router->box : 0);
 }
 
 /* --- look-ups --------------------------------------------------------------------------------- */
@@ -151,5 +197,13 @@ static int router_descend(const mwp_router *r, uint32_t level, size_t node, cons
 
 int mwp__router_find(const mwp_router *router, const double point[2], int *ranks)
 {
-    return router->count ? router_descend(router, router->levels - 1, 0, point, ranks, 0) : 0;
+    const mwp_router *r = router;
+    if (r->count == 0) return 0;
+    if (r->cell && box_has(&r->box[r->level[r->levels - 1]], point)) {
+        const int32_t rank =
+            r->cell[grid_place(r, point[1], 1) * SIDE + grid_place(r, point[0], 0)];
+        ranks[0] = rank;
+        if (rank != MWP_CELL_SEVERAL) return rank != MWP_CELL_EMPTY;
+    }
+    return router_descend(r, r->levels - 1, 0, point, ranks, 0);
 }

@@ -19,7 +19,13 @@ typedef struct mwp_router {
     size_t *level; /* where each level begins, and the end */
     uint32_t levels;
     uint32_t count; /* boxes of the lowest level */
+    /* A grid over all boxes: per cell the rank of all boxes that touch it, or MWP_CELL_EMPTY, or
+     * MWP_CELL_SEVERAL. NULL for many boxes. */
+    int32_t *cell;
+    double scale[2]; /* cells per unit */
 } mwp_router;
+
+enum { MWP_CELL_EMPTY = -1, MWP_CELL_SEVERAL = -2 };
 
 /* Collective. `mesh` is that of the rank's piece, or NULL; its first `triangles` count, in boxes of
  * runs along a Hilbert curve. Release in either case. */
@@ -28,8 +34,8 @@ mw_status mwp__router_create(mwp_router *router, const mwp_wire *wire, const mw_
 void mwp__router_release(mwp_router *router);
 size_t mwp__router_bytes(const mwp_router *router);
 
-/* The ranks in whose boxes a finite point lies, each once, in ascending order. `ranks` has room for
- * all. Returns how many. */
+/* The ranks in whose boxes a finite point lies, each once, in ascending order; or the only rank
+ * that has boxes near it. `ranks` has room for all. Returns how many. */
 int mwp__router_find(const mwp_router *router, const double point[2], int *ranks);
 
 #endif

@@ -128,6 +128,8 @@ static void query_look(const mwp_locating *l, size_t i, mwp_block *w)
         w->own[w->own_count++] = place;
     else if (here)
         w->shared[w->shared_count++] = place;
+    else /* until an answer comes */
+        l->locations[i].triangle = -1, l->locations[i].where = MW_OUTSIDE;
 }
 
 /* The other ranks that may have the triangle of query i, in w->ranks; none if its answer is
@@ -182,15 +184,26 @@ static mw_status block_sort(const mwp_locating *l, mwp_error *error)
     for (size_t i = l->begin; i < l->end; i++) {
         const double *p = query_point(l, i);
         const bool finite = isfinite(p[0]) && isfinite(p[1]);
-        l->locations[i] = location_nowhere(finite ? MW_OUTSIDE : MW_BAD);
         w->rank[i - l->begin] = NOBODY;
-        if (finite) query_look(l, i, w);
+        if (finite)
+            query_look(l, i, w);
+        else
+            l->locations[i] = location_nowhere(MW_BAD);
     }
     for (size_t k = 0; k < w->shared_count && !status; k += w->room) {
         const size_t left = w->shared_count - k;
         status = block_locate(l, w->shared + k, left < w->room ? left : w->room, error);
     }
     return status;
+}
+
+static bool asked_make_room(mwp_locating *l, size_t n)
+{
+    if (l->asked && n <= l->asked_room) return true;
+    free(l->asked);
+    l->asked = mwp__alloc(n, sizeof *l->asked);
+    l->asked_room = l->asked ? n : 0;
+    return l->asked;
 }
 
 static mw_status block_pack(mwp_locating *l, mwp_parcels *questions, mwp_error *error)
@@ -200,7 +213,7 @@ static mw_status block_pack(mwp_locating *l, mwp_parcels *questions, mwp_error *
     for (size_t i = l->begin; i < l->end; i++)
         for (int k = query_ranks(l, i, w) - 1; k >= 0; k--) w->count[w->ranks[k]]++;
     if (!mwp__parcels_create(questions, &l->mesh->wire, sizeof(question), w->count) ||
-        !(l->asked = mwp__alloc(questions->total, sizeof *l->asked)))
+        !asked_make_room(l, questions->total))
         return mwp__fail_memory(error);
     for (size_t i = l->begin; i < l->end; i++)
         for (int k = query_ranks(l, i, w) - 1; k >= 0; k--) {
@@ -226,8 +239,6 @@ static mw_status locate_load(void *self, mwp_parcels *questions, bool *more, mwp
     l->end = l->n - l->begin > BLOCK ? l->begin + BLOCK : l->n;
     l->next = l->end;
     *more = l->next < l->n;
-    free(l->asked);
-    l->asked = NULL;
     if (!l->block) { /* the first is the largest */
         const size_t most = l->end - l->begin;
         l->block = block_create(l->mesh, most, locating_room(l->options.threads, most));

@@ -80,7 +80,6 @@ static size_t block_left(const mwp_talk *t)
 static void block_load(mwp_talk *t)
 {
     mwp_error error;
-    mwp__parcels_release(&t->block);
     memset(t->tables->next, 0, (size_t)t->wire->size * sizeof *t->tables->next);
     t->more = false;
     t->idle = !t->about->meanwhile;
@@ -180,7 +179,7 @@ static void offers_end(mwp_talk *t)
                                 t->wire->comm, &t->request));
 }
 
-/* Counts and places for MPI: of what goes, then of what comes. */
+/* Counts and places for MPI: of what goes, then of what comes. What goes stands packed. */
 static void layout_write(const mwp_talk *t, const uint32_t *goes, const uint32_t *comes)
 {
     const int ranks = t->wire->size;
@@ -195,6 +194,16 @@ static void layout_write(const mwp_talk *t, const uint32_t *goes, const uint32_t
     }
 }
 
+/* The next questions go from where they stand in the block. */
+static void layout_place_questions(const mwp_talk *t)
+{
+    size_t first = 0; /* of the block, for rank r */
+    for (int r = 0; r < t->wire->size && t->block.count; r++) {
+        t->tables->layout[t->wire->size + r] = (int)(first + t->tables->next[r]);
+        first += t->block.count[r];
+    }
+}
+
 static int records_begin(mwp_talk *t, const void *goes, void *comes, MPI_Datatype type)
 {
     const int ranks = t->wire->size, *layout = t->tables->layout;
@@ -202,24 +211,14 @@ static int records_begin(mwp_talk *t, const void *goes, void *comes, MPI_Datatyp
                           layout + 3 * (size_t)ranks, type, t->wire->comm, &t->request);
 }
 
-/* Pack the questions that were granted. Their room, and that of their answers, was made with the
- * block. */
+/* Send the questions that were granted. The room for their answers was made with the block. */
 static void grants_end(mwp_talk *t)
 {
     const mwp_tables *b = t->tables;
-    char *to = t->ours;
-    const char *from = t->block.records; /* the first question for rank r */
-    for (int r = 0; r < t->wire->size && t->block.count; r++) {
-        const size_t bytes = b->granted[r] * t->about->question;
-        if (bytes > 0) { /* else there may be no room, not even for none */
-            memcpy(to, from + b->next[r] * t->about->question, bytes);
-            to += bytes;
-        }
-        from += t->block.count[r] * t->about->question;
-    }
     layout_write(t, b->granted, b->grant);
+    layout_place_questions(t);
     t->stage = MWP_TALK_QUESTIONS;
-    talk_break(t, records_begin(t, t->ours, t->asked, t->question));
+    talk_break(t, records_begin(t, t->block.records, t->asked, t->question));
 }
 
 /* Answers are numbered by all questions; sent, by those of their rank. */
@@ -287,17 +286,15 @@ static void answers_end(mwp_talk *t)
 
 /* --- the talk --------------------------------------------------------------------------------- */
 
-/* Room for the questions of a round, and for their answers. */
+/* Room for the answers to the questions of a round. */
 static void talk_make_room(mwp_talk *t)
 {
     const size_t n = t->block.total;
     if (t->status || n <= t->take_room) return;
-    free(t->ours);
     free(t->to_take);
     t->take_room = n;
-    t->ours = mwp__alloc(n, t->about->question);
     t->to_take = mwp__alloc(n, t->about->answer_size);
-    if (!t->ours || !t->to_take) talk_fail_memory(t);
+    if (!t->to_take) talk_fail_memory(t);
 }
 
 static void round_begin(mwp_talk *t)
@@ -379,7 +376,6 @@ mw_status mwp__talk_end(mwp_talk *talk, mwp_error *error)
     free(talk->asked);
     free(talk->to_send);
     free(talk->to_take);
-    free(talk->ours);
     if (talk->question != MPI_DATATYPE_NULL) MPI_Type_free(&talk->question);
     if (talk->answer != MPI_DATATYPE_NULL) MPI_Type_free(&talk->answer);
     *error = talk->error;

@@ -13,8 +13,9 @@
 
 /* What the talk is about. `self` is the user's. Functions that return a status describe the failure
  * in `error`, which is never NULL.
- *   load    Make the questions of the next block, of `question` bytes each, as parcels that the
- *           talk releases. *more: there is a block after this one.
+ *   load    Make the questions of the next block, of `question` bytes each, as parcels, which are
+ *           those of the block before; the talk releases them. *more: there is a block after this
+ *           one.
  *   answer  Answer n questions of other ranks: write at most one answer for each, in order, each of
  *           which begins with the uint32_t number of its question, from 0. Returns how many there
  *           are through *count.
@@ -70,7 +71,6 @@ typedef struct mwp_talk {
     bool idle;                       /* nothing is left to do in this block while waiting */
     bool broken;                     /* MPI failed */
     void *asked, *to_send, *to_take; /* questions of others, answers to them, answers to ours */
-    void *ours;                      /* questions of this round */
     size_t asked_room, take_room;
     mw_status status; /* of this rank */
     mwp_error error;

@@ -171,7 +171,10 @@ static bool parcels_make_room(mwp_parcels *parcels, int ranks)
 {
     parcels->total = 0;
     for (int r = 0; r < ranks; r++) parcels->total += parcels->count[r];
+    if (parcels->records && parcels->total <= parcels->room / parcels->record) return true;
+    free(parcels->records);
     parcels->records = mwp__alloc(parcels->total, parcels->record);
+    parcels->room = parcels->records ? parcels->total * parcels->record : 0;
     return parcels->records;
 }
 
@@ -180,9 +183,9 @@ bool mwp__parcels_create(mwp_parcels *parcels, const mwp_wire *wire, size_t reco
 {
     const size_t ranks = (size_t)wire->size;
     size_t place = 0;
-    *parcels = (mwp_parcels){.record = record,
-                             .count = mwp__alloc(ranks, sizeof *count),
-                             .next = mwp__alloc(ranks, sizeof *parcels->next)};
+    parcels->record = record;
+    if (!parcels->count) parcels->count = mwp__alloc(ranks, sizeof *count);
+    if (!parcels->next) parcels->next = mwp__alloc(ranks, sizeof *parcels->next);
     if (!parcels->count || !parcels->next) return false;
     memcpy(parcels->count, count, ranks * sizeof *count);
     for (size_t r = 0; r < ranks; r++) {

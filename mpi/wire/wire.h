@@ -68,10 +68,12 @@ typedef struct mwp_parcels {
     uint32_t *count; /* records of each rank */
     size_t *next;    /* while they are made: where the next record of each rank goes */
     size_t total;
+    size_t room; /* bytes of `records` */
     void *records;
 } mwp_parcels;
 
-/* Make room for records, `count[r]` for rank r, which is copied. */
+/* Make room for records, `count[r]` for rank r, which is copied. `parcels` is all zero, or has been
+ * created before: then its memory is used again. */
 bool mwp__parcels_create(mwp_parcels *parcels, const mwp_wire *wire, size_t record,
                          const uint32_t *count);
 void mwp__parcels_release(mwp_parcels *parcels);

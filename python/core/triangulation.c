@@ -197,7 +197,8 @@ static PyObject *triangulation_raise(core_state *state, const mw_error *error,
     return NULL;
 }
 
-/* (mesh, number of duplicates, edges, segment of each edge) */
+/* (mesh, number of duplicates, edges, segment of each edge, holes that removed nothing, the first
+ * of them) */
 static PyObject *triangulation_constrained_result(core_state *state, PyObject *class, mw_mesh *mesh,
                                                   const mw_constrain_report *report,
                                                   mw_constrained_edges *edges)
@@ -207,7 +208,9 @@ static PyObject *triangulation_constrained_result(core_state *state, PyObject *c
     PyObject *segments = memory_new(state, edges->segment, edges->count * sizeof(uint32_t));
     PyObject *result =
         object && ends && segments
-            ? Py_BuildValue("OnOO", object, (Py_ssize_t)report->delaunay.duplicates, ends, segments)
+            ? Py_BuildValue("OnOOnn", object, (Py_ssize_t)report->delaunay.duplicates, ends,
+                            segments, (Py_ssize_t)report->idle_holes,
+                            (Py_ssize_t)report->first_idle_hole)
             : NULL;
     Py_XDECREF(object);
     Py_XDECREF(ends);

@@ -89,6 +89,7 @@ if TYPE_CHECKING:
     from meshwalk._tiling import prepare_tiles
     from meshwalk._triangulate import (
         DuplicateWarning,
+        HoleWarning,
         OptimumWarning,
         constrained_delaunay,
         delaunay,
@@ -153,6 +154,7 @@ _MODULES = {
     "_tiling": ("prepare_tiles",),
     "_triangulate": (
         "DuplicateWarning",
+        "HoleWarning",
         "OptimumWarning",
         "constrained_delaunay",
         "delaunay",
@@ -179,6 +181,7 @@ __all__ = [
     "EditorLocations",
     "Error",
     "Exits",
+    "HoleWarning",
     "InputError",
     "LimitError",
     "Location",

@@ -105,7 +105,9 @@ def vertices(
     array = _as_doubles(_no_masked(_as_array(given, name), name), name)
     if array.ndim != 2 or array.shape[1] not in widths:
         wanted = " or ".join(f"(n, {width})" for width in widths)
-        raise ValueError(f"{name} must have the shape {wanted}, not {array.shape}")
+        across = array.ndim == 2 and array.shape[0] in widths
+        hint = _shape_hint(array.shape, name, array.shape[0]) if across else ""
+        raise ValueError(f"{name} must have the shape {wanted}, not {array.shape}{hint}")
     return _as_rows(array), array.shape[1]
 
 

@@ -487,7 +487,7 @@ def constrained_delaunay(
     threads: int,
     progress: Progress | None,
     /,
-) -> tuple[_Mesh, int, memoryview, memoryview]: ...
+) -> tuple[_Mesh, int, memoryview, memoryview, int, int]: ...
 def read_mesh(
     path: bytes, layout: str | None, progress: Progress | None, /
 ) -> tuple[

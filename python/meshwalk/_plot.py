@@ -56,6 +56,10 @@ def plot(
     -------
     matplotlib.axes.Axes
 
+    Notes
+    -----
+    A colour bar: ``ax.figure.colorbar(ax.collections[-1], ax=ax)``.
+
     Raises
     ------
     ImportError
@@ -94,6 +98,8 @@ def explain(
 ) -> Axes:
     """Draw how a point is located: the walk, the triangle and, of a tie, all that have the point.
 
+    The picture shows the part of the mesh round the walk; ``ax.autoscale()`` shows all of it.
+
     Parameters
     ----------
     locator : Locator
@@ -108,7 +114,7 @@ def explain(
     Returns
     -------
     matplotlib.axes.Axes
-        Its title says the answer, and why.
+        Its title says the answer, and why; a legend says what is drawn.
 
     Raises
     ------
@@ -128,33 +134,60 @@ def explain(
     if location.where is Where.BAD:
         raise ValueError(f"the point {x}, {y} is not finite")
     mesh = locator.mesh
-    ax = plot(mesh, ax=ax)
+    points, triangles = mesh.points, mesh.triangles
     path = locator.walk_path(x, y, walk=walk, start=start)
-    others = _sharing(mesh, location)
-    _fill(ax, mesh, path, "tab:blue", 0.2)
-    _fill(ax, mesh, np.array(others, int), "tab:orange", 0.5)
-    if location.triangle >= 0:
-        _fill(ax, mesh, np.array([location.triangle]), "tab:red", 0.5)
-    middles = mesh.points[mesh.triangles[path]].mean(1)
-    ax.plot(*middles.T, color="tab:blue", marker=".")
-    ax.plot(x, y, color="black", marker="x", linestyle="none")
+    others = _sharing(points, triangles, mesh.neighbours, location)
+    found = [location.triangle] if location.triangle >= 0 else []
+    shown = points[triangles[[*path, *others, *found]]]
+    low, high = _frame(np.vstack([shown.reshape(-1, 2), [x, y]]))
+    ax = _axes(ax)
+    corners = points[triangles]
+    near = ((corners.max(1) >= low) & (corners.min(1) <= high)).all(1)
+    if near.any():
+        ax.triplot(*points.T, triangles[near], linewidth=0.5, color="0.5")
+    _fill(ax, corners[path], "tab:blue", 0.2, "visited")
+    _fill(ax, corners[others], "tab:orange", 0.5, "has the point, too")
+    _fill(ax, corners[found], "tab:red", 0.5, "the answer")
+    ax.plot(*corners[path].mean(1).T, color="tab:blue", marker=".", label="the walk")
+    ax.plot(x, y, color="black", marker="x", linestyle="none", label="the point")
+    ax.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]))
+    ax.legend(loc="best", fontsize="small")
     ax.set_title(textwrap.fill(_sentence(location, others), 52))
     return ax
 
 
-def _fill(ax: Axes, mesh: Mesh, triangles: NDArray[Any], colour: str, opacity: float) -> None:
-    for corners in mesh.points[mesh.triangles[triangles]]:
-        ax.fill(*corners.T, color=colour, alpha=opacity, linewidth=0)
+def _frame(points: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """The corners of a square round points, with a margin of a fifth of it on each side."""
+    low, high = points.min(0), points.max(0)
+    half = 0.7 * float((high - low).max()) or 1.0
+    return (low + high) / 2 - half, (low + high) / 2 + half
 
 
-def _sharing(mesh: Mesh, location: Location) -> list[int]:
+def _fill(
+    ax: Axes, triangles: NDArray[np.float64], colour: str, opacity: float, label: str
+) -> None:
+    """Fill triangles, which have one entry in the legend."""
+    from matplotlib.collections import PolyCollection
+
+    if len(triangles):
+        filled = PolyCollection(
+            list(triangles), label=label, facecolor=colour, alpha=opacity, linewidth=0
+        )
+        ax.add_collection(filled)
+
+
+def _sharing(
+    points: NDArray[np.float64],
+    triangles: NDArray[Any],
+    neighbours: NDArray[np.int32],
+    location: Location,
+) -> list[int]:
     """The other triangles that have the point: at the same edge, or the same place."""
     if location.where is Where.EDGE:
-        other = int(mesh.neighbours[location.triangle, location.local])
+        other = int(neighbours[location.triangle, location.local])
         return [other] if other >= 0 else []
     if location.where is not Where.VERTEX:
         return []
-    points, triangles = mesh.points, mesh.triangles
     place = points[triangles[location.triangle, location.local]]
     here = np.flatnonzero((points == place).all(1))
     found = np.flatnonzero(np.isin(triangles, here).any(1))

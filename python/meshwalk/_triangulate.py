@@ -22,6 +22,10 @@ class DuplicateWarning(UserWarning):
     """Points have the same coordinates as earlier ones, and are in no triangle."""
 
 
+class HoleWarning(UserWarning):
+    """A point of a hole removes nothing."""
+
+
 class OptimumWarning(UserWarning):
     """The triangulation is a local optimum only."""
 
@@ -210,7 +214,8 @@ def constrained_delaunay(
     ------
     InputError
         As of `delaunay`; segments cross, and `split` is not set: then the exception's `segments`
-        tell which; the rings of a polygon are not closed; nothing is left.
+        tell which; the rings of a polygon are not closed; nothing is left, since the outer ring is
+        open, or the point of a hole lies on a segment or in a ring that is open.
     ValueError
         A segment names no point.
 
@@ -218,6 +223,8 @@ def constrained_delaunay(
     -----
     DuplicateWarning
         Points have equal coordinates.
+    HoleWarning
+        A point of `holes` is outside, or in a part that is removed already.
 
     References
     ----------
@@ -241,9 +248,15 @@ def constrained_delaunay(
     rows, width = _arrays.vertices(points, "points", (2, 3))
     ends = _arrays.indices(segments, "segments", (None, 2), len(rows))
     rings = None if polygons is None else _arrays.indices(polygons, "polygons", (len(ends),), None)
-    seeds = np.ascontiguousarray(_arrays.queries(() if holes is None else holes, "holes", 2)[0])
+    seeds, kind = _arrays.queries(() if holes is None else holes, "holes", 2)
+    if len(kind) > 1:
+        raise ValueError(
+            f"holes must have the shape (h, 2), a point in each hole, not {(*kind, 2)}; rings of"
+            " polygons are segments"
+        )
+    seeds = np.ascontiguousarray(seeds)
     duplicate_of = np.empty(len(rows), np.uint32)
-    mesh, duplicates, edges, edge_segments = _core.constrained_delaunay(
+    mesh, duplicates, edges, edge_segments, idle, first_idle = _core.constrained_delaunay(
         Mesh, rows[:, :2], duplicate_of, ends, rings, seeds, _KEEPS[keep], split, threads, progress
     )
     mesh._set_fields(_heights(rows, mesh.vertex_count) if width == 3 else None, None)
@@ -251,6 +264,15 @@ def constrained_delaunay(
         np.frombuffer(edges, np.uint32).reshape(-1, 2), np.frombuffer(edge_segments, np.uint32)
     )
     _warn(duplicates, duplicate_of)
+    if idle:
+        more = f", and so do {idle - 1} more" if idle > 1 else ""
+        x, y = seeds[first_idle]
+        warnings.warn(
+            f"holes[{first_idle}] ({x}, {y}) removes nothing{more}: it is outside, or in a part"
+            " that is removed already",
+            HoleWarning,
+            stacklevel=2,
+        )
     return mesh
 
 

@@ -329,15 +329,23 @@ static double distance_by_fractions(const mw_line *line, const mw_corners s, dou
 }
 
 /* Powers of two change no digit: ordinary numbers need none. */
-double mw__hit_distance(const mw_line *line, const mw_corners s)
+double mw__hit_distance_noted(const mw_line *line, const mw_corners s, mw_line_estimate *e)
 {
     double n_bound, m_bound, n = rounded_n(line, s, &n_bound), m = rounded_m(line, s, &m_bound);
+    e->n = n;
+    e->m = m;
     bool fine = FINE * fabs(n) > n_bound && FINE * fabs(m) > m_bound;
     const double *v = line->m;
     double square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
     if (MW_LIKELY(fine && is_ordinary(n) && is_ordinary(m) && is_ordinary(square)))
         return n * sqrt(square) / m;
     return distance_by_fractions(line, s, n, m, fine);
+}
+
+double mw__hit_distance(const mw_line *line, const mw_corners s)
+{
+    mw_line_estimate e;
+    return mw__hit_distance_noted(line, s, &e);
 }
 
 /* The sides as fractions of about the size of the largest. */
@@ -367,9 +375,8 @@ static void exact_sides(const mw_line *line, const mw_corners s, double side[3])
  * longer than the triangle, and the sides small differences of large products. p = q + t (m + tail)
  * + off, where t is a rounded N / M and `off` is what rounding leaves; corners are p + head + tail.
  * So each coordinate below is off by 2u of itself, and by 2^-100 of the largest coordinate. */
-static void corners_from_line(const mw_line *line, const mw_corners s, double from[3][3])
+static void corners_from_line(const mw_line *line, const mw_corners s, double t, double from[3][3])
 {
-    double bound, t = rounded_n(line, s, &bound) / rounded_m(line, s, &bound);
     for (int k = 0; k < 3; k++) {
         double product_tail, sum_tail, product = mw__two_product(t, line->m[k], &product_tail);
         double p = mw__two_sum(line->q[k], product, &sum_tail);
@@ -381,23 +388,29 @@ static void corners_from_line(const mw_line *line, const mw_corners s, double fr
     }
 }
 
+/* The larger one of two; a if b is NaN. The library's fmax is a call. */
+static MW_INLINE double larger_of(double a, double b)
+{
+    return b > a ? b : a;
+}
+
 /* Magnitudes of the sides from there, with a bound of their errors: that of mw__side_rounded is
  * about doubled by 2u for each coordinate, and q adds FAR_ERROR of the coordinates. */
 #define FAR_ERROR 0x1p-96
-static double near_sides(const mw_line *line, const mw_corners s, double side[3])
+static double near_sides(const mw_line *line, const mw_corners s, double t, double side[3])
 {
     double from[3][3], most = 0, length = 0, extent = 0, farthest = 0;
     mw_line through = {{0}, {line->m[0], line->m[1], line->m[2]}, {0}};
-    corners_from_line(line, s, from);
+    corners_from_line(line, s, t, from);
     for (int k = 0; k < 3; k++) {
         double bound;
         side[k] = fabs(mw__side_rounded(&through, from[(k + 1) % 3], from[(k + 2) % 3], &bound));
-        most = fmax(most, bound);
+        most = larger_of(most, bound);
         length += fabs(line->m[k]);
-        farthest = fmax(farthest, fabs(line->q[k]));
+        farthest = larger_of(farthest, fabs(line->q[k]));
         for (int i = 0; i < 3; i++) {
-            extent = fmax(extent, fabs(from[i][k]));
-            farthest = fmax(farthest, fabs(s[i][k]));
+            extent = larger_of(extent, fabs(from[i][k]));
+            farthest = larger_of(farthest, fabs(s[i][k]));
         }
     }
     return 2 * most + length * extent * farthest * FAR_ERROR;
@@ -405,21 +418,32 @@ static double near_sides(const mw_line *line, const mw_corners s, double side[3]
 
 void mw__hit_sides(const mw_line *line, const mw_corners s, double side[3])
 {
+    mw_line_estimate e;
+    double bound;
+    mw__estimate_sides(line, s, &e);
+    e.n = rounded_n(line, s, &bound);
+    e.m = rounded_m(line, s, &bound);
+    mw__hit_sides_noted(line, s, &e, side);
+}
+
+void mw__hit_sides_noted(const mw_line *line, const mw_corners s, const mw_line_estimate *e,
+                         double side[3])
+{
     double bound[3], sum = 0, near[3];
     bool exact[3];
     for (int k = 0; k < 3; k++) {
-        const double *a = s[(k + 1) % 3], *b = s[(k + 2) % 3];
-        side[k] = fabs(mw__side_rounded(line, a, b, &bound[k]));
+        side[k] = fabs(e->side[(k + 1) % 3]);
+        bound[k] = e->bound[(k + 1) % 3];
         exact[k] = !(side[k] > bound[k]);
         if (exact[k]) {
-            side[k] = fabs(mw__side_exact(line, a, b));
+            side[k] = fabs(mw__side_exact(line, s[(k + 1) % 3], s[(k + 2) % 3]));
             bound[k] = 0;
         }
         sum += side[k];
     }
-    double most = fmax(fmax(bound[0], bound[1]), bound[2]);
+    double most = larger_of(larger_of(bound[0], bound[1]), bound[2]);
     if (most <= WEIGHT_FINE * sum && sum >= LEAST_SUM && sum <= MOST_SUM) return;
-    most = near_sides(line, s, near);
+    most = near_sides(line, s, e->n / e->m, near);
     sum = 0;
     for (int k = 0; k < 3; k++) sum += near[k] = exact[k] ? side[k] : near[k];
     if (most <= WEIGHT_FINE * sum && sum >= LEAST_NEAR_SUM && sum <= MOST_NEAR_SUM)

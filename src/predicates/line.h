@@ -78,10 +78,29 @@ int mw__compare_hit_to(const mw_line *line, const mw_corners s, double d);
  * right, and beyond the largest double it is infinite. */
 double mw__hit_distance(const mw_line *line, const mw_corners s);
 
+/* What doubles say of a line and a triangle, kept so that it is not computed again. */
+typedef struct mw_line_estimate {
+    double side[3], bound[3]; /* mw__side_rounded of the edge that begins at corner k */
+    double n, m;              /* t = n / m: where the plane is met; not exact */
+} mw_line_estimate;
+
+static MW_INLINE void mw__estimate_sides(const mw_line *line, const mw_corners s,
+                                         mw_line_estimate *e)
+{
+    for (int k = 0; k < 3; k++)
+        e->side[k] = mw__side_rounded(line, s[k], s[k == 2 ? 0 : k + 1], &e->bound[k]);
+}
+
+/* mw__hit_distance; notes n and m. */
+double mw__hit_distance_noted(const mw_line *line, const mw_corners s, mw_line_estimate *e);
+
 /* Magnitudes of the three sides, each opposite to its corner, up to a common factor: exactly 0
  * where they are 0, off by less than 2^-42 of their sum, which lies from 2^-900 to 2^900. For a
  * triangle that the line meets. */
 void mw__hit_sides(const mw_line *line, const mw_corners s, double side[3]);
+/* The same by a full estimate. */
+void mw__hit_sides_noted(const mw_line *line, const mw_corners s, const mw_line_estimate *e,
+                         double side[3]);
 
 /* Does the line meet the triangle strictly inside, with m pointing at its front? Returns true if
  * doubles are enough to be sure and to give the weights; then side[] is that of mw__hit_sides.

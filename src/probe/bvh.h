@@ -15,6 +15,7 @@
 #include "surface/surface.h"
 
 #define MW_BVH_WIDTH 8u
+#define MW_BVH_SIDES (MW_BVH_WIDTH * sizeof(float)) /* bytes of the sides on one axis */
 /* Levels that building makes, of which the last ones halve (bvh_build.c); and with those that
  * insertions add (bvh_follow.c). */
 #define MW_BVH_BUILT_LEVELS 36
@@ -122,13 +123,20 @@ static MW_INLINE void mw__bvh_to_frame(const mw_bvh *bvh, const double point[3],
 /* The error of distances that underflow is less than this, in units of length. */
 #define MW_BVH_TINY_LENGTH 0x1p-1070
 
+/* The largest coordinate, without its sign. None is NaN. */
+static MW_INLINE double mw__bvh_largest(const double v[3])
+{
+    double x = fabs(v[0]), y = fabs(v[1]), z = fabs(v[2]), larger = x > y ? x : y;
+    return larger > z ? larger : z;
+}
+
 /* Transform a point to the frame: q. Returns the width by which to widen all boxes. No vertex has
  * moved farther than `slack` since they were fitted. */
 static MW_INLINE double mw__bvh_aim(const mw_bvh *bvh, const double point[3], double slack,
                                     double q[3])
 {
     mw__bvh_to_frame(bvh, point, q);
-    double largest = fmax(fabs(q[0]), fmax(fabs(q[1]), fabs(q[2])));
+    double largest = mw__bvh_largest(q);
     if (largest <= MW_BVH_FAR)
         return (largest * MW_BVH_Q_ERROR + slack * bvh->scale + MW_BVH_LEAST_WIDTH) *
                MW_BVH_WIDTH_ERROR;

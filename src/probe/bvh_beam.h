@@ -35,16 +35,21 @@
 #include "probe/bvh.h"
 
 #include <float.h>
+#include <stddef.h>
+#include <string.h>
 
 /* The line in the frame of the BVH, and which part of it is searched. */
 typedef struct mw_bvh_beam {
-    float add_low[3], add_high[3]; /* q + w and q - w: what sides are compared with */
-    float inverse[3];              /* 1 / m; infinite where m is 0 */
-    bool down[3];                  /* m < 0: the line enters at the high side */
-    float from, to;                /* t is limited to these */
-    float at_low, at_high;         /* t of the point that distances count from is between these */
-    float reach;                   /* and may be as far from that as this */
-    double at, per_length;         /* the same t; t for a unit of length */
+    /* The line enters at the low sides, or where m < 0 at the high ones: bytes from the node to the
+     * sides where it enters and leaves, and what these are compared with, q + w for low sides and q
+     * - w for high ones. */
+    uint32_t enter[3], leave[3];
+    float add_enter[3], add_leave[3];
+    float inverse[3];      /* 1 / m; infinite where m is 0 */
+    float from, to;        /* t is limited to these */
+    float at_low, at_high; /* t of the point that distances count from is between these */
+    float reach;           /* and may be as far from that as this */
+    double at, per_length; /* the same t; t for a unit of length */
 } mw_bvh_beam;
 
 #define MW_BEAM_END_ERROR 0x1p-21f
@@ -52,6 +57,7 @@ typedef struct mw_bvh_beam {
 #define MW_BEAM_NEAR 4 /* within this, q is not moved */
 /* Distances are off by 2^-40 of themselves, |m| and the quotient by a few times 2^-53 more. */
 #define MW_BEAM_REACH_ERROR (1 + 0x1p-38)
+#define MW_BEAM_LESS (1 - 0x1p-37) /* less than 1 / MW_BEAM_REACH_ERROR */
 
 /* A double rounded to a float that is not greater, or not less. */
 static MW_INLINE float mw__float_down(double x)
@@ -69,56 +75,86 @@ static MW_INLINE void mw__beam_limit(mw_bvh_beam *b, double reach, bool one_side
 {
     double t = (reach + MW_BVH_TINY_LENGTH) * b->per_length * MW_BEAM_REACH_ERROR +
                MW_BVH_LEAST_WIDTH,
-           ahead =
-               (one_sided ? least / MW_BEAM_REACH_ERROR * b->per_length : -t) - MW_BVH_LEAST_WIDTH;
+           ahead = (one_sided ? least * MW_BEAM_LESS * b->per_length : -t) - MW_BVH_LEAST_WIDTH;
     b->reach = mw__float_up(t);
     b->to = mw__float_up(b->at + t);
     b->from = mw__float_down(b->at + ahead);
 }
 
-static inline mw_bvh_beam mw__beam_make(const mw_bvh *bvh, const mw_line *line, double slack)
+/* m times a power of two, so that its largest component is 1/2 to 1. */
+static MW_INLINE void mw__beam_scale(const double m[3], double scaled[3])
 {
-    mw_bvh_beam b;
+    double largest = mw__bvh_largest(m), factor;
+    uint64_t bits;
+    memcpy(&bits, &largest, sizeof bits);
+    uint64_t exponent = bits >> 52; /* of the double, as it is stored */
+    if (MW_LIKELY(exponent >= 1 && exponent <= 2044)) {
+        bits = (2045 - exponent) << 52;
+        memcpy(&factor, &bits, sizeof factor);
+        for (int k = 0; k < 3; k++) scaled[k] = m[k] * factor;
+    } else {
+        int power = ilogb(largest) + 1;
+        for (int k = 0; k < 3; k++) scaled[k] = ldexp(m[k], -power);
+    }
+}
+
+/* One axis of a beam: a point p of the line, and its direction m. */
+static MW_INLINE void mw__beam_set_axis(mw_bvh_beam *b, int k, double p, double m, double width)
+{
+    float low = mw__float_up(p + width), high = mw__float_down(p - width);
+    bool small = fabs(m) < MW_BEAM_SMALL_COMPONENT, down = !small && m < 0;
+    uint32_t low_side = (uint32_t)(offsetof(mw_bvh_node, low) + (size_t)k * MW_BVH_SIDES),
+             high_side = (uint32_t)(offsetof(mw_bvh_node, high) + (size_t)k * MW_BVH_SIDES);
+    b->inverse[k] = small ? INFINITY : (float)(1 / m);
+    b->enter[k] = down ? high_side : low_side;
+    b->leave[k] = down ? low_side : high_side;
+    b->add_enter[k] = down ? high : low;
+    b->add_leave[k] = down ? low : high;
+}
+
+/* All but its limits. */
+static inline void mw__beam_aim(mw_bvh_beam *b, const mw_bvh *bvh, const mw_line *line,
+                                double slack)
+{
     double q[3], m[3], square = 0, along = 0, shift = 0;
     double width = mw__bvh_aim(bvh, line->q, slack, q);
-    double largest = fmax(fabs(line->m[0]), fmax(fabs(line->m[1]), fabs(line->m[2])));
-    int exponent = ilogb(largest) + 1;
+    mw__beam_scale(line->m, m);
     for (int k = 0; k < 3; k++) {
-        m[k] = ldexp(line->m[k], -exponent);
         square += m[k] * m[k];
         along += m[k] * q[k];
     }
-    if (fmax(fabs(q[0]), fmax(fabs(q[1]), fabs(q[2]))) > MW_BEAM_NEAR) shift = -along / square;
-    for (int k = 0; k < 3; k++) {
-        double p = q[k] + shift * m[k];
-        b.add_low[k] = mw__float_up(p + width);
-        b.add_high[k] = mw__float_down(p - width);
-        bool small = fabs(m[k]) < MW_BEAM_SMALL_COMPONENT;
-        b.inverse[k] = small ? INFINITY : (float)(1 / m[k]);
-        b.down[k] = b.inverse[k] < 0;
-    }
-    b.at = -shift;
-    b.at_low = mw__float_down(b.at);
-    b.at_high = mw__float_up(b.at);
-    b.per_length = bvh->scale / sqrt(square);
-    return b;
+    if (mw__bvh_largest(q) > MW_BEAM_NEAR) shift = -along / square;
+    for (int k = 0; k < 3; k++) mw__beam_set_axis(b, k, q[k] + shift * m[k], m[k], width);
+    b->at = -shift;
+    b->at_low = mw__float_down(b->at);
+    b->at_high = mw__float_up(b->at);
+    b->per_length = bvh->scale / sqrt(square);
+}
+
+/* The sides of the children of a node that are `offset` bytes from its beginning. */
+static MW_INLINE const float *mw__beam_sides(const mw_bvh_node *node, uint32_t offset)
+{
+    return (const float *)(const void *)((const char *)node + offset);
 }
 
 /* Test the children of a node against the beam. Returns those that it meets, as bits. No point of
- * the line in child i is nearer than near[i], in t, to the point that distances count from. */
+ * the line in child i is nearer than near[i], in t, to the point that distances count from.
+ * Children that are triangles, or none, are bits of *triangles. */
 typedef uint32_t mw_beam_meets(const mw_bvh_beam *beam, const mw_bvh_node *node,
-                               float near[MW_BVH_WIDTH]);
+                               float near[MW_BVH_WIDTH], uint32_t *triangles);
 
 static MW_INLINE uint32_t mw__beam_meets_portable(const mw_bvh_beam *beam, const mw_bvh_node *node,
-                                                  float near[MW_BVH_WIDTH])
+                                                  float near[MW_BVH_WIDTH], uint32_t *triangles)
 {
     uint32_t met = 0;
+    *triangles = 0;
     for (uint32_t i = 0; i < MW_BVH_WIDTH; i++) {
         float low = -INFINITY, high = INFINITY;
         for (int k = 0; k < 3; k++) {
-            float s = (node->low[k][i] - beam->add_low[k]) * beam->inverse[k],
-                  e = (node->high[k][i] - beam->add_high[k]) * beam->inverse[k];
-            float from = beam->down[k] ? e : s, to = beam->down[k] ? s : e;
+            float enter = mw__beam_sides(node, beam->enter[k])[i],
+                  leave = mw__beam_sides(node, beam->leave[k])[i];
+            float from = (enter - beam->add_enter[k]) * beam->inverse[k],
+                  to = (leave - beam->add_leave[k]) * beam->inverse[k];
             low = from > low ? from : low;
             high = to < high ? to : high;
         }
@@ -129,6 +165,7 @@ static MW_INLINE uint32_t mw__beam_meets_portable(const mw_bvh_beam *beam, const
         low = low > beam->from ? low : beam->from;
         high = high < beam->to ? high : beam->to;
         met |= (uint32_t)(low <= high) << i;
+        *triangles |= (node->child[i] & MW_BVH_TRIANGLE ? 1u : 0u) << i;
     }
     return met;
 }
@@ -138,19 +175,20 @@ static MW_INLINE uint32_t mw__beam_meets_portable(const mw_bvh_beam *beam, const
 #include <immintrin.h>
 
 /* The same, eight at a time. Of two operands, max and min give the second one if one is NaN. */
-__attribute__((target("avx2"))) static inline uint32_t
-mw__beam_meets_avx2(const mw_bvh_beam *beam, const mw_bvh_node *node, float near[MW_BVH_WIDTH])
+__attribute__((target("avx2"))) static inline uint32_t mw__beam_meets_avx2(const mw_bvh_beam *beam,
+                                                                           const mw_bvh_node *node,
+                                                                           float near[MW_BVH_WIDTH],
+                                                                           uint32_t *triangles)
 {
     __m256 low = _mm256_set1_ps(-INFINITY), high = _mm256_set1_ps(INFINITY);
     for (int k = 0; k < 3; k++) {
         __m256 inverse = _mm256_set1_ps(beam->inverse[k]);
-        __m256 s = _mm256_mul_ps(
-            _mm256_sub_ps(_mm256_load_ps(node->low[k]), _mm256_set1_ps(beam->add_low[k])), inverse);
-        __m256 e = _mm256_mul_ps(
-            _mm256_sub_ps(_mm256_load_ps(node->high[k]), _mm256_set1_ps(beam->add_high[k])),
-            inverse);
-        low = _mm256_max_ps(beam->down[k] ? e : s, low);
-        high = _mm256_min_ps(beam->down[k] ? s : e, high);
+        __m256 enter = _mm256_load_ps(mw__beam_sides(node, beam->enter[k])),
+               leave = _mm256_load_ps(mw__beam_sides(node, beam->leave[k]));
+        __m256 from = _mm256_sub_ps(enter, _mm256_set1_ps(beam->add_enter[k])),
+               to = _mm256_sub_ps(leave, _mm256_set1_ps(beam->add_leave[k]));
+        low = _mm256_max_ps(_mm256_mul_ps(from, inverse), low);
+        high = _mm256_min_ps(_mm256_mul_ps(to, inverse), high);
     }
     const __m256 less = _mm256_set1_ps(1 - MW_BEAM_END_ERROR),
                  more = _mm256_set1_ps(1 + MW_BEAM_END_ERROR);
@@ -159,6 +197,8 @@ mw__beam_meets_avx2(const mw_bvh_beam *beam, const mw_bvh_node *node, float near
     __m256 before = _mm256_sub_ps(low, _mm256_set1_ps(beam->at_high)),
            after = _mm256_sub_ps(_mm256_set1_ps(beam->at_low), high);
     _mm256_storeu_ps(near, _mm256_max_ps(_mm256_max_ps(before, after), _mm256_setzero_ps()));
+    *triangles = (uint32_t)_mm256_movemask_ps(
+        _mm256_castsi256_ps(_mm256_load_si256((const __m256i *)(const void *)node->child)));
     low = _mm256_max_ps(low, _mm256_set1_ps(beam->from));
     high = _mm256_min_ps(high, _mm256_set1_ps(beam->to));
     return (uint32_t)_mm256_movemask_ps(_mm256_cmp_ps(low, high, _CMP_LE_OQ));

@@ -6,6 +6,10 @@
 #include <stdatomic.h>
 #include <stdlib.h>
 
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
+
 enum {
     SAMPLE = 255, /* triangles, or nodes, in a sample */
     CHUNK = 512   /* nodes that one thread fits at a time */
@@ -86,39 +90,71 @@ static mw_bvh_box bvh_box_everything(void)
     return (mw_bvh_box){{-INFINITY, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}};
 }
 
-/* A box around low..high, in units of length. */
-static MW_INLINE mw_bvh_box bvh_box_outwards(const mw_bvh *b, const double low[3],
-                                             const double high[3])
+/* Two coordinates. Compilers make branches of some least and greatest values, and these are guessed
+ * wrong as often as not. */
+typedef double fit_pair __attribute__((vector_size(16)));
+typedef int64_t fit_mask __attribute__((vector_size(16)));
+
+static MW_INLINE fit_pair pair_min(fit_pair a, fit_pair b)
 {
-    mw_bvh_box box;
-    double from[3], to[3];
-    mw__bvh_to_frame(b, low, from);
-    mw__bvh_to_frame(b, high, to);
-    for (int k = 0; k < 3; k++) {
-        if (MW_UNLIKELY(!(from[k] > -MW_BVH_LARGE && to[k] < MW_BVH_LARGE)))
-            return bvh_box_everything();
-        box.low[k] = float_below(from[k]);
-        box.high[k] = -float_below(-to[k]);
-    }
-    return box;
+#ifdef __SSE2__
+    return (fit_pair)_mm_min_pd((__m128d)a, (__m128d)b);
+#else
+    fit_mask less = a < b;
+    return (fit_pair)((less & (fit_mask)a) | (~less & (fit_mask)b));
+#endif
 }
 
-/* Coordinates that are all finite have a finite sum of halves. */
+static MW_INLINE fit_pair pair_max(fit_pair a, fit_pair b)
+{
+    return -pair_min(-a, -b);
+}
+
+/* A point: x and y, z and z. */
+typedef struct fit_point {
+    fit_pair xy, zz;
+} fit_point;
+
+static MW_INLINE fit_point fit_point_of(const double p[3])
+{
+    return (fit_point){{p[0], p[1]}, {p[2], p[2]}};
+}
+
+/* The sides of a box in the frame, of sides in units of length. Are they finite and not too
+ * large? */
+static MW_INLINE bool bvh_sides_outwards(const mw_bvh *b, int axis, double low, double high,
+                                         mw_bvh_box *box)
+{
+    double from = low * b->scale - b->centre[axis], to = high * b->scale - b->centre[axis];
+    box->low[axis] = float_below(from);
+    box->high[axis] = -float_below(-to);
+    return from > -MW_BVH_LARGE && to < MW_BVH_LARGE;
+}
+
+/* x - x is 0 if x is finite, else NaN. */
+static MW_INLINE mw_bvh_box bvh_triangle_box(const mw_bvh *bvh, const mw_surface *surface,
+                                             const uint32_t v[3])
+{
+    fit_point p = fit_point_of(mw__surface_point(surface, v[0])),
+              q = fit_point_of(mw__surface_point(surface, v[1])),
+              r = fit_point_of(mw__surface_point(surface, v[2]));
+    fit_pair zero = ((p.xy - p.xy) + (q.xy - q.xy) + (r.xy - r.xy)) +
+                    ((p.zz - p.zz) + (q.zz - q.zz) + (r.zz - r.zz));
+    fit_pair low = pair_min(pair_min(p.xy, q.xy), r.xy),
+             high = pair_max(pair_max(p.xy, q.xy), r.xy),
+             z_low = pair_min(pair_min(p.zz, q.zz), r.zz),
+             z_high = pair_max(pair_max(p.zz, q.zz), r.zz);
+    mw_bvh_box box;
+    bool fits = bvh_sides_outwards(bvh, 0, low[0], high[0], &box);
+    fits &= bvh_sides_outwards(bvh, 1, low[1], high[1], &box);
+    fits &= bvh_sides_outwards(bvh, 2, z_low[0], z_high[0], &box);
+    if (MW_UNLIKELY(zero[0] + zero[1] != 0)) return bvh_box_empty();
+    return MW_LIKELY(fits) ? box : bvh_box_everything();
+}
+
 mw_bvh_box mw__bvh_box_of(const mw_bvh *bvh, const mw_surface *surface, uint32_t triangle)
 {
-    const double *p = mw__surface_corner(surface, triangle, 0),
-                 *q = mw__surface_corner(surface, triangle, 1),
-                 *r = mw__surface_corner(surface, triangle, 2);
-    double low[3], high[3];
-    if (MW_UNLIKELY(!mw__is_finite3(p) || !mw__is_finite3(q) || !mw__is_finite3(r)))
-        return bvh_box_empty();
-    for (int k = 0; k < 3; k++) {
-        low[k] = p[k] < q[k] ? p[k] : q[k];
-        high[k] = p[k] < q[k] ? q[k] : p[k];
-        low[k] = r[k] < low[k] ? r[k] : low[k];
-        high[k] = r[k] > high[k] ? r[k] : high[k];
-    }
-    return bvh_box_outwards(bvh, low, high);
+    return bvh_triangle_box(bvh, surface, surface->tri[triangle].v);
 }
 
 mw_bvh_box mw__bvh_box_of_node(const mw_bvh_node *node)
@@ -171,7 +207,7 @@ bool mw__bvh_fit_node(const mw_bvh *b, const mw_surface *surface, mw_bvh_node *n
             box = bvh_box_empty();
         } else if (child & MW_BVH_TRIANGLE) {
             const uint32_t *v = surface->tri[child & ~MW_BVH_TRIANGLE].v;
-            box = mw__bvh_box_of(b, surface, child & ~MW_BVH_TRIANGLE);
+            box = bvh_triangle_box(b, surface, v);
             for (int k = 0; k < 3; k++) node->vertex[i][k] = v[k];
             finite = finite && !box_is_empty(&box);
         } else {

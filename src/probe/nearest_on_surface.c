@@ -288,6 +288,68 @@ double mw__distance_to_triangle(const mw_surface *surface, uint32_t t, const dou
     return nearest_of_triangle(corner, q, distance_to_corners_box(corner, q)).distance;
 }
 
+/* --- a triangle that is farther --- */
+
+/* About the point nearest to the origin of the triangle with corners a, b, c, by the region of the
+ * triangle that it lies in [Ericson 2005, sec. 5.1]. Rounded, and wrong where the triangle is
+ * thin. */
+static void nearest_roughly(const double a[3], const double b[3], const double c[3],
+                            double nearest[3])
+{
+    double ab[3], ac[3], s = 0, t = 0;
+    for (int k = 0; k < 3; k++) {
+        ab[k] = b[k] - a[k];
+        ac[k] = c[k] - a[k];
+    }
+    double b_a = -vector_dot(ab, a), c_a = -vector_dot(ac, a), b_b = -vector_dot(ab, b),
+           c_b = -vector_dot(ac, b), b_c = -vector_dot(ab, c), c_c = -vector_dot(ac, c);
+    double of_a = b_b * c_c - b_c * c_b, of_b = b_c * c_a - b_a * c_c, of_c = b_a * c_b - b_b * c_a;
+    if (b_a <= 0 && c_a <= 0) {
+        s = t = 0;
+    } else if (b_b >= 0 && c_b <= b_b) {
+        s = 1;
+    } else if (c_c >= 0 && b_c <= c_c) {
+        t = 1;
+    } else if (of_c <= 0 && b_a >= 0 && b_b <= 0) {
+        s = b_a / (b_a - b_b);
+    } else if (of_b <= 0 && c_a >= 0 && c_c <= 0) {
+        t = c_a / (c_a - c_c);
+    } else if (of_a <= 0 && c_b >= b_b && b_c >= c_c) {
+        t = (c_b - b_b) / ((c_b - b_b) + (b_c - c_c));
+        s = 1 - t;
+    } else {
+        double all = of_a + of_b + of_c;
+        s = of_b / all;
+        t = of_c / all;
+    }
+    for (int k = 0; k < 3; k++) nearest[k] = a[k] + s * ab[k] + t * ac[k];
+}
+
+/* Squares and lengths between these do not leave the range of doubles here. */
+#define LEAST_ROUGH 0x1p-300
+#define MOST_ROUGH 0x1p300
+
+/* Is the rounded distance of q from a triangle certainly greater than `than`? For any vector u the
+ * triangle is at least as far as the least of its corners along u, and for u to its nearest point
+ * it is no farther: so u need not be right, only the products with it, whose errors are less than
+ * 2^-50 of |u| times the farthest corner. The distance is off by less than 2^-48 of that. */
+static bool triangle_is_farther(const mw_corners corner, const double q[3], double than)
+{
+    double at[3][3], u[3], far = 0;
+    for (int i = 0; i < 3; i++) {
+        for (int k = 0; k < 3; k++) at[i][k] = corner[i][k] - q[k];
+        far = larger_value(far, fabs(at[i][0]) + fabs(at[i][1]) + fabs(at[i][2]));
+    }
+    nearest_roughly(at[0], at[1], at[2], u);
+    double least = vector_dot(u, at[0]), square = vector_dot(u, u);
+    for (int i = 1; i < 3; i++) {
+        double along = vector_dot(u, at[i]);
+        least = along < least ? along : least;
+    }
+    if (!(square > LEAST_ROUGH && square < MOST_ROUGH && far < MOST_ROUGH)) return false;
+    return least > sqrt(square) * (than + 0x1p-44 * far);
+}
+
 /* --- the search --- */
 
 /* Bounds are in the frame of the BVH and rounded as for lines (bvh_beam.h). The distance of a
@@ -308,21 +370,21 @@ static void nearest_set_reach(nearest_search *s, double distance)
     s->reach = (distance + MW_BVH_TINY_LENGTH) * scale * REACH_ERROR + MW_BVH_LEAST_WIDTH;
 }
 
-/* Lower bounds of the distances of q to everything in the boxes of the children. In doubles: a
- * point may be far from the surface. */
-static void node_distances(const nearest_search *s, const mw_bvh_node *node,
-                           double distance[MW_BVH_WIDTH])
+/* Lower bounds of the squared distances of q to everything in the boxes of the children. In
+ * doubles: a point may be far from the surface. Axis by axis, so that children are taken side by
+ * side. */
+static void node_squares(const nearest_search *s, const mw_bvh_node *node,
+                         double square[MW_BVH_WIDTH])
 {
-    for (uint32_t i = 0; i < MW_BVH_WIDTH; i++) {
-        double square = 0;
-        for (int k = 0; k < 3; k++) {
+    for (uint32_t i = 0; i < MW_BVH_WIDTH; i++) square[i] = 0;
+    for (int k = 0; k < 3; k++)
+        for (uint32_t i = 0; i < MW_BVH_WIDTH; i++) {
             double below = (double)node->low[k][i] - s->q[k],
                    above = s->q[k] - (double)node->high[k][i];
             double away = (below > above ? below : above) - s->width;
-            square += away > 0 ? away * away : 0;
+            away = away > 0 ? away : 0;
+            square[i] += away * away;
         }
-        distance[i] = sqrt(square);
-    }
 }
 
 static void nearest_look_at_triangle(nearest_search *s, uint32_t t)
@@ -332,7 +394,8 @@ static void nearest_look_at_triangle(nearest_search *s, uint32_t t)
     const mw_corners corner = {mw__surface_corner(surface, t, 0), mw__surface_corner(surface, t, 1),
                                mw__surface_corner(surface, t, 2)};
     double least = distance_to_corners_box(corner, s->point);
-    if (least > fmin(s->nearest.distance, s->max_distance)) return;
+    double most = s->nearest.distance < s->max_distance ? s->nearest.distance : s->max_distance;
+    if (least > most || triangle_is_farther(corner, s->point, most)) return;
     mw_nearest_surface_point hit = nearest_of_triangle(corner, s->point, least);
     if (hit.distance > s->max_distance || hit.distance > s->nearest.distance) return;
     if (hit.distance == s->nearest.distance && t >= s->nearest.triangle) return;
@@ -346,16 +409,18 @@ static void nearest_look_at_triangle(nearest_search *s, uint32_t t)
 static void nearest_look_into(nearest_search *s, mw_bvh_stack *stack, uint32_t visited)
 {
     const mw_bvh_node *node = &s->prober->bvh.node[visited];
-    double distance[MW_BVH_WIDTH];
+    double square[MW_BVH_WIDTH];
     uint32_t floor = stack->count;
-    node_distances(s, node, distance);
+    node_squares(s, node, square);
     for (uint32_t i = 0; i < MW_BVH_WIDTH; i++)
         if ((node->child[i] & MW_BVH_TRIANGLE) && node->child[i] != MW_NONE &&
-            distance[i] <= s->reach)
+            square[i] <= s->reach * s->reach)
             nearest_look_at_triangle(s, node->child[i] & ~MW_BVH_TRIANGLE);
+    double most = s->reach * s->reach;
     for (uint32_t i = 0; i < MW_BVH_WIDTH; i++)
-        if (!(node->child[i] & MW_BVH_TRIANGLE) && distance[i] <= s->reach)
-            mw__bvh_push(stack, floor, (mw_bvh_visit){mw__float_down(distance[i]), node->child[i]});
+        if (!(node->child[i] & MW_BVH_TRIANGLE) && square[i] <= most)
+            mw__bvh_push(stack, floor,
+                         (mw_bvh_visit){mw__float_down(sqrt(square[i])), node->child[i]});
 }
 
 /* `guess` is looked at first. The answer is the same: of all triangles at the smallest distance the

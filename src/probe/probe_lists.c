@@ -48,7 +48,7 @@ static void lists_group_run(lists_group *g, const probe_lists *b, mw_ray_found *
     bool current = mw__prober_is_current(prober);
     for (uint32_t i = 0; i < n; i++) {
         const double *q = b->queries + (first + i) * b->stride;
-        g->search[i].stack.count = 0;
+        mw__ray_search_none(&g->search[i]);
         g->list[i].count = 0;
         g->good[i] = current && mw__probe_ray(&b->cursor.options, q, q + 3, &g->ray[i]);
         if (!g->good[i]) continue;

@@ -99,6 +99,7 @@ mw_status mw_probe_cursor_init(const mw_prober *prober, const mw_probe_options *
         .prober = prober,
         .random = mw__random_seed(options->seed, 0),
         .last = MW_NONE,
+        .before = MW_NONE,
     };
     return MW_OK;
 }
@@ -191,20 +192,32 @@ static mw_touch probe_answer_published(const mw_probe_search *search, mw_probe_c
     return mw__touch_of_lowest(search->surface, &search->line, t);
 }
 
-/* The first bound of a certain probe: a short walk from the triangle touched last, which only finds
- * fronts on a line; or that triangle. */
-static void probe_guess(mw_ray_search *search, const mw_probe_cursor *cursor, mw_probe_search *walk,
-                        mw_probe_counters *work, mw_probe_trace *trace)
+/* A short walk from the triangle touched last, which finds fronts on a line only. Returns the
+ * triangle that it finds, or that triangle. */
+static uint32_t probe_guess_by_walk(const mw_prober *prober, mw_probe_cursor *cursor,
+                                    const mw_line *line, mw_probe_counters *work,
+                                    mw_probe_trace *trace)
 {
-    const mw_prober *prober = search->prober;
+    mw_probe_search walk = probe_plan(prober, cursor, line->q, line->m);
+    if (walk.first == MW_NONE || !mw__probe_faces(&walk, walk.first, work))
+        return probe_last(prober, cursor);
+    walk.steps = SEED_STEPS < walk.steps ? SEED_STEPS : walk.steps;
+    return mw__probe_search_from(&walk, 0, walk.first, NULL, work, trace);
+}
+
+/* The first bound of a certain probe. Rays and segments only look at the triangle touched last, and
+ * only if it was touched twice: other series seldom come back to it. */
+static void probe_guess(mw_ray_search *search, mw_probe_cursor *cursor, mw_probe_counters *work,
+                        mw_probe_trace *trace)
+{
     const mw_ray_query *ray = search->ray;
     bool walks = ray->extent == MW_PROBE_LINE && ray->faces == MW_PROBE_FRONT && ray->least == 0;
-    uint32_t last =
-        cursor->options.start <= MW_PROBE_START_LAST ? probe_last(prober, cursor) : MW_NONE;
-    if (walks && walk->first != MW_NONE && mw__probe_faces(walk, walk->first, work)) {
-        walk->steps = SEED_STEPS < walk->steps ? SEED_STEPS : walk->steps;
-        last = mw__probe_search_from(walk, 0, walk->first, NULL, work, trace);
-    }
+    uint32_t last = MW_NONE;
+    if (cursor->options.start > MW_PROBE_START_LAST) return;
+    if (walks)
+        last = probe_guess_by_walk(search->prober, cursor, &ray->line, work, trace);
+    else if (cursor->last == cursor->before)
+        last = probe_last(search->prober, cursor);
     if (last != MW_NONE) mw__ray_search_guess(search, last);
 }
 
@@ -214,12 +227,13 @@ bool mw__prober_is_current(const mw_prober *prober)
 }
 
 static mw_touch probe_answer_certain(const mw_prober *prober, mw_probe_cursor *cursor,
-                                     const mw_ray_query *ray, mw_probe_search *walk,
-                                     mw_probe_counters *work, mw_probe_trace *trace)
+                                     const mw_ray_query *ray, mw_probe_counters *work,
+                                     mw_probe_trace *trace)
 {
     mw_ray_search search;
+    if (!mw__prober_is_current(prober)) return mw__touch_none(MW_TOUCH_BAD);
     mw__ray_search_begin(&search, prober, ray, mw__ray_found_nearest, NULL);
-    probe_guess(&search, cursor, walk, work, trace);
+    probe_guess(&search, cursor, work, trace);
     mw__ray_search_run(prober, &search, 1);
     if (work) mw__ray_search_count(&search, work);
     return mw__ray_touch_found(&search);
@@ -245,6 +259,7 @@ static mw_touch probe_conclude(const mw_prober *prober, mw_probe_cursor *cursor,
 {
     bool hit = touch.state == MW_TOUCH_HIT;
     if (hit) {
+        cursor->before = cursor->prober == prober ? cursor->last : MW_NONE;
         cursor->prober = prober;
         cursor->last = touch.triangle;
     }
@@ -263,12 +278,13 @@ static mw_touch probe_answer(const mw_prober *prober, mw_probe_cursor *cursor, c
     mw_ray_query ray;
     if (mw__probe_ray(&cursor->options, q, m, &ray)) {
         mw__surface_read_lock(prober->surface);
-        mw_probe_search search = probe_plan(prober, cursor, q, m);
         mw_probe_counters *to = counted ? &work : NULL;
-        if (!cursor->options.certain)
+        if (cursor->options.certain) {
+            touch = probe_answer_certain(prober, cursor, &ray, to, trace);
+        } else {
+            mw_probe_search search = probe_plan(prober, cursor, q, m);
             touch = probe_answer_published(&search, to, trace);
-        else if (mw__prober_is_current(prober))
-            touch = probe_answer_certain(prober, cursor, &ray, &search, to, trace);
+        }
         mw__surface_read_unlock(prober->surface);
     }
     return probe_conclude(prober, cursor, touch, &work);
@@ -288,13 +304,10 @@ static void probe_group_run(probe_group *g, const mw_prober *prober, mw_probe_cu
 {
     for (uint32_t i = 0; i < n; i++) {
         const double *q = queries + i * stride;
-        g->search[i].stack.count = 0;
-        g->search[i].prober = NULL;
+        mw__ray_search_none(&g->search[i]);
         if (!mw__probe_ray(&cursor->options, q, q + 3, &g->ray[i])) continue;
-        mw_probe_search walk = probe_plan(prober, cursor, q, q + 3);
         mw__ray_search_begin(&g->search[i], prober, &g->ray[i], mw__ray_found_nearest, NULL);
-        probe_guess(&g->search[i], cursor, &walk, cursor->options.counters ? &g->work[i] : NULL,
-                    NULL);
+        probe_guess(&g->search[i], cursor, cursor->options.counters ? &g->work[i] : NULL, NULL);
     }
     mw__ray_search_run(prober, g->search, n);
 }

@@ -233,10 +233,9 @@ static mw_touch touch_inside(uint32_t triangle, double distance, const double si
                       .local = UINT8_MAX};
 }
 
-static mw_touch touch_make(const mw_line *line, uint32_t triangle, const mw_corners corners,
-                           const double side[3])
+static mw_touch touch_make(uint32_t triangle, double distance, const double side[3])
 {
-    mw_touch touch = touch_inside(triangle, mw__hit_distance(line, corners), side);
+    mw_touch touch = touch_inside(triangle, distance, side);
     uint32_t zeros = 0;
     for (uint32_t k = 0; k < 3; k++) zeros += side[k] == 0;
     /* Corner k is opposite to the next edge, or the only corner on the line. */
@@ -248,13 +247,21 @@ static mw_touch touch_make(const mw_line *line, uint32_t triangle, const mw_corn
     return touch;
 }
 
+mw_touch mw__touch_at(const mw_line *line, uint32_t triangle, const mw_corners corners,
+                      const mw_line_estimate *e, double distance)
+{
+    double side[3];
+    mw__hit_sides_noted(line, corners, e, side);
+    return touch_make(triangle, distance, side);
+}
+
 mw_touch mw__touch_of(const mw_surface *surface, const mw_line *line, uint32_t triangle)
 {
     mw_corners c;
     double side[3];
     triangle_corners_of(surface, triangle, c);
     mw__hit_sides(line, c, side);
-    return touch_make(line, triangle, c, side);
+    return touch_make(triangle, mw__hit_distance(line, c), side);
 }
 
 mw_touch mw__touch_of_lowest(const mw_surface *surface, const mw_line *line, uint32_t triangle)
@@ -264,7 +271,7 @@ mw_touch mw__touch_of_lowest(const mw_surface *surface, const mw_line *line, uin
     triangle_corners_of(surface, triangle, c);
     mw__hit_sides(line, c, side);
     bool alone = side[0] != 0 && side[1] != 0 && side[2] != 0;
-    if (MW_LIKELY(alone)) return touch_make(line, triangle, c, side);
+    if (MW_LIKELY(alone)) return touch_make(triangle, mw__hit_distance(line, c), side);
     return mw__touch_of(surface, line, mw__lowest_touched(surface, line, triangle));
 }
 

@@ -65,6 +65,9 @@ uint32_t mw__lowest_touched(const mw_surface *surface, const mw_line *line, uint
 /* The answer for a triangle that is touched, and the answer for none: MW_TOUCH_NONE, _LIMIT,
  * _BAD. */
 mw_touch mw__touch_of(const mw_surface *surface, const mw_line *line, uint32_t triangle);
+/* The same with the corners, the full estimate and the mw__hit_distance of the triangle. */
+mw_touch mw__touch_at(const mw_line *line, uint32_t triangle, const mw_corners corners,
+                      const mw_line_estimate *e, double distance);
 mw_touch mw__touch_none(mw_touch_state state);
 
 /* The answer for the lowest-numbered of the triangles touched at the point where `triangle` is. */
@@ -114,7 +117,7 @@ void mw__probe_count(mw_probe_counters *sum, mw_probe_counters *work, bool hit);
 /* Are there boxes, which are up to date? */
 bool mw__prober_is_current(const mw_prober *prober);
 
-/* Answer n certain probes, at most 8, as mw_probe one after the other. */
+/* Answer n certain probes, at most MW_RAYS_AT_A_TIME, as mw_probe one after the other. */
 void mw__probe_certain_group(const mw_prober *prober, mw_probe_cursor *cursor,
                              const double *queries, size_t stride, uint32_t n, mw_touch *touches);
 

@@ -31,9 +31,14 @@ bool mw__probe_ray(const mw_probe_options *options, const double q[3], const dou
 
 /* --- ray_hit.c --- */
 
-/* Does the ray meet the triangle, on a face that counts, within its extent and limits? Exact. A
- * triangle along the line is not met, nor is one with a vertex that is not finite. */
-mw_ray_side mw__ray_meets(const mw_ray_query *ray, const mw_corners corners);
+/* Does the line of the ray meet the triangle, on a face that counts? Exact. A triangle along the
+ * line is not met, nor is one with a vertex that is not finite. Notes the sides. */
+mw_ray_side mw__ray_crosses(const mw_ray_query *ray, const mw_corners corners, mw_line_estimate *e);
+/* Is that within the extent and the limits of the ray? Exact. */
+bool mw__ray_reaches(const mw_ray_query *ray, const mw_corners corners, mw_ray_side side);
+/* The same, faster, with the mw__hit_distance of the triangle. */
+bool mw__ray_reaches_at(const mw_ray_query *ray, const mw_corners corners, mw_ray_side side,
+                        double distance);
 
 /* Compare where along the line two triangles are met, whose sides are known: < 0 if s comes before
  * t, 0 if they are met at one place. Exact. */
@@ -61,12 +66,16 @@ struct mw_ray_search {
     mw_ray_found *found;
     void *self; /* of `found` */
     mw_bvh_beam beam;
-    uint32_t nearest; /* of mw__ray_found_nearest; or MW_NONE */
-    mw_ray_side side; /* of that */
+    mw_corners corners; /* of the triangle that is looked at */
+    uint32_t nearest;   /* of mw__ray_found_nearest; or MW_NONE */
+    mw_ray_side side;   /* of that */
+    mw_corners nearest_corners;
+    double distance;
+    mw_line_estimate estimate, nearest_estimate; /* of the one looked at, and of the nearest */
     uint64_t boxes, triangles, hits;
-    /* The node that is visited: which children the beam meets, as bits, and from where on. */
-    const mw_bvh_node *node;
-    uint32_t met;
+    /* The node that is visited, MW_NONE at the end: which children the beam meets, nodes and
+     * triangles, as bits, and from where on. */
+    uint32_t at, nodes_met, triangles_met;
     float near[MW_BVH_WIDTH];
     mw_bvh_stack stack;
 };
@@ -75,15 +84,19 @@ struct mw_ray_search {
 void mw__ray_search_begin(mw_ray_search *search, const mw_prober *prober, const mw_ray_query *ray,
                           mw_ray_found *found, void *self);
 
+/* A search that has ended, without an answer. */
+void mw__ray_search_none(mw_ray_search *search);
+
 /* Look at one triangle first: a good guess narrows the search. */
 void mw__ray_search_guess(mw_ray_search *search, uint32_t triangle);
 
 /* Run `count` searches of one prober to their ends, at most MW_RAYS_AT_A_TIME. Several take turns,
- * so that one goes on while another waits for memory. One with an empty stack has ended. */
-#define MW_RAYS_AT_A_TIME 8
+ * so that one goes on while another waits for memory. */
+#define MW_RAYS_AT_A_TIME 16
 void mw__ray_search_run(const mw_prober *prober, mw_ray_search *search, uint32_t count);
 
-/* Keeps the triangle nearest to q, of equally near ones the lowest. */
+/* Keeps the triangle nearest to q, of equally near ones the lowest. Instead of calling this, the
+ * search does so itself. */
 mw_ray_found mw__ray_found_nearest;
 /* Keeps the first triangle found, and ends the search. */
 mw_ray_found mw__ray_found_any;

@@ -28,11 +28,11 @@ static mw_ray_side line_meets_exactly(const mw_line *line, const mw_corners c)
 
 /* All three sides at once: most triangles in a box are missed, and a branch at each side would be
  * guessed wrong. */
-static MW_INLINE mw_ray_side line_meets(const mw_line *line, const mw_corners c)
+static MW_INLINE mw_ray_side line_meets(const mw_line *line, const mw_corners c,
+                                        mw_line_estimate *e)
 {
-    double bound[3], side[3] = {mw__side_rounded(line, c[0], c[1], &bound[0]),
-                                mw__side_rounded(line, c[1], c[2], &bound[1]),
-                                mw__side_rounded(line, c[2], c[0], &bound[2])};
+    const double *side = e->side, *bound = e->bound;
+    mw__estimate_sides(line, c, e);
     int right = (side[0] < -bound[0]) + (side[1] < -bound[1]) + (side[2] < -bound[2]),
         left = (side[0] > bound[0]) + (side[1] > bound[1]) + (side[2] > bound[2]);
     if (right && left) return MW_RAY_MISSES;
@@ -50,7 +50,7 @@ static int hit_after(const double from[3], const mw_corners c, mw_ray_side side)
     return n == 0 ? 0 : (n < 0) == (side == MW_RAY_FRONT) ? 1 : -1;
 }
 
-static bool ray_reaches(const mw_ray_query *ray, const mw_corners c, mw_ray_side side)
+bool mw__ray_reaches(const mw_ray_query *ray, const mw_corners c, mw_ray_side side)
 {
     if (ray->extent != MW_PROBE_LINE && hit_after(ray->line.q, c, side) < 0) return false;
     if (ray->extent == MW_PROBE_SEGMENT && hit_after(ray->end, c, side) > 0) return false;
@@ -58,13 +58,21 @@ static bool ray_reaches(const mw_ray_query *ray, const mw_corners c, mw_ray_side
     return isinf(ray->greatest) || mw__compare_hit_to(&ray->line, c, ray->greatest) <= 0;
 }
 
-mw_ray_side mw__ray_meets(const mw_ray_query *ray, const mw_corners c)
+/* The sign of the distance is exact. */
+bool mw__ray_reaches_at(const mw_ray_query *ray, const mw_corners c, mw_ray_side side,
+                        double distance)
 {
-    mw_ray_side side = line_meets(&ray->line, c);
-    if (side == MW_RAY_MISSES || (ray->faces == MW_PROBE_FRONT && side != MW_RAY_FRONT) ||
-        (ray->faces == MW_PROBE_BACK && side != MW_RAY_BACK))
-        return MW_RAY_MISSES;
-    return ray_reaches(ray, c, side) ? side : MW_RAY_MISSES;
+    bool limited = ray->least > 0 || !isinf(ray->greatest) || ray->extent == MW_PROBE_SEGMENT;
+    if (ray->extent == MW_PROBE_RAY && distance < 0) return false;
+    return !limited || mw__ray_reaches(ray, c, side);
+}
+
+mw_ray_side mw__ray_crosses(const mw_ray_query *ray, const mw_corners c, mw_line_estimate *e)
+{
+    mw_ray_side side = line_meets(&ray->line, c, e);
+    bool counts = ray->faces == MW_PROBE_BOTH ||
+                  side == (ray->faces == MW_PROBE_FRONT ? MW_RAY_FRONT : MW_RAY_BACK);
+    return counts ? side : MW_RAY_MISSES;
 }
 
 int mw__ray_place_order(const mw_surface *surface, const mw_ray_query *ray, uint32_t s,

@@ -101,6 +101,16 @@ prints_line '^removed +2$'; prints_line '^crossed +[0-9]+$'
 run_on "$square_poly" triangulate --constraints - -o - --format off; exits 0; says '^removed +2$'
 holds "standard input and output" same_text "$logs/out" k.off
 run triangulate --constraints s.poly -q -o k.off; exits 0; says_nothing; prints ''
+# Holes that remove nothing, or too much.
+sed '$s/.*/1 77 7/' s.poly >far.poly
+run triangulate --constraints far.poly -o k.off; exits 0
+says 'far\.poly: warning: 1 of 1 holes remove nothing, the first at \(77, 7\): its point is outside'
+run triangulate --constraints far.poly -q -o k.off; exits 0; says_nothing
+sed 's/^8 8 5$/8 8 8/' s.poly >gap.poly
+run triangulate --constraints gap.poly -o none.off; absent none.off
+refused 3 'nothing is left: the point of hole 0 \(3, 3\) reaches all .*; --keep hull keeps all$'
+sed 's/^4 4 1$/4 4 4/' s.poly >outer.poly
+run triangulate --constraints outer.poly -o none.off; absent none.off
 run triangulate --constraints s.poly --json -o k.off; holds "the report is JSON" is_json "$logs/out"
 prints_line '"removed": 2'
 printf '3 3\n0.5 3\n2 3\n9 9\n' >q.xyz
@@ -114,7 +124,7 @@ if $geojson; then
     kept 10 33 lake.geojson.gz
     echo '{"type":"LineString","coordinates":[[0,0],[4,0],[4,4]]}' >open.geojson
     run triangulate --constraints open.geojson --keep inside -o none.off
-    refused 3 'open\.geojson: nothing is left: .*; --keep hull keeps them$'; absent none.off
+    refused 3 'open\.geojson: nothing is left: .*; --keep hull keeps all$'; absent none.off
     run triangulate --constraints open.geojson --keep hull -o k.off; exits 0
     # lines bound nothing of their own
     printf '{"type":"LineString","coordinates":[[0,0],[4,0],[4,4],[0,0]]}' >line.geojson

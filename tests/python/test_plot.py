@@ -75,3 +75,22 @@ def test_values_of_triangles() -> None:
     assert np.asarray(colours).tolist() == [1, 2]
     with pytest.raises(KeyError, match="no field 'rock'"):
         meshwalk.plot(mesh, "rock")
+
+
+def test_an_explanation_shows_the_walk(random: np.random.Generator) -> None:
+    mesh = meshwalk.delaunay(random.uniform(size=(2000, 2)))
+    locator = meshwalk.Locator(mesh)
+    x, y = 0.5, 0.5
+    axes = meshwalk.explain(locator, x, y)
+    path = locator.walk_path(x, y)
+    shown = mesh.points[mesh.triangles[path]].reshape(-1, 2)
+    (left, right), (bottom, top) = axes.get_xlim(), axes.get_ylim()
+    inside = (shown > [left, bottom]) & (shown < [right, top])
+    assert inside.all()
+    extent = max(np.ptp(shown, axis=0))
+    assert extent < right - left < 2 * extent, "the walk fills the picture"
+    legend = axes.get_legend()
+    assert legend is not None
+    words = [text.get_text() for text in legend.get_texts()]
+    assert words == ["visited", "the answer", "the walk", "the point"]
+    mpl.pyplot.close("all")

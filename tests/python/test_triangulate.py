@@ -118,3 +118,25 @@ def test_regular() -> None:
 def test_local_optima_are_warned_about(random: np.random.Generator) -> None:
     with pytest.warns(meshwalk.OptimumWarning, match="local optimum"):
         meshwalk.triangulate(random.uniform(size=(60, 2)), "min-max-angle", limit=5)
+
+
+def test_holes_that_remove_too_little_or_too_much() -> None:
+    points = [*SQUARE, [1, 1], [3, 1], [3, 3], [1, 3]]
+    outer = [[0, 1], [1, 2], [2, 3], [3, 0]]
+    inner = [[4, 5], [5, 6], [6, 7], [7, 4]]
+    with pytest.warns(meshwalk.HoleWarning, match=r"holes\[1\] \(9.0, 9.0\) removes nothing: it"):
+        mesh = meshwalk.constrained_delaunay(points, outer + inner, [[2, 2], [9, 9]])
+    assert mesh.describe().holes == 1
+    with pytest.warns(meshwalk.HoleWarning, match=r"removes nothing, and so do 1 more"):
+        meshwalk.constrained_delaunay(points, outer + inner, [[8, 8], [2, 2], [9, 9]])
+    cases = [
+        (outer[1:] + inner, [[2, 2]], "no ring of segments is closed|reaches all"),
+        (outer[1:], [[2, 2]], "no ring of segments is closed"),
+        (outer + inner[1:], [[2, 2]], r"the point of hole 0 \(2, 2\) reaches all that was left"),
+        (outer, [[6, 2]], r"the point of hole 0 \(6, 2\) is on a segment"),
+    ]
+    for segments, holes, message in cases:
+        with pytest.raises(meshwalk.InputError, match=message):
+            meshwalk.constrained_delaunay(points, segments, holes)
+    with pytest.raises(ValueError, match=r"holes must have the shape \(h, 2\), a point in each"):
+        meshwalk.constrained_delaunay(points, outer + inner, [[[1, 1], [3, 1], [2, 3]]])

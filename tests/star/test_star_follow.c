@@ -325,6 +325,71 @@ static void test_threads_make_the_same(void **state)
     release_moving(&m);
 }
 
+/* --- all decided where they stand --- */
+
+/* The facets' numbers in the order in which they are stored. */
+static uint32_t *stored_order(const mw_star *star)
+{
+    uint32_t *order = malloc(star->facet_count * sizeof *order);
+    assert_non_null(order);
+    for (uint32_t i = 0; i < star->facet_count; i++) order[i] = star->facet[i].user & MW_USER_MASK;
+    return order;
+}
+
+/* All vertices move, or the whole turns a quarter about the z axis: then the guide leads to where
+ * facets were, and they are stored anew. */
+static void test_all_where_they_stand(void **state)
+{
+    (void)state;
+    uint64_t random = environment_print_seed("all move", 43);
+    for (uint32_t form = 0; form < 4; form++) {
+        bool turns = form == 3;
+        moving_star m =
+            make_moving(form == 1 ? star_shape_globe(80, 9) : star_shape_octahedron(5), 0);
+        double *point = mw_surface_points(m.surface);
+        for (uint32_t round = 0; round < 3; round++) {
+            uint32_t *before = stored_order(m.star);
+            mw_surface_begin_update(m.surface);
+            for (uint32_t v = 0; v < m.shape.points; v++) {
+                double *p = point + 3 * (size_t)v, x = p[0], by = 1 + 0.1 * random_unit(&random);
+                p[0] = turns ? -p[1] : p[0];
+                p[1] = turns ? x : p[1];
+                for (uint32_t k = 0; k < 3; k++) p[k] *= by;
+            }
+            mw_star_update_options options = {.threads = 1 + round};
+            expect_ok(mw_star_update(m.star, &options, NULL), "update", NULL);
+            mw_surface_end_update(m.surface);
+            expect_equal_to_fresh(&m, &random);
+            uint32_t *after = stored_order(m.star);
+            bool same = memcmp(after, before, m.shape.triangles * sizeof *after) == 0;
+            assert_int_equal(same, !turns);
+            free(before);
+            free(after);
+        }
+        release_moving(&m);
+    }
+}
+
+/* Where the surface is not star-shaped any more the words are those of a new star; and back. */
+static void test_all_refused(void **state)
+{
+    (void)state;
+    moving_star m = make_moving(star_shape_octahedron(3), 0);
+    double *p = mw_surface_points(m.surface) + 3 * 17, old[3] = {p[0], p[1], p[2]};
+    uint64_t random = 11;
+    for (int round = 0; round < 4; round++) {
+        mw_surface_begin_update(m.surface);
+        for (int k = 0; k < 3; k++) p[k] = round % 2 ? NAN : -old[k];
+        expect_as_fresh(&m, NULL, 0);
+        mw_surface_begin_update(m.surface);
+        memcpy(p, old, sizeof old);
+        expect_ok(mw_star_update(m.star, NULL, NULL), "back", NULL);
+        mw_surface_end_update(m.surface);
+        expect_equal_to_fresh(&m, &random);
+    }
+    release_moving(&m);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -335,6 +400,8 @@ int main(void)
         cmocka_unit_test(test_follow_welded),
         cmocka_unit_test(test_other_changes),
         cmocka_unit_test(test_threads_make_the_same),
+        cmocka_unit_test(test_all_where_they_stand),
+        cmocka_unit_test(test_all_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

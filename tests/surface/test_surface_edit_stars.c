@@ -218,6 +218,23 @@ static void test_hubs(void **state)
     }
 }
 
+/* A pole merges into a vertex beside it, which becomes a hub in its place. */
+static void test_hub_merges(void **state)
+{
+    (void)state;
+    uint64_t random = 5;
+    edited_star s = edited_star_make(star_shape_globe(80, 3), 0, &random);
+    assert_int_equal(mw_surface_edit_collapse(s.editor, 0, 2, NULL, NULL, NULL), MW_OK);
+    assert_true(mw_star_ready(s.star));
+    check(&s, 50);
+    assert_int_equal(s.star->hubs.count, 2);
+    assert_int_equal(s.star->hubs.hub[1].vertex, 2);
+    assert_int_equal(mw_surface_edit_undo(s.editor, NULL, NULL), MW_OK);
+    check(&s, 50);
+    assert_int_equal(s.star->hubs.hub[0].vertex, 0);
+    edited_star_free(&s);
+}
+
 /* --- starts --- */
 
 /* Facets that a query visits on average. */
@@ -327,8 +344,9 @@ static void test_arguments(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_streams), cmocka_unit_test(test_hubs),
-                                       cmocka_unit_test(test_starts), cmocka_unit_test(test_hole),
-                                       cmocka_unit_test(test_arguments)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_streams),    cmocka_unit_test(test_hubs),
+        cmocka_unit_test(test_hub_merges), cmocka_unit_test(test_starts),
+        cmocka_unit_test(test_hole),       cmocka_unit_test(test_arguments)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -490,6 +490,47 @@ static void expect(const constrained_scene *s, const mw_constraints *given,
     assert_string_equal(error.message, message);
 }
 
+/* What hole seeds remove too little, or too much. */
+static void test_holes_are_named(void **state)
+{
+    (void)state;
+    constrained_scene *s = scene_new(0);
+    const mw_constrain_options none = {0};
+    mw_constrain_report report;
+    mw_mesh *mesh;
+    scene_add_box(s, 0, 0, 9, 9, MW_NONE);
+    scene_add_line(s, 2, 2, 7, 2); /* two sides of a ring: it is open */
+    scene_add_line(s, 7, 2, 7, 7);
+    scene_add_hole(s, 20, 5);
+    mw_constraints given = scene_view(s);
+    assert_int_equal(mw_constrained_delaunay(&given, &none, NULL, &report, NULL, &mesh, NULL),
+                     MW_OK);
+    mw_mesh_destroy(mesh);
+    assert_int_equal(report.idle_holes, 1);
+    assert_int_equal(report.first_idle_hole, 0);
+    scene_add_hole(s, 6, 3);
+    expect(s, NULL, none, MW_ERROR_INPUT,
+           "nothing is left: the point of hole 1 (6, 3) reaches all that was left: no closed ring "
+           "is round it alone");
+    s->holes = 0;
+    scene_add_hole(s, 9, 4);
+    expect(
+        s, NULL, none, MW_ERROR_INPUT,
+        "nothing is left: the point of hole 0 (9, 4) is on a segment or at a point, so all sides "
+        "of it are removed");
+
+    s = scene_new(0);
+    scene_add_box(s, 0, 0, 9, 9, MW_NONE);
+    scene_add_box(s, 3, 3, 6, 6, MW_NONE);
+    scene_add_hole(s, 4, 4);
+    given = scene_view(s);
+    assert_int_equal(mw_constrained_delaunay(&given, &none, NULL, &report, NULL, &mesh, NULL),
+                     MW_OK);
+    mw_mesh_destroy(mesh);
+    assert_int_equal(report.idle_holes, 0);
+    assert_int_equal(report.first_idle_hole, MW_NONE);
+}
+
 static void test_wrong_arguments(void **state)
 {
     (void)state;
@@ -519,7 +560,7 @@ static void test_wrong_arguments(void **state)
                      MW_OK);
     mw_mesh_destroy(mesh);
     expect(s, &given, inside_only, MW_ERROR_INPUT,
-           "nothing is left: all 1 triangles are outside or in holes");
+           "nothing is left: all 1 triangles are outside: no ring of segments is closed");
     s->polygon[0] = s->polygon[1] = 6;
     expect(s, &given, inside_only, MW_ERROR_INPUT,
            "polygon 6 is not closed: a ring ends at point 0");
@@ -801,6 +842,7 @@ int main(void)
         cmocka_unit_test(test_split_nearly_parallel),
         cmocka_unit_test(test_union_close),
         cmocka_unit_test(test_split_directions),
+        cmocka_unit_test(test_holes_are_named),
         cmocka_unit_test(test_wrong_arguments),
         cmocka_unit_test(test_plain),
         cmocka_unit_test(test_repeatable),

@@ -3,6 +3,7 @@
 #include "star/prepare/star_follow.h"
 #include "base/options.h"
 #include "star/prepare/star_prepare.h"
+#include "star/prepare/star_renew.h"
 #include "star/prepare/star_track.h"
 #include "star/star_hubs.h"
 #include "topology/coincident.h"
@@ -134,6 +135,23 @@ static bool star_follow_counts(mw_star *star)
     return false;
 }
 
+/* Decide all facets: where they stand if that will do, else as for a new star. */
+static mw_status star_decide_all(mw_star *star, mw_job *job, mw_error *error)
+{
+    double left = 1;
+    if (mw__star_can_renew(star)) {
+        mw_job_span outer = mw__job_part(job, 0.5);
+        bool done = mw__star_renew(star, job);
+        mw__job_part_end(job, outer);
+        if (done) return MW_OK;
+        left = 0.5;
+    }
+    mw_job_span outer = mw__job_part(job, left);
+    mw_status status = mw__star_prepare(star, job, error);
+    mw__job_part_end(job, outer);
+    return status;
+}
+
 /* Decide all facets. What a star tracks is kept if it is `followed`: then it is right, though the
  * surface is refused. */
 static mw_status star_update_all(mw_star *star, const mw_star_update_options *options,
@@ -142,7 +160,7 @@ static mw_status star_update_all(mw_star *star, const mw_star_update_options *op
     if (!star_follow_counts(star)) return mw__fail_memory(error);
     mw_job job = mw__job(options->threads, options->progress);
     if (!followed || !star->attached) mw__star_track_end(star);
-    mw_status status = mw__job_end(&job, mw__star_prepare(star, &job, error), error);
+    mw_status status = mw__job_end(&job, star_decide_all(star, &job, error), error);
     if (!star->attached || star->track.on) return status;
     if (status == MW_OK && !mw__star_has_flats(star)) mw__star_track_begin(star);
     if (status == MW_ERROR_INPUT && mw__star_track_anew(star)) star_conclude(star);

@@ -51,7 +51,7 @@ static void star_omit_voids(mw_star *star)
         if (mw__star_is_void(&star->tri[t])) star->tri[t].user |= MW_STAR_OMITTED;
 }
 
-static double star_measure_reach(const mw_star *star)
+double mw__star_measure_reach(const mw_star *star)
 {
     double reach = 0;
     for (uint32_t v = 0; v < star->point_count; v++)
@@ -86,7 +86,7 @@ static bool star_store(mw_star *star, mw_job *job)
     bool done = mw__star_lay_out(star, job);
     mw__job_part_end(job, outer);
     if (!done) return false;
-    star->reach = star_measure_reach(star);
+    star->reach = mw__star_measure_reach(star);
     if (star->angle) mw__star_fill_angles(star);
     mw__star_hubs_release(&star->hubs);
     return mw__star_hubs_create(&star->hubs, star);

@@ -21,6 +21,9 @@ bool mw__star_track_anew(mw_star *star);
 /* Find the facet at longitude 0 on the equator, of a star that is ready otherwise. */
 void mw__star_find_front(mw_star *star);
 
+/* About the largest coordinate relative to the centre, of the vertices with an owner. */
+double mw__star_measure_reach(const mw_star *star);
+
 /* Do some facets lack an area, by the last check? */
 static MW_INLINE bool mw__star_has_flats(const mw_star *star)
 {

@@ -359,7 +359,7 @@ static mw_status cdt_build(mw_cdt *m, const mw_constrain_options *options, uint3
     mw__job_part_end(m->job, outer);
     report->triangles_crossed = m->crossed;
     mw__job_stage(m->job, "removing what is outside", 0.05);
-    if (status == MW_OK) status = mw__cdt_keep_triangles(m, options->keep, error);
+    if (status == MW_OK) status = mw__cdt_keep_triangles(m, options->keep, report, error);
     outer = mw__job_part(m->job, 0.1);
     if (status == MW_OK) status = mw__cdt_output(m, report, edges, out, error);
     mw__job_part_end(m->job, outer);
@@ -384,7 +384,8 @@ mw_status mw_constrained_delaunay(const mw_constraints *constraints,
     static const mw_constrain_options defaults;
     mw_constrain_report unread;
     if (!report) report = &unread;
-    *report = (mw_constrain_report){.crossing_segments = {MW_NONE, MW_NONE}};
+    *report =
+        (mw_constrain_report){.crossing_segments = {MW_NONE, MW_NONE}, .first_idle_hole = MW_NONE};
     if (edges) *edges = (mw_constrained_edges){0};
     if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "out is NULL");
     *out = NULL;

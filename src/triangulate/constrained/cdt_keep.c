@@ -6,6 +6,7 @@
 #include "triangulate/constrained/cdt_spans.h"
 #include "triangulate/constrained/polygon_ranks.h"
 
+#include <inttypes.h>
 #include <stdlib.h>
 
 static uint32_t keep_subsegment_at(const mw_cdt *m, uint32_t half)
@@ -106,12 +107,14 @@ typedef struct flood {
     const mw_cdt *m;
     uint32_t *stack; /* room for all triangles: each is put there once */
     uint32_t top;
+    uint32_t left; /* triangles that are kept so far */
 } flood;
 
 static void flood_remove_triangle(flood *f, uint32_t t)
 {
     if (!f->m->kept[t]) return;
     f->m->kept[t] = 0;
+    f->left--;
     f->stack[f->top++] = t;
 }
 
@@ -180,33 +183,70 @@ static void flood_remove_round(flood *f, uint32_t first)
     }
 }
 
-/* Remove all triangles that q touches, of which t is one. */
-static void flood_remove_touched(flood *f, uint32_t t, mw_point q)
+/* Remove all triangles that q touches, of which t is one. True if q is on a segment or a vertex. */
+static bool flood_remove_touched(flood *f, uint32_t t, mw_point q)
 {
-    bool on[3];
+    bool on[3], bounded = false;
     for (uint32_t k = 0; k < 3; k++) on[k] = half_side(f->m, mw__link(t, k), q) == 0;
     flood_remove_triangle(f, t);
     for (uint32_t k = 0; k < 3; k++) {
         uint32_t link = f->m->tri[t].link[k];
+        if (on[k] && (on[mw__prev(k)] || keep_subsegment_at(f->m, mw__link(t, k)) != MW_NONE))
+            bounded = true;
         if (on[k] && link != MW_NONE) flood_remove_triangle(f, mw__link_triangle(link));
         if (on[k] && on[mw__prev(k)]) flood_remove_round(f, mw__link(t, k));
     }
+    return bounded;
 }
 
-static void flood_remove_holes(flood *f)
+/* Hole i removed the last triangles. */
+static mw_status holes_fail_empty(const mw_cdt *m, size_t i, bool bounded, mw_error *error)
+{
+    const double *q = &m->given->hole_seeds[2 * i];
+    return mw__fail(error, MW_ERROR_INPUT,
+                    "nothing is left: the point of hole %zu (%.17g, %.17g) %s", i, q[0], q[1],
+                    bounded ? "is on a segment or at a point, so all sides of it are removed"
+                            : "reaches all that was left: no closed ring is round it alone");
+}
+
+static mw_status flood_remove_holes(flood *f, mw_constrain_report *report, mw_error *error)
 {
     const mw_constraints *given = f->m->given;
     uint64_t random = 1;
     uint32_t t = 0;
     for (size_t i = 0; i < given->hole_seed_count; i++) {
         mw_point q = {given->hole_seeds[2 * i], given->hole_seeds[2 * i + 1]};
-        if (!hole_point_walk(f->m, q, &random, &t)) continue;
-        flood_remove_touched(f, t, q);
-        flood_fill(f);
+        const uint32_t before = f->left;
+        bool bounded = false;
+        if (hole_point_walk(f->m, q, &random, &t)) {
+            bounded = flood_remove_touched(f, t, q);
+            flood_fill(f);
+        }
+        if (f->left == before && report->idle_holes++ == 0) report->first_idle_hole = (uint32_t)i;
+        if (f->left == 0) return holes_fail_empty(f->m, i, bounded, error);
     }
+    return MW_OK;
 }
 
 /* --- all together --- */
+
+static uint32_t keep_count(const mw_cdt *m)
+{
+    uint32_t count = 0;
+    for (uint32_t t = 0; t < m->tri_count; t++) count += m->kept[t];
+    return count;
+}
+
+/* Remove what is outside, and the holes. */
+static mw_status flood_remove(flood *f, bool polygons, mw_constrain_report *report, mw_error *error)
+{
+    f->left = keep_count(f->m);
+    if (!polygons) flood_remove_outside(f);
+    if (f->left > 0) return flood_remove_holes(f, report, error);
+    return mw__fail(error, MW_ERROR_INPUT,
+                    "nothing is left: all %" PRIu32 " triangles are outside: %s", f->m->tri_count,
+                    polygons ? "no polygon has an inside" : "no ring of segments is closed");
+}
 
 static bool constraints_have_polygon(const mw_constraints *given)
 {
@@ -215,7 +255,8 @@ static bool constraints_have_polygon(const mw_constraints *given)
     return false;
 }
 
-mw_status mw__cdt_keep_triangles(mw_cdt *m, mw_keep keep, mw_error *error)
+mw_status mw__cdt_keep_triangles(mw_cdt *m, mw_keep keep, mw_constrain_report *report,
+                                 mw_error *error)
 {
     bool polygons = constraints_have_polygon(m->given);
     if (keep == MW_KEEP_AUTO)
@@ -231,8 +272,8 @@ mw_status mw__cdt_keep_triangles(mw_cdt *m, mw_keep keep, mw_error *error)
     }
     flood f = {.m = m, .stack = mw__alloc(m->tri_count, sizeof *f.stack)};
     if (!f.stack) return mw__fail_memory(error);
-    if (!polygons) flood_remove_outside(&f);
-    flood_remove_holes(&f);
+    mw_status status = flood_remove(&f, polygons, report, error);
+    report->triangles_removed = m->tri_count - f.left;
     free(f.stack);
-    return MW_OK;
+    return status;
 }

@@ -151,13 +151,6 @@ static bool output_lay_out(const mw_cdt *m, mw_mesh *mesh)
 mw_status mw__cdt_output(mw_cdt *m, mw_constrain_report *report, mw_constrained_edges *edges,
                          mw_mesh **out, mw_error *error)
 {
-    bool any = false;
-    for (uint32_t t = 0; t < m->tri_count && !any; t++) any = m->kept[t];
-    report->triangles_removed = any ? 0 : m->tri_count;
-    if (!any)
-        return mw__fail(error, MW_ERROR_INPUT,
-                        "nothing is left: all %" PRIu32 " triangles are outside or in holes",
-                        m->tri_count);
     mw_mesh *mesh = mw__calloc(1, sizeof *mesh);
     mw__job_stage(m->job, "making a mesh", 0.3);
     if (mesh && output_give_mesh(m, report, edges, mesh) && output_lay_out(m, mesh)) {

@@ -2,7 +2,7 @@
 
 #include "base/random.h"
 #include "oracle/edit_require.h"
-#include "star/star.h"
+#include "star/star_hubs.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -44,6 +44,26 @@ static void check_facets(const mw_star *star, const mw_star *fresh)
     for (uint32_t v = 0; v < fresh->point_count; v++) REQUIRE(star->owner[v] == fresh->owner[v]);
     REQUIRE(star->front < star->facet_count);
     free(place);
+}
+
+/* Each hub has all its facets in its ring, in order; each vertex of many facets is one. */
+static void check_hubs(const mw_star *star)
+{
+    uint32_t many = 0;
+    for (uint32_t v = 0; v < star->point_count; v++)
+        many += star->track.degree[v] >= MW_STAR_HUB_FACETS;
+    for (uint32_t i = 0; i < star->hubs.count; i++) {
+        const mw_star_hub *hub = &star->hubs.hub[i];
+        REQUIRE(!hub->stale && hub->count == star->track.degree[hub->vertex]);
+        many -= hub->count >= MW_STAR_HUB_FACETS;
+        for (uint32_t k = 0; k < hub->count; k++) {
+            uint32_t half = hub->ring[k], next = hub->ring[k + 1 < hub->count ? k + 1 : 0];
+            REQUIRE(mw__link_triangle(half) < star->facet_count);
+            REQUIRE(star->facet[mw__link_triangle(half)].v[mw__link_edge(half)] == hub->vertex);
+            REQUIRE(mw__star_turn(star, half) == next);
+        }
+    }
+    REQUIRE(many == 0);
 }
 
 /* A ray anywhere, or through a vertex or the middle of an edge. */
@@ -105,6 +125,7 @@ void star_twin_check(mw_star *star, mw_star_cursor *cursor, int rays, star_twin_
         REQUIRE(star->track.on == (info.flat_facets == 0));
     }
     if (sound) check_facets(star, fresh);
+    if (sound) check_hubs(star);
     if (fresh) check_answers(star, fresh, cursor, rays, random);
     counts->ready += sound;
     counts->refused += status != MW_OK;

@@ -24,6 +24,7 @@ WRONG: Any = [1, 2, 3, 4]
         (lambda g: g.locate(X), ValueError, r"joined by np\.column_stack\(\(x, y\)\)"),
         (lambda g: g.locate(np.zeros((5, 3))), ValueError, r"columns out as in xy\[\.\.\., :2\]"),
         (lambda g: g.segment(XY.T, XY), ValueError, r"take a\.T, or np\.column_stack"),
+        (lambda g: meshwalk.delaunay((X, Y)), ValueError, r"take points\.T, or np\.column_stack"),
         (lambda g: g.locate(X, Y), TypeError, r"tolerance must be a number, not an array; points"),
         (lambda g: g.locate(XY, "1"), TypeError, "tolerance must be a number, not str"),
         (lambda g: g.nearest_border(X, Y), TypeError, "x must be a number, not ndarray"),

@@ -8,6 +8,7 @@ import sys
 import tarfile
 from importlib.metadata import version
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -24,7 +25,7 @@ def sources(name: str) -> Path:
             pytest.skip(f"the sources of {stem} cannot be had: {got.stderr.strip()[-200:]}")
         with tarfile.open(folder / f"{stem}.tar.gz") as archive:
             # Python 3.11.4 and later refuse paths out of the folder.
-            safe = {"filter": "data"} if hasattr(tarfile, "data_filter") else {}
+            safe: dict[str, Any] = {"filter": "data"} if hasattr(tarfile, "data_filter") else {}
             archive.extractall(folder, **safe)
     return folder / stem
 
