@@ -100,6 +100,22 @@ static void test_fort14(void **state)
     mw_mesh_file_release(&file);
 }
 
+/* The first words of other formats are titles as good as any. */
+static void test_fort14_titles(void **state)
+{
+    (void)state;
+    static const char *const titles[] = {"g", "v 1.2 of the grid", "OFF the coast", "solid earth",
+                                         "MESH2D"};
+    for (size_t i = 0; i < sizeof titles / sizeof *titles; i++) {
+        char text[200];
+        snprintf(text, sizeof text, "%s\n1 3\n1 0 0 1\n2 1 0 1\n3 0 1 1\n1 3 1 2 3\n", titles[i]);
+        mw_mesh_file file = mesh_file_read_text(i % 2 ? "fort.14" : "hgrid.gr3", text);
+        assert_int_equal(file.triangle_count, 1);
+        assert_string_equal(file.field_names[0], "depth");
+        mw_mesh_file_release(&file);
+    }
+}
+
 /* Numbers as Fortran writes and reads them: exponents without a letter, commas. */
 static void test_fort14_numbers(void **state)
 {
@@ -547,14 +563,23 @@ static void test_damaged(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_fort14),    cmocka_unit_test(test_fort14_numbers),
-        cmocka_unit_test(test_2dm),       cmocka_unit_test(test_su2),
-        cmocka_unit_test(test_msh),       cmocka_unit_test(test_msh_data),
-        cmocka_unit_test(test_selafin),   cmocka_unit_test(test_msh_partitions),
-        cmocka_unit_test(test_vtk),       cmocka_unit_test(test_vtk_fields),
-        cmocka_unit_test(test_vtk_names), cmocka_unit_test(test_vtu),
-        cmocka_unit_test(test_vtu_names), cmocka_unit_test(test_npz),
-        cmocka_unit_test(test_halves),    cmocka_unit_test(test_damaged),
+        cmocka_unit_test(test_fort14),
+        cmocka_unit_test(test_fort14_titles),
+        cmocka_unit_test(test_fort14_numbers),
+        cmocka_unit_test(test_2dm),
+        cmocka_unit_test(test_su2),
+        cmocka_unit_test(test_msh),
+        cmocka_unit_test(test_msh_data),
+        cmocka_unit_test(test_selafin),
+        cmocka_unit_test(test_msh_partitions),
+        cmocka_unit_test(test_vtk),
+        cmocka_unit_test(test_vtk_fields),
+        cmocka_unit_test(test_vtk_names),
+        cmocka_unit_test(test_vtu),
+        cmocka_unit_test(test_vtu_names),
+        cmocka_unit_test(test_npz),
+        cmocka_unit_test(test_halves),
+        cmocka_unit_test(test_damaged),
     };
     return cmocka_run_group_tests(tests, files_enter, files_leave);
 }

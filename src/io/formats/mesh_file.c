@@ -20,8 +20,7 @@ static mw_status mesh_read_source(mw_source *source, mw_mesh_builder *builder, m
     size_t size;
     mw_status status = mw__source_peek(source, MW_HEAD_SIZE, &head, &size, error);
     if (status) return status;
-    const mw_mesh_format *format = mw__mesh_format_by_content(head, size);
-    if (!format) format = mw__mesh_format_by_path(source->path);
+    const mw_mesh_format *format = mw__mesh_format_of(source->path, head, size);
     if (format && format->read) return format->read(source, builder, error);
     char names[256];
     mw__mesh_format_list(false, names, sizeof names);

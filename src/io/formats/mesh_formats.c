@@ -142,10 +142,15 @@ static const mw_mesh_format formats[] = {
      .write = mw__write_vtu},
     {.name = "fort.14",
      .endings = ".14\0.grd\0",
+     .titled = true,
      .read = mw__read_fort14,
      .write = mw__write_fort14},
-    {.name = "gr3", .endings = ".gr3\0", .read = mw__read_fort14, .write = mw__write_gr3},
-    {.name = "ll", .endings = ".ll\0", .read = mw__read_hgrid_ll},
+    {.name = "gr3",
+     .endings = ".gr3\0",
+     .titled = true,
+     .read = mw__read_fort14,
+     .write = mw__write_gr3},
+    {.name = "ll", .endings = ".ll\0", .titled = true, .read = mw__read_hgrid_ll},
     {.name = "2dm",
      .endings = ".2dm\0",
      .first_word = is_2dm,
@@ -208,15 +213,34 @@ static void head_first_word(const char *p, const char *end, char *word, size_t r
     word[length < room ? length : 0] = 0;
 }
 
-const mw_mesh_format *mw__mesh_format_by_content(const char *head, size_t size)
+static const mw_mesh_format *format_by_bytes(const char *head, size_t size)
 {
-    char word[16];
     for (size_t i = 0; i < FORMAT_COUNT; i++)
         if (formats[i].first_bytes && formats[i].first_bytes(head, size)) return &formats[i];
+    return NULL;
+}
+
+static const mw_mesh_format *format_by_word(const char *head, size_t size)
+{
+    char word[16];
     head_first_word(head, head + size, word, sizeof word);
     for (size_t i = 0; i < FORMAT_COUNT; i++)
         if (formats[i].first_word && formats[i].first_word(word)) return &formats[i];
     return NULL;
+}
+
+const mw_mesh_format *mw__mesh_format_by_content(const char *head, size_t size)
+{
+    const mw_mesh_format *format = format_by_bytes(head, size);
+    return format ? format : format_by_word(head, size);
+}
+
+const mw_mesh_format *mw__mesh_format_of(const char *path, const char *head, size_t size)
+{
+    const mw_mesh_format *named = mw__mesh_format_by_path(path);
+    const mw_mesh_format *format = format_by_bytes(head, size);
+    if (!format && !(named && named->titled)) format = format_by_word(head, size);
+    return format ? format : named;
 }
 
 void mw__mesh_format_list(bool writers, char *text, size_t size)

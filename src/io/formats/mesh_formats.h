@@ -20,6 +20,8 @@ typedef struct mw_mesh_format {
     bool (*first_bytes)(const char *head, size_t size);
     /* a table of points may begin like this; then the name of the file decides */
     bool common_words;
+    /* the first line is free text: if a file has the ending, its words name no format */
+    bool titled;
     mw_status (*read)(mw_source *source, mw_mesh_builder *builder, mw_error *error);
     /* Instead of `read`, for formats of two files. */
     mw_status (*read_path)(const char *path, mw_mesh_builder *builder, mw_error *error);
@@ -31,6 +33,8 @@ const mw_mesh_format *mw__mesh_format_by_name(const char *name);
 const mw_mesh_format *mw__mesh_format_by_path(const char *path);
 /* The format recognised from the beginning of a file; NULL if none is. */
 const mw_mesh_format *mw__mesh_format_by_content(const char *head, size_t size);
+/* The same, or else by its name; NULL if neither tells. */
+const mw_mesh_format *mw__mesh_format_of(const char *path, const char *head, size_t size);
 
 /* Names of the formats that can be read or written, "off, ply, ...". */
 void mw__mesh_format_list(bool writers, char *text, size_t size);
