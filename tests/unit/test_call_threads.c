@@ -60,18 +60,25 @@ static uint64_t call_sum(const long_call *call, const call_inputs *in, uint32_t 
     return sum;
 }
 
-static void test_one_makes_none(void **state)
+/* Ends the child: 0 if its results are those of its parent. */
+static _Noreturn void child_run(const long_call *call, const call_inputs *in, uint64_t sum)
 {
-    call_inputs in = call_inputs_make(POINTS, environment_print_seed("one thread", 1));
-    (void)state;
-    made = 0;
-    allowed = 0;
-    for (size_t i = 0; i < long_call_count; i++) call_sum(&long_calls[i], &in, 1);
-    assert_int_equal(made, 0);
-    call_inputs_release(&in);
+    uint64_t again = 0;
+    alarm(120);
+    mw_status status = call->run(in, &(call_setting){.threads = THREADS}, &again, NULL);
+    _exit(status || again != sum);
 }
 
-static void test_threads_end_with_the_call(void **state)
+static void check_in_child(const long_call *call, const call_inputs *in, uint64_t sum)
+{
+    pid_t child = fork();
+    if (child == 0) child_run(call, in, sum);
+    int end = -1;
+    assert_int_equal(waitpid(child, &end, 0), child);
+    if (end != 0) fail_msg("%s: the child ended with %d", call->name, end);
+}
+
+static void test_threads_end_with_the_call_and_fork(void **state)
 {
     call_inputs in = call_inputs_make(POINTS, environment_print_seed("threads end", 2));
     (void)state;
@@ -81,20 +88,23 @@ static void test_threads_end_with_the_call(void **state)
     usleep(100000);
     int before = threads_now();
     for (size_t i = 0; i < long_call_count; i++) {
-        call_sum(&long_calls[i], &in, THREADS);
+        uint64_t sum = call_sum(&long_calls[i], &in, THREADS);
         if (!threads_come_down_to(before)) fail_msg("%s leaves threads behind", long_calls[i].name);
+        check_in_child(&long_calls[i], &in, sum);
     }
     call_inputs_release(&in);
 }
 
-static void test_refused_threads(void **state)
+static void test_one_makes_none_and_refused_threads(void **state)
 {
     call_inputs in = call_inputs_make(POINTS, environment_print_seed("refused threads", 3));
     (void)state;
     for (size_t i = 0; i < long_call_count; i++) {
         made = 0;
-        allowed = 0;
+        allowed = INT32_MAX;
         uint64_t sum = call_sum(&long_calls[i], &in, 1);
+        if (made != 0) fail_msg("%s makes threads, and was allowed one", long_calls[i].name);
+        allowed = 0;
         if (call_sum(&long_calls[i], &in, THREADS) != sum)
             fail_msg("%s: other results without threads", long_calls[i].name);
         allowed = 1;
@@ -104,39 +114,13 @@ static void test_refused_threads(void **state)
     call_inputs_release(&in);
 }
 
-/* Ends the child: 0 if its results are those of its parent. */
-static _Noreturn void child_run(const long_call *call, const call_inputs *in, uint64_t sum)
-{
-    uint64_t again = 0, alone = 0;
-    alarm(120);
-    mw_status status = call->run(in, &(call_setting){.threads = THREADS}, &again, NULL);
-    if (!status) status = call->run(in, &(call_setting){.threads = 1}, &alone, NULL);
-    _exit(status || again != sum || alone != sum);
-}
-
-static void test_fork(void **state)
-{
-    call_inputs in = call_inputs_make(POINTS, environment_print_seed("fork", 4));
-    (void)state;
-    allowed = INT32_MAX;
-    for (size_t i = 0; i < long_call_count; i++) {
-        uint64_t sum = call_sum(&long_calls[i], &in, THREADS);
-        pid_t child = fork();
-        if (child == 0) child_run(&long_calls[i], &in, sum);
-        int end = -1;
-        assert_int_equal(waitpid(child, &end, 0), child);
-        if (end != 0) fail_msg("%s: the child ended with %d", long_calls[i].name, end);
-    }
-    call_inputs_release(&in);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_one_makes_none, files_enter, files_leave),
-        cmocka_unit_test_setup_teardown(test_threads_end_with_the_call, files_enter, files_leave),
-        cmocka_unit_test_setup_teardown(test_refused_threads, files_enter, files_leave),
-        cmocka_unit_test_setup_teardown(test_fork, files_enter, files_leave),
+        cmocka_unit_test_setup_teardown(test_threads_end_with_the_call_and_fork, files_enter,
+                                        files_leave),
+        cmocka_unit_test_setup_teardown(test_one_makes_none_and_refused_threads, files_enter,
+                                        files_leave),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
