@@ -502,7 +502,8 @@ static mw_status run_transpose(const call_inputs *in, const call_setting *how, u
                                mw_error *error)
 {
     mw_status status;
-    mw_operator *turned = NULL, *weights = operator_of(in, &(call_setting){.threads = 1}, &status, error);
+    mw_operator *turned = NULL,
+                *weights = operator_of(in, &(call_setting){.threads = 1}, &status, error);
     mw_operator_options options = {.threads = how->threads, .progress = how->progress};
     status = mw_operator_transpose(weights, &options, &turned, error);
     mw_operator_destroy(weights);
