@@ -502,7 +502,8 @@ static mw_status run_transpose(const call_inputs *in, const call_setting *how, u
                                mw_error *error)
 {
     mw_status status;
-    mw_operator *turned = NULL, *weights = operator_of(in, &(call_setting){0}, &status, error);
+    mw_operator *turned = NULL,
+                *weights = operator_of(in, &(call_setting){.threads = 1}, &status, error);
     mw_operator_options options = {.threads = how->threads, .progress = how->progress};
     status = mw_operator_transpose(weights, &options, &turned, error);
     mw_operator_destroy(weights);
@@ -552,7 +553,7 @@ static mw_status run_operator_apply(const call_inputs *in, const call_setting *h
                                     mw_error *error)
 {
     mw_status status;
-    mw_operator *weights = operator_of(in, &(call_setting){0}, &status, error);
+    mw_operator *weights = operator_of(in, &(call_setting){.threads = 1}, &status, error);
     double *result = malloc(2 * in->point_count * sizeof *result);
     mw_value_table table = {.values = in->points, .count = 2};
     mw_operator_apply_options options = {.threads = how->threads, .progress = how->progress};
@@ -953,7 +954,7 @@ static mw_status run_write_weights(const call_inputs *in, const call_setting *ho
 {
     char path[80];
     mw_status status;
-    mw_operator *weights = operator_of(in, &(call_setting){0}, &status, error);
+    mw_operator *weights = operator_of(in, &(call_setting){.threads = 1}, &status, error);
     mw_file_options options = {.progress = how->progress};
     (void)sum;
     snprintf(path, sizeof path, "%s.npz", in->path);
