@@ -205,9 +205,11 @@ static int trap_scene_count(trap_scene *s, size_t n, double *steps)
     return 0;
 }
 
-/* All queries once more, by this library, and those of each peer that were timed. */
+/* If there are peers: the queries once more by this library, and by each peer those that it was
+ * timed with. */
 static int trap_scene_judge(trap_scene *s, const trap_clock *clock, trap_figures *f)
 {
+    if (s->peers.count == 0) return 0;
     int end = trap_scene_locate(s, clock->count[TRAP_BATCH], false);
     for (size_t k = 0; k < s->peers.count && end == 0; k++) {
         size_t n = clock->count[TRAP_PEERS + k];

@@ -38,7 +38,8 @@ PIECE = _arrays.record_type(
 class Exits(NamedTuple):
     """Where segments leave the mesh for the first time: the answer of `Segments.exits`.
 
-    Each is an array with a row for each segment; a segment that does not leave has NaN and -1.
+    Each is an array with a row for each segment; a segment that does not leave has NaN and -1. So
+    has one that leaves so near its end that the parameter rounds to 1.
 
     Attributes
     ----------
@@ -51,7 +52,7 @@ class Exits(NamedTuple):
     edge : ndarray of int32, shape (n,)
         The local edge of that triangle which it crosses; -1 where it leaves at a vertex.
     hole : ndarray of int32, shape (n,)
-        The hole that it enters; -1 for the outside.
+        The hole that it enters; -1 for the outside, and where the gap is a few roundings wide.
     """
 
     parameter: NDArray[np.float64]
