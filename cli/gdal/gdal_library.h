@@ -45,6 +45,8 @@ bool gdal_library_built(void);
     F(GDALSetRasterNoDataValue)                                                                    \
     F(GDALGetRasterNoDataValue)                                                                    \
     F(GDALRasterIO)                                                                                \
+    F(GDALWriteBlock)                                                                              \
+    F(GDALGetBlockSize)                                                                            \
     F(GDALSetDescription)                                                                          \
     F(GDALGetRasterOffset)                                                                         \
     F(GDALGetRasterScale)                                                                          \

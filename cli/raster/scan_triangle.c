@@ -11,15 +11,26 @@ static int64_t limit(double value, int64_t least, int64_t most)
     return value >= (double)most ? most : value > (double)least ? (int64_t)value : least;
 }
 
-row_range rows_between(const raster_grid *g, double south, double north)
+int32_t scan_row_south_of(const raster_grid *g, double northing)
 {
-    int64_t rows = g->rows;
-    row_range r = {limit((g->north - north) / g->height - 0.5, 0, rows),
-                   limit((g->north - south) / g->height - 0.5, -1, rows - 1)};
-    while (r.first > 0 && g->y[r.first - 1] <= north) r.first--;
-    while (r.first < rows && g->y[r.first] > north) r.first++;
-    while (r.last + 1 < rows && g->y[r.last + 1] >= south) r.last++;
-    while (r.last >= 0 && g->y[r.last] < south) r.last--;
+    int64_t rows = g->rows, row = limit((g->north - northing) / g->height - 0.5, 0, rows);
+    while (row > 0 && g->y[row - 1] <= northing) row--;
+    while (row < rows && g->y[row] > northing) row++;
+    return (int32_t)row;
+}
+
+/* Rows of the strip whose centres lie between the corners of a triangle. */
+static row_range rows_of_triangle(const scan_strip *s, const scan_vertex *const corner[3])
+{
+    const scan_vertex *a = corner[0], *b = corner[1], *c = corner[2],
+                      *north = a->row < b->row ? a : b, *south = a->y < b->y ? a : b;
+    if (c->row < north->row) north = c;
+    if (c->y < south->y) south = c;
+    /* That row is south of the corner, unless the corner is on it. */
+    const bool reached = south->row < (int64_t)s->grid->rows && s->grid->y[south->row] == south->y;
+    row_range r = {north->row, (int64_t)south->row - !reached};
+    if (r.first < s->first) r.first = s->first;
+    if (r.last > s->last) r.last = s->last;
     return r;
 }
 
@@ -376,10 +387,8 @@ triangle_fill_rows_avx2(const scan_triangle *t, const scan_strip *s, int64_t fir
 void scan_triangle_fill(const scan_strip *s, uint32_t number, const scan_vertex *const corner[3])
 {
     scan_triangle t;
-    if (!triangle_load(&t, s, number, corner)) return;
-    row_range rows = rows_between(s->grid, t.south, t.north);
-    if (rows.first < s->first) rows.first = s->first;
-    if (rows.last > s->last) rows.last = s->last;
+    const row_range rows = rows_of_triangle(s, corner);
+    if (rows.first > rows.last || !triangle_load(&t, s, number, corner)) return;
 #ifdef __x86_64__
     if (__builtin_cpu_supports("avx2")) {
         triangle_fill_rows_avx2(&t, s, rows.first, rows.last);

@@ -89,6 +89,16 @@ run raster -q random.ply -o one.img --driver ENVI --resolution 0.05 --threads 1;
 run raster -q random.ply -o many.img --driver ENVI --resolution 0.05 --threads 7; exits 0
 holds "one thread or seven" cmp -s one.img many.img
 
+# Neither on triangles beyond the rows, nor on those that reach into many strips of rows.
+run raster -q random.ply -o all.img --driver ENVI --resolution 0.125 --extent 0,0,100,100; exits 0
+run raster -q random.ply -o part.img --driver ENVI --resolution 0.125 --extent 20,30,60,50 --threads 3
+exits 0
+holds "a part of the raster" cmp -s part.img <(
+    perl -e 'local $/; open my $h, "<:raw", "all.img" or die; my $p = <$h>;
+        print substr $p, 4 * (800 * $_ + 160), 1280 for 400 .. 559')
+run raster -q square.off -o tall.img --driver ENVI --resolution 0.001 --threads 3; exits 0
+holds "triangles that are in all strips" test "$(raw f tall.img | sort -u | grep -c empty)" == 0
+
 # The grid.
 run raster random.ply -o out.tif
 exits 0
