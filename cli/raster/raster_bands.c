@@ -187,8 +187,8 @@ static bool bands_are_rounded(const raster_bands *b)
     return b->count == 1 && b->bands[0] == BAND_VALUE && b->type == RASTER_FLOAT32 && !b->nearest;
 }
 
-/* Store `nodata` for NaN, and count as raster_bands_store. Most runs of pixels all have a value that
- * is not that of nodata. */
+/* Store `nodata` for NaN, and count as raster_bands_store. In most runs of pixels all have a
+ * value. */
 static void pixels_settle(double nodata, float *pixels, size_t count, uint64_t found[2])
 {
     enum { RUN = 32 };

@@ -12,7 +12,7 @@
 enum { MOST_STRIPS = 4 };
 
 /* A strip has at most so many rows, and about as many pixels at most as stay in a cache. */
-enum { MOST_ROWS = 32, STRIP_PIXELS = 1 << 19 };
+enum { MOST_ROWS = 64, STRIP_PIXELS = 1 << 20 };
 
 /* Each thread that prepares a scan has a counter for every strip, and a share of the triangles. */
 enum { MOST_SHARES = 8, SHARE_TRIANGLES = 1 << 15 };

@@ -91,7 +91,8 @@ holds "one thread or seven" cmp -s one.img many.img
 
 # Neither on triangles beyond the rows, nor on those that reach into many strips of rows.
 run raster -q random.ply -o all.img --driver ENVI --resolution 0.125 --extent 0,0,100,100; exits 0
-run raster -q random.ply -o part.img --driver ENVI --resolution 0.125 --extent 20,30,60,50 --threads 3
+run raster -q random.ply -o part.img --driver ENVI --resolution 0.125 \
+    --extent 20,30,60,50 --threads 3
 exits 0
 holds "a part of the raster" cmp -s part.img <(
     perl -e 'local $/; open my $h, "<:raw", "all.img" or die; my $p = <$h>;
@@ -182,6 +183,15 @@ for output in out.asc out.png out.bil; do
     run raster square.off -o $output --resolution 0.25 --derive hillshade; exits 0; says_nothing
 done
 holds "text" grep -q '^ncols *4' out.asc
+# Rows that are blocks of the file, and a format that is copied from such a file.
+wide=(random.ply -q --resolution 0.04 --extent 0,40,100,42 --nodata -9999)
+run raster "${wide[@]}" -o wide.asc; exits 0
+run raster "${wide[@]}" -o wide.img --driver ENVI; exits 0
+holds "a wide raster as text" same_text <(tail -n +7 wide.asc | tr -s ' ' '\n' | grep . | as_floats) \
+    <(raw f wide.img)
+run raster "${wide[@]}" -o wide.tif; exits 0
+holds "the rows of a GeoTIFF" perl -e 'local $/; open my $t, "<:raw", "wide.tif"; open my $i, "<:raw",
+    "wide.img"; exit(index(<$t>, <$i>) < 0)'
 run raster square.off -o out.tif --creation COMPRESS=DEFLATE,TILED=YES; exits 0
 run raster square.off -o bad.tif --creation COMPRESS=NO_SUCH; refused 4 'bad\.tif: GDAL says: '
 absent bad.tif
