@@ -409,6 +409,11 @@ static void nearest_look_at_triangle(nearest_search *s, uint32_t t)
 static void nearest_look_into(nearest_search *s, mw_bvh_stack *stack, uint32_t visited)
 {
     const mw_bvh_node *node = &s->prober->bvh.node[visited];
+    const uint32_t same = mw__bvh_same(&s->prober->bvh, s->prober->slack, visited);
+    if (MW_UNLIKELY(same != MW_NONE)) {
+        nearest_look_at_triangle(s, same);
+        return;
+    }
     double square[MW_BVH_WIDTH];
     uint32_t floor = stack->count;
     node_squares(s, node, square);
