@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "base/random.h"
+#include "probe/nearest_in_triangle.h"
 #include "probe/ray.h"
 #include "support/environment.h"
 #include "support/make_prober.h"
@@ -259,21 +260,21 @@ static void test_edits(void **state)
     (void)state;
     uint64_t random = environment_print_seed("edits", 53);
     for (uint32_t kinds = 1; kinds <= 6; kinds += 5) {
-        shape s = crowd_of(600, kinds);
+        shape s = crowd_of(300, kinds);
         mw_surface *surface = shape_surface(&s, (mw_surface_options){0});
         mw_prober *prober = prober_with_boxes(surface);
         mw_surface_editor *e;
         mw_surface_editor_options options = {.prober = prober};
         assert_int_equal(mw_surface_editor_create(surface, &options, &e, NULL), MW_OK);
         uint32_t first = check_same(prober), before = first;
-        for (int i = 0; i < 600; i++) {
+        for (int i = 0; i < 400; i++) {
             edit_once(e, surface, &random);
             uint32_t told = check_same(prober);
             assert_true(told <= before); /* until the boxes are fitted anew */
             before = told;
             check_probes(prober, &random);
             check_nearest(prober, &random);
-            if (i % 150 != 149) continue;
+            if (i % 100 != 99) continue;
             mw_surface_begin_update(surface);
             mw_prober_update(prober, -1, 1);
             mw_surface_end_update(surface);
