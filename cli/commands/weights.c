@@ -179,7 +179,7 @@ static int weights_load(mw_mesh *mesh, const char *path, const mw_mesh_file *fil
                              g->settings->query.stream.common.threads);
 }
 
-static int weights_of_points(const weights_settings *all, const char *const *operands)
+static int weights_at_points(const weights_settings *all, const char *const *operands)
 {
     weights_globe globe = {.settings = all}, *self = &globe;
     point_query_settings s = all->query;
@@ -209,7 +209,7 @@ static int weights_run(const void *settings, const char *const *operands)
     if (end) return end;
     if (s->method == METHOD_CONSERVATIVE) return weights_of_cells(s, operands);
     end = weights_check_points(s);
-    return end ? end : weights_of_points(s, operands);
+    return end ? end : weights_at_points(s, operands);
 }
 
 static const option weights_options[] = {

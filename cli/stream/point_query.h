@@ -27,8 +27,8 @@ extern const option point_query_options[];
 /* The names that --walk, --start and --descent accept. */
 extern const choices point_query_walks, point_query_starts, point_query_descents;
 
-/* The option that is given although points are located on a polyhedron, not in the plane; NULL: none
- * is. */
+/* The option that is given although points are located on a polyhedron, not in the plane; NULL:
+ * none is. */
 const char *point_query_option_of_plane(const point_query_settings *settings);
 
 /* Refuse values of --cells and --layers above the limits of the library. Returns 0, or END_USAGE
