@@ -38,6 +38,7 @@ fail() {
         echo "  exit code $code; standard error:"
         head -n 5 "$logs/err" | sed 's/^/    /'
     } >&2
+    [[ ! ${MW_TEST_FIRST-} ]] || exit 1 # for tools/mutate, which asks for no more
 }
 
 exits() {
