@@ -4,6 +4,7 @@
 #include "cli/frame/message.h"
 #include "cli/gdal/gdal_point_layer.h"
 #include "cli/input/mesh_field.h"
+#include "cli/input/star_input.h"
 #include "cli/output/csv_row.h"
 #include "cli/series/series_sample.h"
 #include "cli/stream/point_query.h"
@@ -21,7 +22,7 @@ typedef struct sample_settings {
     point_query_settings query;
     const char *field, *nodata;
     int outside, missing;
-    bool status, lonlat;
+    bool status, lonlat, open;
     int space;          /* SAMPLE_PLANE, SAMPLE_STAR */
     coordinates centre; /* not given: the origin */
     series_settings series;
@@ -101,6 +102,8 @@ static const option sample_options[] = {
      "--as star: POINTS are longitudes and latitudes in degrees; and so are x and y of a MESH "
      "without z, which then lies on the unit sphere",
      NULL},
+    {"open", 0, OPTION_FLAG, offsetof(sample_settings, open), NULL,
+     "--as star: MESH may leave directions open, as an ocean does; there is no value there", NULL},
     {0},
 };
 
@@ -279,6 +282,7 @@ static int sample_star(const sample_settings *s, const char *const *operands)
         .centre = &s->centre,
         .field = {.field = s->field, .quiet = stream->common.quiet},
         .lonlat = s->lonlat,
+        .open = s->open,
         .status = s->status,
         .nearest = s->missing == MISSING_NEAREST,
     };
@@ -290,7 +294,8 @@ static int sample_star(const sample_settings *s, const char *const *operands)
         complain("sample: which value? --as star needs --field NAME");
         return END_USAGE;
     }
-    int end = nodata_parse("nodata", s->nodata, &sample.field.nodata);
+    int end = star_input_check_open(s->open, &s->centre);
+    if (end == 0) end = nodata_parse("nodata", s->nodata, &sample.field.nodata);
     if (end == 0) end = files_check_output(stream->common.output, operands, 2);
     if (end == 0) end = point_layers_check(operands, 2);
     if (end == 0) end = query_stream_check_output(stream);
@@ -302,8 +307,10 @@ static int sample_run(const void *settings, const char *const *operands)
     const sample_settings *s = settings;
     const series_settings *over = &s->series;
     if (s->space == SAMPLE_STAR) return sample_star(s, operands);
-    if (s->lonlat || s->centre.count) {
-        complain("option '--%s' needs --as star", s->lonlat ? "lonlat" : "centre");
+    if (s->lonlat || s->centre.count || s->open) {
+        complain("option '--%s' needs --as star", s->lonlat         ? "lonlat"
+                                                  : s->centre.count ? "centre"
+                                                                    : "open");
         return END_USAGE;
     }
     if (over->time || over->values || over->time_column) return sample_series(s, operands);

@@ -32,10 +32,32 @@ static int star_input_fail(const star_input_settings *s, const char *path, bool 
     int end = fail_mesh(path, error);
     if (end == END_INPUT && flat)
         complain("%s: has no z; --lonlat takes x and y as longitude and latitude", path);
-    else if (end == END_INPUT)
-        complain("'meshwalk check %s %s' lists every defect, 'meshwalk view' shows it",
+    else if (end == END_INPUT && !s->open)
+        complain("'meshwalk check %s %s' lists every defect, 'meshwalk view' shows it; star "
+                 "and sample take meshes that leave directions open with --open",
                  star_check_arguments(s, words), path);
     return end;
+}
+
+int star_input_check_open(bool open, const coordinates *centre)
+{
+    const double *c = centre->at;
+    if (!open || (c[0] == 0 && c[1] == 0 && c[2] == 0)) return 0;
+    complain("--open takes rays from 0,0,0; leave out --centre");
+    return END_USAGE;
+}
+
+static mw_status star_input_prepare(star_input *in, const star_input_settings *s, mw_error *error)
+{
+    const mw_progress *progress = progress_of_call();
+    const mw_star_options star = {.centre = {s->centre->at[0], s->centre->at[1], s->centre->at[2]},
+                                  .angles = s->angles,
+                                  .threads = s->threads,
+                                  .borrow = s->borrow,
+                                  .progress = progress};
+    const mw_prober_options boxes = {.boxes = 1, .threads = s->threads, .progress = progress};
+    return s->open ? mw_prober_create(in->surface, &boxes, &in->prober, error)
+                   : mw_star_create(in->surface, &star, &in->star, error);
 }
 
 int star_input_make(star_input *in, const char *path, mw_mesh_file *file,
@@ -45,15 +67,11 @@ int star_input_make(star_input *in, const char *path, mw_mesh_file *file,
     int end = s->lonlat ? lonlat_input_mesh(path, file) : 0;
     if (end) return end;
     const mw_arrays arrays = mw_mesh_file_arrays(file);
-    const mw_surface_options surface = {.weld = 1, .progress = progress_of_call()};
-    const mw_star_options star = {.centre = {s->centre->at[0], s->centre->at[1], s->centre->at[2]},
-                                  .angles = s->angles,
-                                  .threads = s->threads,
-                                  .borrow = s->borrow,
-                                  .progress = progress_of_call()};
+    const mw_surface_options surface = {
+        .weld = 1, .tolerant = s->open, .progress = progress_of_call()};
     progress_phase("preparing", path);
     if (mw_surface_create(&arrays, &surface, &in->surface, &error) != MW_OK ||
-        mw_star_create(in->surface, &star, &in->star, &error) != MW_OK)
+        star_input_prepare(in, s, &error) != MW_OK)
         return star_input_fail(s, path, !file->has_z, &error);
     return 0;
 }
@@ -61,5 +79,6 @@ int star_input_make(star_input *in, const char *path, mw_mesh_file *file,
 void star_input_release(star_input *s)
 {
     mw_star_destroy(s->star);
+    mw_prober_destroy(s->prober);
     mw_surface_destroy(s->surface);
 }

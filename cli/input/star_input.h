@@ -8,7 +8,8 @@
 
 typedef struct star_input {
     mw_surface *surface;
-    mw_star *star;
+    mw_star *star;     /* NULL if the surface may be open: then */
+    mw_prober *prober; /* boxes find the triangle that a ray meets first */
 } star_input;
 
 /* How the polyhedron is taken. */
@@ -18,7 +19,12 @@ typedef struct star_input_settings {
     bool angles;               /* for the orthogonal walk */
     uint32_t threads;          /* 0: all there are */
     bool borrow;               /* rays walk on the surface's own records */
+    bool open; /* triangles need not surround the centre; the centre is the origin */
 } star_input_settings;
+
+/* The centre must not move for a surface that may be open. Returns 0, or an exit code after a
+ * complaint. */
+int star_input_check_open(bool open, const coordinates *centre);
 
 /* Make the polyhedron. Its vertices with equal coordinates are one: that closes the seam of a
  * sphere, and its poles. With `lonlat` the vertices of the file come onto the unit sphere. Returns
