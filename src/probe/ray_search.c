@@ -203,7 +203,7 @@ static MW_INLINE uint32_t ray_search_nearest_child(mw_ray_search *s, const mw_bv
     return s->stack.visit[--s->stack.count].node;
 }
 
-static bool points_are_equal(const double p[3], const double q[3])
+static bool corner_is_at(const double p[3], const double q[3])
 {
     return p[0] == q[0] && p[1] == q[1] && p[2] == q[2];
 }
@@ -216,7 +216,7 @@ static bool nearest_is_turned(const mw_ray_search *s, uint32_t t)
     for (uint32_t k = 0; k < 3; k++) {
         const double *p = mw__surface_corner(s->prober->surface, t, k);
         uint32_t i = 0;
-        while (i < 3 && !points_are_equal(p, s->nearest_corners[i])) i++;
+        while (i < 3 && !corner_is_at(p, s->nearest_corners[i])) i++;
         if (i == 3) return false;
     }
     return true;
