@@ -91,7 +91,7 @@ static int main_run_arguments(int count, char **arguments)
     if (strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0) return main_print_help();
     if (strcmp(word, "--version") == 0) return main_print_version();
     const command *c = program_find(commands, COMMAND_COUNT, word);
-    return c ? program_run(c, count - 2, arguments + 2) : main_unknown_command(word);
+    return c ? program_run(c, arguments + 2) : main_unknown_command(word);
 }
 
 int main(int count, char **arguments)

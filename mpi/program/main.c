@@ -59,7 +59,7 @@ static int main_run(int count, char **arguments)
     if (strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0) return main_print_help();
     if (strcmp(word, "--version") == 0) return main_print_version();
     const command *c = program_find(commands, COMMAND_COUNT, word);
-    if (c) return program_run(c, count - 2, arguments + 2);
+    if (c) return program_run(c, arguments + 2);
     complain("unknown command '%s'; 'meshwalk-mpi --help' lists them", word);
     return END_USAGE;
 }
