@@ -238,8 +238,8 @@ static uint64_t bits_of_double(double value)
     return bits;
 }
 
-/* PLY with numbers of several types, or with three doubles, in which every `part`-th square is a quadrilateral and the
- * others are two triangles: those are read in runs. */
+/* PLY with numbers of several types, or with three doubles, in which every `part`-th square is a
+ * quadrilateral and the others are two triangles: those are read in runs. */
 static growing make_ply(const large_mesh *m, uint32_t part, bool big, bool plain)
 {
     char header[500];
