@@ -125,8 +125,8 @@ static int levels_check(const contours_settings *s, double first, double last, d
         return END_RESOURCE;
     }
     if (fabs(first) <= CONTOURS_FARTHEST && fabs(last) <= CONTOURS_FARTHEST) return 0;
-    complain("--interval %s is too small for values between %g and %g, counted from %s", s->interval,
-             low, high, s->base ? s->base : "0");
+    complain("--interval %s is too small for values between %g and %g, counted from %s",
+             s->interval, low, high, s->base ? s->base : "0");
     return END_RESOURCE;
 }
 

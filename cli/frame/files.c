@@ -166,6 +166,20 @@ static bool file_holds_points(const char *path)
     return points;
 }
 
+bool files_remark_raster(const char *path)
+{
+    static const char *const endings[] = {".tif", ".tiff", ".asc", ".img", ".vrt", ".dem", ".hgt"};
+    const size_t length = strlen(path);
+    for (size_t i = 0; i < sizeof endings / sizeof *endings; i++) {
+        const size_t end = strlen(endings[i]);
+        if (length <= end || strcasecmp(path + length - end, endings[i]) != 0) continue;
+        complain("'meshwalk triangulate --from %s --tolerance Z -o MESH' makes a mesh of a raster",
+                 path);
+        return true;
+    }
+    return false;
+}
+
 static const char *files_layout;
 
 void files_use_layout(const char *layout)
@@ -184,7 +198,9 @@ int files_read_mesh(const char *path, mw_mesh_file *file)
         message_note_place(path, file->repeat_triangle, file->repeat);
     if (status == MW_OK) return 0;
     int end = fail_reading(&error);
-    if (status == MW_ERROR_INPUT && !files_is_standard(path) && file_holds_points(path))
+    if (status != MW_ERROR_INPUT || files_is_standard(path) || files_remark_raster(path))
+        return end;
+    if (file_holds_points(path))
         complain("%s: holds points, no triangles; 'meshwalk triangulate %s -o MESH' makes a mesh "
                  "of them",
                  path, path);
