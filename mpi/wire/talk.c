@@ -273,8 +273,10 @@ static void answers_end(mwp_talk *t)
     const char *answer = t->to_take;
     size_t first = 0; /* the place of the first question for rank r */
     for (int r = 0; r < t->wire->size; r++) {
-        t->about->take(t->self, r, first + b->next[r], answer, b->counted[r]);
-        answer += b->counted[r] * t->about->answer_size;
+        if (b->counted[r] > 0) {
+            t->about->take(t->self, r, first + b->next[r], answer, b->counted[r]);
+            answer += b->counted[r] * t->about->answer_size;
+        }
         b->next[r] += b->granted[r];
         if (t->block.count) first += t->block.count[r];
     }
