@@ -27,8 +27,8 @@ heights='printf " %d %.2f", 7 * x - x * x + 2 * y, 1 / (x + y + 1)'
 hill 'property double z\nproperty float depth\n' "$heights" >hill.ply
 hill 'property double z\n' 'printf " %d", 9 + x' >over.ply
 hill '' '' >bare.ply
-printf '%s\n' 'a mesh' '2 5' '1 0 0 0.5' '2 2 0 1' '3 2 2 -1' '4 0 2 0.001' '5 4 0 7' '1 4 1 2 3 4' \
-    '2 3 2 5 3' 1 2 2 1 2 1 2 '2 24' 5 3 >bay.gr3
+printf '%s\n' 'a mesh' '2 5' '1 0 0 0.5' '2 2 0 1' '3 2 2 -1' '4 0 2 0.001' '5 4 0 7' \
+    '1 4 1 2 3 4' '2 3 2 5 3' 1 2 2 1 2 1 2 '2 24' 5 3 >bay.gr3
 printf '%s\n' MESH2D 'ND 1 0 0 1' 'ND 2 2 0 2' 'ND 3 2 2 4' 'ND 4 0 2 2' 'E3T 1 1 2 3 7' \
     'E3T 2 1 3 4 9' >soil.2dm
 
@@ -118,8 +118,8 @@ in_the_plane() { # in_the_plane MESH
     done
     same 0 check "$mesh"
     same 0 check --json "$mesh"
-    for options in '' '--details' '--base file' '--walk border' '--fill no --walk border' '--areas' \
-        '--any' '--tolerance 0.7 --details' '--start layers' '--start curve --walk straight'; do
+    for options in '' '--details' '--base file' '--walk border' '--fill no --walk border' \
+        '--areas' '--any' '--tolerance 0.7 --details' '--start layers' '--start curve --walk straight'; do
         # shellcheck disable=SC2086 # words
         same 0 locate $options "$mesh" points.csv
     done
