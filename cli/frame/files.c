@@ -207,13 +207,12 @@ int files_read_mesh(const char *path, mw_mesh_file *file)
         message_note_place(path, file->repeat_triangle, file->repeat);
     if (status == MW_OK) return 0;
     int end = fail_reading(&error);
-    if (status != MW_ERROR_INPUT || files_is_standard(path) || files_remark_raster(path))
-        return end;
-    if (file_holds_points(path))
+    if (files_is_standard(path)) return end;
+    if (status == MW_ERROR_INPUT && !files_remark_raster(path) && file_holds_points(path))
         complain("%s: holds points, no triangles; 'meshwalk triangulate %s -o MESH' makes a mesh "
                  "of them",
                  path, path);
-    if (!files_is_standard(path) && file_is_tiles(path))
+    if (file_is_tiles(path))
         complain("%s: holds a mesh in tiles, which meshwalk.Tiles of the Python module takes; "
                  "here give the mesh in one file",
                  path);
