@@ -235,6 +235,14 @@ says "'meshwalk check --as star moved\.off' lists every defect, 'meshwalk view' 
 run_on $'1 2 3\n' star --centre 9,0,0.5 octahedron.off -
 refused 3 'octahedron\.off: triangle [0-7]: '
 says "'meshwalk check --as star --centre 9,0,0.5 octahedron\.off'"
+# Beyond an edge of a tetrahedron two facets face the centre and two face away: these are named.
+printf '%s\n' OFF '4 4 0' '0 0 0' '4 0 0' '0 4 0' '0 0 4' '3 0 2 1' '3 0 1 3' '3 0 3 2' '3 1 2 3' \
+    >four.off
+run check --as star --centre=-1,-1,1 four.off; exits 3
+prints 'triangle 1: faces away from the centre, unlike triangle 0 at edge 0
+triangle 2: faces away from the centre, unlike triangle 3 at edge 1
+four.off: not star-shaped about the centre: 2 defects'
+rm four.off
 run_on $'1 2 3\n' star --centre 1,0,0 octahedron.off -; refused 3 'triangle [0-7]: .*centre'
 sed 's/^6 8 0/6 7 0/; $d' octahedron.off >open.off
 run_on $'1 2 3\n' star open.off -; refused 3 'open\.off: triangle [0-7]: .*not closed'
