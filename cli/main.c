@@ -5,6 +5,7 @@
 #include "cli/frame/message.h"
 #include "cli/frame/program.h"
 #include "cli/frame/spelling.h"
+#include "cli/gdal/gdal_library.h"
 #include "cli/version.h"
 #include "src/base/posix.h"
 
@@ -97,5 +98,7 @@ int main(int count, char **arguments)
 {
     standard_streams_fill();
     signal(SIGPIPE, SIG_IGN); /* a closed pipe is then an error of the output */
-    return main_run_arguments(count, arguments);
+    int end = main_run_arguments(count, arguments);
+    gdal_library_end();
+    return end;
 }

@@ -13,7 +13,7 @@ _meshwalk_options() {
         triangulate) echo "--constraints --boundary --keep --split --strict --max-edge --from --tolerance --band --kind --weight --hidden --limit --format --columns --class --layer --where --crs --points-crs --constraints-crs --json $common" ;;
         locate) echo "--details --base --polygons --attribute --polygon-layer $query $stream $common" ;;
         sample) echo "--field --outside --missing --nodata --status --as --centre --lonlat --open --time --values --time-column --wide --recover $query $stream $common" ;;
-        weights) echo "$query --method --values --norm --strict --stats --json --layer --where $common" ;;
+        weights) echo "$query --method --values --norm --lonlat --open --strict --stats --json --layer --where $common" ;;
         apply) echo "--field --missing --strict --stats --json $common" ;;
         contours) echo "--interval --levels --base --polygons --field --nodata --crs $common" ;;
         drape) echo "--field --nodata --outside-z --attribute --layer --columns --crs --lines-crs --strict $common" ;;

@@ -31,6 +31,12 @@ int star_input_check_open(bool open, const coordinates *centre);
  * 0, or an exit code after a complaint; release it in both cases. */
 int star_input_make(star_input *s, const char *path, mw_mesh_file *file,
                     const star_input_settings *settings);
+/* Find the triangles that rays from the centre through `count` points meet, as
+ * mw_star_locate_batch(). Of a surface that may be open only `threads` and `progress` of the
+ * options count, and nothing is counted in *counters; a ray that meets nothing is MW_OUTSIDE. */
+mw_status star_input_locate(const star_input *in, const double *points, size_t stride, size_t count,
+                            const mw_star_query_options *options, mw_location *answers,
+                            mw_counters *counters, mw_error *error);
 void star_input_release(star_input *s);
 
 #endif

@@ -9,83 +9,32 @@ static int ray_stream_allocate(ray_stream *q)
 {
     if (q->lonlat) q->points = malloc(QUERY_BLOCK_SIZE * 3 * sizeof *q->points);
     if (q->field) q->at_rays = malloc(QUERY_BLOCK_SIZE * sizeof *q->at_rays);
-    if (q->polyhedron.prober) {
-        q->probes = malloc(QUERY_BLOCK_SIZE * 6 * sizeof *q->probes);
-        q->touches = malloc(QUERY_BLOCK_SIZE * sizeof *q->touches);
-        if (!q->probes || !q->touches) return fail_memory();
-    }
     return (q->lonlat && !q->points) || (q->field && !q->at_rays) ? fail_memory() : 0;
-}
-
-/* --- of a surface that may be open ------------------------------------------------------------ */
-
-/* A ray that touches nothing is outside, one that is none is bad. */
-static mw_location location_of_touch(const mw_touch *touch)
-{
-    mw_location at = {.weight = {touch->weight[0], touch->weight[1], touch->weight[2]},
-                      .triangle = touch->triangle,
-                      .hole = MW_NONE,
-                      .where = touch->where,
-                      .local = touch->local};
-    if (touch->state == MW_TOUCH_NONE) at.where = MW_OUTSIDE;
-    return at;
-}
-
-static mw_status ray_stream_probe(ray_stream *q, const double *points, size_t stride, size_t count,
-                                  mw_location *answers, mw_error *error)
-{
-    const mw_probe_options options = {.certain = 1,
-                                      .extent = MW_PROBE_RAY,
-                                      .faces = MW_PROBE_BOTH,
-                                      .threads = q->stream->common.threads,
-                                      .progress = progress_of_call()};
-    for (size_t i = 0; i < count; i++)
-        for (size_t k = 0; k < 3; k++) {
-            q->probes[6 * i + k] = 0;
-            q->probes[6 * i + 3 + k] = points[stride * i + k];
-        }
-    mw_status status = mw_probe_batch(q->polyhedron.prober, q->probes, count, 6, &options,
-                                      q->touches, NULL, error);
-    if (status) return status;
-    for (size_t i = 0; i < count; i++) answers[i] = location_of_touch(&q->touches[i]);
-    return MW_OK;
-}
-
-/* --- of a polyhedron -------------------------------------------------------------------------- */
-
-static mw_status ray_stream_locate(ray_stream *q, uint64_t block, const double *points,
-                                   size_t stride, size_t count, mw_location *answers,
-                                   mw_counters *counters, mw_error *error)
-{
-    const common_settings *common = &q->stream->common;
-    mw_star_query_options options = q->options;
-    options.seed = common->seed + block; /* each block has its own random numbers */
-    options.threads = common->threads;
-    options.counters = q->stream->stats;
-    options.progress = progress_of_call();
-    return mw_star_locate_batch(q->polyhedron.star, points, count, stride, &options, answers,
-                                counters, error);
 }
 
 /* `self` begins with the query. */
 static int ray_stream_answer(void *self, const query_block *block, void *answers)
 {
     ray_stream *q = self;
+    const common_settings *common = &q->stream->common;
     mw_error error;
     mw_counters counters = {0};
+    mw_star_query_options options = q->options;
+    options.seed = common->seed + block->block; /* each block has its own random numbers */
+    options.threads = common->threads;
+    options.counters = q->stream->stats;
+    options.progress = progress_of_call();
     const double *points = block->values;
     size_t stride = block->stride;
     if (q->lonlat) {
-        lonlat_input_directions(block->values, stride, block->count, q->centre->at,
-                                q->stream->common.threads, q->points);
+        lonlat_input_directions(block->values, stride, block->count, q->centre->at, common->threads,
+                                q->points);
         points = q->points;
         stride = 3;
     }
-    mw_status status = q->polyhedron.prober
-                           ? ray_stream_probe(q, points, stride, block->count, answers, &error)
-                           : ray_stream_locate(q, block->block, points, stride, block->count,
-                                               answers, &counters, &error);
-    if (status) return fail_query(&error);
+    if (star_input_locate(&q->polyhedron, points, stride, block->count, &options, answers,
+                          &counters, &error) != MW_OK)
+        return fail_query(&error);
     if (q->field) {
         const mw_hits hits = mw_hits_of_locations(answers, block->count);
         mw_surface_interpolate(q->polyhedron.surface, q->field, &hits, q->at_rays);
@@ -135,7 +84,5 @@ void ray_stream_release(ray_stream *q)
 {
     free(q->points);
     free(q->at_rays);
-    free(q->probes);
-    free(q->touches);
     star_input_release(&q->polyhedron);
 }

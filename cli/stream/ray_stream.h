@@ -19,8 +19,6 @@ typedef struct ray_stream {
     double *at_rays;          /* with a field: its values for the block that is being written */
     const mw_location *first; /* the answer to which the first of these belongs */
     double *points;           /* of a block, if rays are longitudes and latitudes */
-    double *probes;           /* of a block, and what they touch, if the surface may be open */
-    mw_touch *touches;
     location_statistics statistics;
 } ray_stream;
 

@@ -102,6 +102,11 @@ static MW_INLINE void nearest_look_into(nearest_search *s, mw_bvh_stack *stack, 
                                         nearest_squares *squares)
 {
     const mw_bvh_node *node = &s->prober->bvh.node[visited];
+    const uint32_t same = mw__bvh_same(&s->prober->bvh, s->prober->slack, visited);
+    if (MW_UNLIKELY(same != MW_NONE)) {
+        nearest_look_at_triangle(s, same);
+        return;
+    }
     double square[MW_BVH_WIDTH];
     uint32_t floor = stack->count, nodes = 0;
     for (uint32_t left = squares(s, node, square); left; left &= left - 1) {

@@ -64,7 +64,8 @@ struct mw_ray_search {
     const mw_prober *prober;
     const mw_ray_query *ray;
     mw_ray_found *found;
-    void *self; /* of `found` */
+    void *self;       /* of `found` */
+    bool one_of_same; /* of equal triangles, one is enough */
     mw_bvh_beam beam;
     mw_corners corners; /* of the triangle that is looked at */
     uint32_t nearest;   /* of mw__ray_found_nearest; or MW_NONE */
