@@ -345,6 +345,9 @@ for option in '--walk barycentric' '--start grid' '--borrow'; do
     run star --open $option open.off many.csv; refused 2 'is for walks, and --open finds facets'
 done
 run star --open --centre 0,0,0.1 open.off many.csv; refused 2 'leave out --centre'
+printf '%s\n' OFF '3 0 0' '0 0 1' '1 0 1' '0 1 1' >empty.off
+run_on $'1 2 3\n' star --open empty.off -; refused 3 'empty\.off: the surface has no triangle'
+holds "--open has no check to offer" test -z "$(grep 'check --as star' "$logs/err")"
 run star --open --remesh 2 open.off -o none.off; refused 2 "'--open' is for DIRECTIONS"
 run sample --open --field z open.off many.csv; refused 2 "option '--open' needs --as star"
 run sample --as star --lonlat --field z --status octahedron.off many.csv -o whole.csv; exits 0
