@@ -10,7 +10,7 @@ uint32_t mw__probe_certain(const mw_prober *prober, const mw_line *line, double 
     mw_ray_search search;
     mw__ray_search_begin(&search, prober, &ray, mw__ray_found_nearest, NULL);
     if (seed != MW_NONE) mw__ray_search_guess(&search, seed);
-    mw__ray_search_run(prober, &search, 1);
+    mw__ray_search_run(&search);
     if (counters) mw__ray_search_count(&search, counters);
     return search.nearest;
 }

@@ -234,7 +234,7 @@ static mw_touch probe_answer_certain(const mw_prober *prober, mw_probe_cursor *c
     if (!mw__prober_is_current(prober)) return mw__touch_none(MW_TOUCH_BAD);
     mw__ray_search_begin(&search, prober, ray, mw__ray_found_nearest, NULL);
     probe_guess(&search, cursor, work, trace);
-    mw__ray_search_run(prober, &search, 1);
+    mw__ray_search_run(&search);
     if (work) mw__ray_search_count(&search, work);
     return mw__ray_touch_found(&search);
 }
@@ -292,45 +292,68 @@ static mw_touch probe_answer(const mw_prober *prober, mw_probe_cursor *cursor, c
 
 /* --- several at a time --- */
 
-typedef struct probe_group {
+/* Probes of which some are searched for at a time. */
+typedef struct probe_block {
+    const mw_prober *prober;
+    mw_probe_cursor *cursor;
+    const double *queries;
+    size_t stride;
+    mw_touch *touches;
+    uint32_t n, next, begun;
+    uint32_t query[MW_RAYS_AT_A_TIME]; /* of each search */
     mw_ray_query ray[MW_RAYS_AT_A_TIME];
-    mw_ray_search search[MW_RAYS_AT_A_TIME];
     mw_probe_counters work[MW_RAYS_AT_A_TIME];
-} probe_group;
+    mw_ray_search search[MW_RAYS_AT_A_TIME];
+} probe_block;
 
-/* Run the searches of those queries that are good. All begin with the triangle touched last. */
-static void probe_group_run(probe_group *g, const mw_prober *prober, mw_probe_cursor *cursor,
-                            const double *queries, size_t stride, uint32_t n)
+static void probe_block_end(probe_block *b, const mw_ray_search *search)
 {
-    for (uint32_t i = 0; i < n; i++) {
-        const double *q = queries + i * stride;
-        mw__ray_search_none(&g->search[i]);
-        if (!mw__probe_ray(&cursor->options, q, q + 3, &g->ray[i])) continue;
-        mw__ray_search_begin(&g->search[i], prober, &g->ray[i], mw__ray_found_nearest, NULL);
-        probe_guess(&g->search[i], cursor, cursor->options.counters ? &g->work[i] : NULL, NULL);
-    }
-    mw__ray_search_run(prober, g->search, n);
+    size_t i = (size_t)(search - b->search);
+    mw__ray_search_count(search, &b->work[i]);
+    b->touches[b->query[i]] =
+        probe_conclude(b->prober, b->cursor, mw__ray_touch_found(search), &b->work[i]);
 }
 
-void mw__probe_certain_group(const mw_prober *prober, mw_probe_cursor *cursor,
+static mw_ray_search *probe_block_next(void *self, mw_ray_search *ended)
+{
+    probe_block *b = self;
+    mw_ray_search *search = ended ? ended : &b->search[b->begun++];
+    size_t i = (size_t)(search - b->search);
+    if (ended) probe_block_end(b, ended);
+    for (; b->next < b->n; b->next++) {
+        const double *q = b->queries + b->next * b->stride;
+        b->work[i] = (mw_probe_counters){0};
+        if (MW_LIKELY(mw__probe_ray(&b->cursor->options, q, q + 3, &b->ray[i]))) break;
+        b->touches[b->next] =
+            probe_conclude(b->prober, b->cursor, mw__touch_none(MW_TOUCH_BAD), &b->work[i]);
+    }
+    if (b->next == b->n) return NULL;
+    b->query[i] = b->next++;
+    mw__ray_search_begin(search, b->prober, &b->ray[i], mw__ray_found_nearest, NULL);
+    probe_guess(search, b->cursor, b->cursor->options.counters ? &b->work[i] : NULL, NULL);
+    return search;
+}
+
+void mw__probe_certain_block(const mw_prober *prober, mw_probe_cursor *cursor,
                              const double *queries, size_t stride, uint32_t n, mw_touch *touches)
 {
-    probe_group g;
-    for (uint32_t i = 0; i < n; i++) {
-        g.work[i] = (mw_probe_counters){0};
-        touches[i] = mw__touch_none(MW_TOUCH_BAD);
-    }
+    probe_block b;
+    b.prober = prober;
+    b.cursor = cursor;
+    b.queries = queries;
+    b.stride = stride;
+    b.touches = touches;
+    b.n = n;
+    b.next = b.begun = 0;
+    mw_ray_source source = {probe_block_next, &b};
     mw__surface_read_lock(prober->surface);
-    if (mw__prober_is_current(prober)) {
-        probe_group_run(&g, prober, cursor, queries, stride, n);
-        for (uint32_t i = 0; i < n; i++) {
-            if (!g.search[i].prober) continue;
-            mw__ray_search_count(&g.search[i], &g.work[i]);
-            touches[i] = mw__ray_touch_found(&g.search[i]);
-        }
-    }
+    bool current = mw__prober_is_current(prober);
+    if (current) mw__ray_searches_run(prober, &source);
     mw__surface_read_unlock(prober->surface);
-    for (uint32_t i = 0; i < n; i++) probe_conclude(prober, cursor, touches[i], &g.work[i]);
+    for (uint32_t i = 0; !current && i < n; i++) {
+        mw_probe_counters none = {0};
+        touches[i] = probe_conclude(prober, cursor, mw__touch_none(MW_TOUCH_BAD), &none);
+    }
 }
 
 /* --- any, and all --- */
@@ -351,7 +374,7 @@ static mw_touch_state probe_search(const mw_prober *prober, mw_probe_cursor *cur
         mw__ray_search_begin(&search, prober, &ray, found, self);
         uint32_t last = finish ? MW_NONE : probe_last(prober, cursor);
         if (last != MW_NONE) mw__ray_search_guess(&search, last);
-        mw__ray_search_run(prober, &search, 1);
+        mw__ray_search_run(&search);
         mw__ray_search_count(&search, &work);
         state = search.hits ? MW_TOUCH_HIT : MW_TOUCH_NONE;
         if (finish) finish(&search);

@@ -68,6 +68,8 @@ mw_touch mw__touch_of(const mw_surface *surface, const mw_line *line, uint32_t t
 /* The same with the corners, the full estimate and the mw__hit_distance of the triangle. */
 mw_touch mw__touch_at(const mw_line *line, uint32_t triangle, const mw_corners corners,
                       const mw_line_estimate *e, double distance);
+/* The same with the mw__hit_sides of a triangle, none of which is 0. */
+mw_touch mw__touch_inside(uint32_t triangle, double distance, const double side[3]);
 mw_touch mw__touch_none(mw_touch_state state);
 
 /* The answer for the lowest-numbered of the triangles touched at the point where `triangle` is. */
@@ -117,8 +119,8 @@ void mw__probe_count(mw_probe_counters *sum, mw_probe_counters *work, bool hit);
 /* Are there boxes, which are up to date? */
 bool mw__prober_is_current(const mw_prober *prober);
 
-/* Answer n certain probes, at most MW_RAYS_AT_A_TIME, as mw_probe one after the other. */
-void mw__probe_certain_group(const mw_prober *prober, mw_probe_cursor *cursor,
+/* Answer n certain probes as mw_probe does, several at a time. */
+void mw__probe_certain_block(const mw_prober *prober, mw_probe_cursor *cursor,
                              const double *queries, size_t stride, uint32_t n, mw_touch *touches);
 
 #endif
