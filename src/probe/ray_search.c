@@ -145,17 +145,12 @@ static MW_INLINE void ray_search_begin(mw_ray_search *s, const mw_prober *prober
     s->at = 0;
 }
 
+#ifdef __x86_64__
+
 static bool prober_has_vectors(const mw_prober *prober)
 {
-#ifdef __x86_64__
     return !prober->portable && __builtin_cpu_supports("avx2");
-#else
-    (void)prober;
-    return false;
-#endif
 }
-
-#ifdef __x86_64__
 
 __attribute__((target("avx2"))) static void
 ray_search_begin_avx2(mw_ray_search *s, const mw_prober *prober, const mw_ray_query *ray)
