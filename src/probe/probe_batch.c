@@ -9,10 +9,7 @@
 #include "probe/plane_walk.h"
 #include "probe/ray.h"
 
-enum {
-    CHUNK = 1 << 12, /* probes that one thread takes at a time */
-    BLOCK = 1 << 9   /* certain ones between which an update may come */
-};
+enum { CHUNK = 1 << 12 }; /* probes that one thread takes at a time */
 
 typedef struct probe_batch {
     const mw_prober *prober;
@@ -27,8 +24,8 @@ static mw_probe_counters probe_batch_answer(const probe_batch *b, size_t first)
 {
     mw_probe_cursor cursor = b->cursor;
     size_t end = b->n - first < CHUNK ? b->n : first + CHUNK;
-    for (size_t i = first; cursor.options.certain && i < end; i += BLOCK) {
-        uint32_t n = (uint32_t)(end - i < BLOCK ? end - i : BLOCK);
+    for (size_t i = first; cursor.options.certain && i < end; i += MW_PROBE_BLOCK) {
+        uint32_t n = (uint32_t)(end - i < MW_PROBE_BLOCK ? end - i : MW_PROBE_BLOCK);
         mw__probe_certain_block(b->prober, &cursor, b->queries + i * b->stride, b->stride, n,
                                 b->touches + i);
     }

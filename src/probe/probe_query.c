@@ -3,7 +3,7 @@
 #include "base/random.h"
 #include "base/options.h"
 #include "probe/plane_walk.h"
-#include "probe/ray.h"
+#include "probe/ray_bundle.h"
 
 enum {
     ITERATIONS = 10, /* as in the thesis */
@@ -299,19 +299,18 @@ typedef struct probe_block {
     const double *queries;
     size_t stride;
     mw_touch *touches;
-    uint32_t n, next, begun;
-    uint32_t query[MW_RAYS_AT_A_TIME]; /* of each search */
+    uint32_t waiting[MW_PROBE_BLOCK], n, next, begun; /* those that no bundle answered */
+    uint32_t query[MW_RAYS_AT_A_TIME];                /* of each search */
     mw_ray_query ray[MW_RAYS_AT_A_TIME];
     mw_probe_counters work[MW_RAYS_AT_A_TIME];
     mw_ray_search search[MW_RAYS_AT_A_TIME];
 } probe_block;
 
-static void probe_block_end(probe_block *b, const mw_ray_search *search)
+static void probe_block_keep(probe_block *b, uint32_t query, const mw_ray_search *search,
+                             mw_probe_counters *work)
 {
-    size_t i = (size_t)(search - b->search);
-    mw__ray_search_count(search, &b->work[i]);
-    b->touches[b->query[i]] =
-        probe_conclude(b->prober, b->cursor, mw__ray_touch_found(search), &b->work[i]);
+    mw__ray_search_count(search, work);
+    b->touches[query] = probe_conclude(b->prober, b->cursor, mw__ray_touch_found(search), work);
 }
 
 static mw_ray_search *probe_block_next(void *self, mw_ray_search *ended)
@@ -319,19 +318,50 @@ static mw_ray_search *probe_block_next(void *self, mw_ray_search *ended)
     probe_block *b = self;
     mw_ray_search *search = ended ? ended : &b->search[b->begun++];
     size_t i = (size_t)(search - b->search);
-    if (ended) probe_block_end(b, ended);
+    if (ended) probe_block_keep(b, b->query[i], ended, &b->work[i]);
     for (; b->next < b->n; b->next++) {
-        const double *q = b->queries + b->next * b->stride;
+        const double *q = b->queries + b->waiting[b->next] * b->stride;
         b->work[i] = (mw_probe_counters){0};
         if (MW_LIKELY(mw__probe_ray(&b->cursor->options, q, q + 3, &b->ray[i]))) break;
-        b->touches[b->next] =
+        b->touches[b->waiting[b->next]] =
             probe_conclude(b->prober, b->cursor, mw__touch_none(MW_TOUCH_BAD), &b->work[i]);
     }
     if (b->next == b->n) return NULL;
-    b->query[i] = b->next++;
+    b->query[i] = b->waiting[b->next++];
     mw__ray_search_begin(search, b->prober, &b->ray[i], mw__ray_found_nearest, NULL);
     probe_guess(search, b->cursor, b->cursor->options.counters ? &b->work[i] : NULL, NULL);
     return search;
+}
+
+/* Answer what lies close together. A bundle that was none makes the next ones wait. */
+static void probe_block_bundle(probe_block *b, uint32_t n)
+{
+    uint32_t pause = 0, left = 0;
+    for (uint32_t first = 0, count; first < n; first += count) {
+        count = n - first < MW_BUNDLE_RAYS ? n - first : MW_BUNDLE_RAYS;
+        bool tried = count == MW_BUNDLE_RAYS && left == 0,
+             bundle = tried && mw__ray_bundle_run(b->prober, &b->cursor->options,
+                                                  b->queries + first * b->stride, b->stride, b->ray,
+                                                  b->search);
+        for (uint32_t i = first; i < first + count; i++) {
+            mw_probe_counters work = {0};
+            if (bundle)
+                probe_block_keep(b, i, &b->search[i - first], &work);
+            else
+                b->waiting[b->n++] = i;
+        }
+        if (tried)
+            pause = left = bundle ? 0 : pause < 3 ? 2 * pause + 1 : 3;
+        else if (left)
+            left--;
+    }
+}
+
+static void probe_block_run(probe_block *b, uint32_t n)
+{
+    mw_ray_source source = {probe_block_next, b};
+    probe_block_bundle(b, n);
+    mw__ray_searches_run(b->prober, &source);
 }
 
 void mw__probe_certain_block(const mw_prober *prober, mw_probe_cursor *cursor,
@@ -343,12 +373,10 @@ void mw__probe_certain_block(const mw_prober *prober, mw_probe_cursor *cursor,
     b.queries = queries;
     b.stride = stride;
     b.touches = touches;
-    b.n = n;
-    b.next = b.begun = 0;
-    mw_ray_source source = {probe_block_next, &b};
+    b.n = b.next = b.begun = 0;
     mw__surface_read_lock(prober->surface);
     bool current = mw__prober_is_current(prober);
-    if (current) mw__ray_searches_run(prober, &source);
+    if (current) probe_block_run(&b, n);
     mw__surface_read_unlock(prober->surface);
     for (uint32_t i = 0; !current && i < n; i++) {
         mw_probe_counters none = {0};

@@ -119,7 +119,8 @@ void mw__probe_count(mw_probe_counters *sum, mw_probe_counters *work, bool hit);
 /* Are there boxes, which are up to date? */
 bool mw__prober_is_current(const mw_prober *prober);
 
-/* Answer n certain probes as mw_probe does, several at a time. */
+/* Answer n certain probes as mw_probe does, several at a time; at most MW_PROBE_BLOCK. */
+#define MW_PROBE_BLOCK 512
 void mw__probe_certain_block(const mw_prober *prober, mw_probe_cursor *cursor,
                              const double *queries, size_t stride, uint32_t n, mw_touch *touches);
 

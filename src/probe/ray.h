@@ -87,11 +87,16 @@ struct mw_ray_search {
 void mw__ray_search_begin(mw_ray_search *search, const mw_prober *prober, const mw_ray_query *ray,
                           mw_ray_found *found, void *self);
 
-/* A search that has ended, without an answer. */
+/* Are there vector instructions for it? */
+bool mw__prober_has_vectors(const mw_prober *prober);
+
+/* A search that has ended, and has found nothing. */
 void mw__ray_search_none(mw_ray_search *search);
 
 /* Look at one triangle first: a good guess narrows the search. */
 void mw__ray_search_guess(mw_ray_search *search, uint32_t triangle);
+/* Look at a triangle with the given vertices, in a search for the nearest, with vectors. */
+void mw__ray_search_look(mw_ray_search *search, uint32_t triangle, const uint32_t vertex[3]);
 
 /* Run a search to its end. */
 void mw__ray_search_run(mw_ray_search *search);

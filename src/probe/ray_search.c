@@ -145,12 +145,17 @@ static MW_INLINE void ray_search_begin(mw_ray_search *s, const mw_prober *prober
     s->at = 0;
 }
 
-#ifdef __x86_64__
-
-static bool prober_has_vectors(const mw_prober *prober)
+bool mw__prober_has_vectors(const mw_prober *prober)
 {
+#ifdef __x86_64__
     return !prober->portable && __builtin_cpu_supports("avx2");
+#else
+    (void)prober;
+    return false;
+#endif
 }
+
+#ifdef __x86_64__
 
 __attribute__((target("avx2"))) static void
 ray_search_begin_avx2(mw_ray_search *s, const mw_prober *prober, const mw_ray_query *ray)
@@ -166,7 +171,7 @@ void mw__ray_search_begin(mw_ray_search *s, const mw_prober *prober, const mw_ra
     s->found = found;
     s->self = self;
 #ifdef __x86_64__
-    if (prober_has_vectors(prober)) {
+    if (mw__prober_has_vectors(prober)) {
         ray_search_begin_avx2(s, prober, ray);
         return;
     }
@@ -176,8 +181,8 @@ void mw__ray_search_begin(mw_ray_search *s, const mw_prober *prober, const mw_ra
 
 void mw__ray_search_none(mw_ray_search *s)
 {
-    s->prober = NULL;
-    s->at = MW_NONE;
+    s->at = s->nearest = MW_NONE;
+    s->boxes = s->triangles = s->hits = 0;
 }
 
 void mw__ray_search_guess(mw_ray_search *s, uint32_t triangle)
@@ -274,6 +279,13 @@ ray_searches_run_avx2(const mw_ray_source *source)
     ray_searches_run(source, mw__ray_visit_avx2, mw__lanes_above_avx2);
 }
 
+__attribute__((target("avx2"))) void mw__ray_search_look(mw_ray_search *s, uint32_t triangle,
+                                                         const uint32_t vertex[3])
+{
+    s->triangles++;
+    ray_search_look(s, triangle, vertex, mw__lanes_above_avx2);
+}
+
 __attribute__((target("avx2"))) static void ray_search_finish_avx2(mw_ray_search *search)
 {
     ray_search_finish(search, mw__ray_visit_avx2, mw__lanes_above_avx2);
@@ -285,7 +297,7 @@ void mw__ray_search_run(mw_ray_search *search)
 {
     if (search->at == MW_NONE) return;
 #ifdef __x86_64__
-    if (prober_has_vectors(search->prober)) {
+    if (mw__prober_has_vectors(search->prober)) {
         ray_search_finish_avx2(search);
         return;
     }
@@ -296,7 +308,7 @@ void mw__ray_search_run(mw_ray_search *search)
 void mw__ray_searches_run(const mw_prober *prober, const mw_ray_source *source)
 {
 #ifdef __x86_64__
-    if (prober_has_vectors(prober)) {
+    if (mw__prober_has_vectors(prober)) {
         ray_searches_run_avx2(source);
         return;
     }
@@ -324,7 +336,7 @@ mw_touch mw__ray_touch_found(const mw_ray_search *s)
     if (s->nearest == MW_NONE) return mw__touch_none(MW_TOUCH_NONE);
     bool known = false;
 #ifdef __x86_64__
-    known = prober_has_vectors(s->prober) && ray_weights_avx2(s, side);
+    known = mw__prober_has_vectors(s->prober) && ray_weights_avx2(s, side);
 #endif
     mw_touch touch =
         known ? mw__touch_inside(s->nearest, s->distance, side)

@@ -77,29 +77,34 @@ __attribute__((target("avx2"))) static inline __m256i mw__ray_sort_avx2(__m256i 
     return MW_RAY_SORT_STEP(v, _mm256_shuffle_epi32(v, 0xB1), 0xAA);
 }
 
+/* Put the children that are nodes and are met on the stack. Returns them as bits. */
+__attribute__((target("avx2"))) static inline uint32_t
+mw__ray_push_avx2(const mw_bvh_node *node, __m256 met, __m256 near, mw_ray_stack *stack)
+{
+    __m256i child = _mm256_load_si256((const __m256i *)(const void *)node->child);
+    __m256i nodes = _mm256_andnot_si256(_mm256_srai_epi32(child, 31), _mm256_castps_si256(met));
+    uint32_t inner = (uint32_t)_mm256_movemask_ps(_mm256_castsi256_ps(nodes));
+    if (!inner) return 0;
+    __m256i key =
+        _mm256_andnot_si256(_mm256_set1_epi32(MW_RAY_KEY_CHILD), _mm256_castps_si256(near));
+    key = _mm256_or_si256(key, _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7));
+    key = mw__ray_sort_avx2(_mm256_blendv_epi8(_mm256_set1_epi32(-1), key, nodes));
+    child = _mm256_permutevar8x32_epi32(child, key);
+    _mm256_storeu_si256((__m256i *)(void *)&stack->key[stack->count], key);
+    _mm256_storeu_si256((__m256i *)(void *)&stack->node[stack->count], child);
+    stack->count += (uint32_t)__builtin_popcount(inner);
+    return inner;
+}
+
 __attribute__((target("avx2"))) static inline uint32_t
 mw__ray_visit_avx2(const mw_bvh_beam *beam, const mw_bvh_node *node, float near[MW_BVH_WIDTH],
                    mw_ray_stack *stack)
 {
     __m256 distance, met = MW_LIKELY(beam->ahead) ? mw__beam_meets_ahead(beam, node, &distance)
                                                   : mw__beam_meets_avx2(beam, node, &distance);
-    __m256i child = _mm256_load_si256((const __m256i *)(const void *)node->child);
-    __m256i nodes = _mm256_andnot_si256(_mm256_srai_epi32(child, 31), _mm256_castps_si256(met));
-    uint32_t all = (uint32_t)_mm256_movemask_ps(met),
-             inner = (uint32_t)_mm256_movemask_ps(_mm256_castsi256_ps(nodes));
     _mm256_storeu_ps(near, distance);
-    if (inner) {
-        __m256i key = _mm256_andnot_si256(_mm256_set1_epi32(MW_RAY_KEY_CHILD),
-                                          _mm256_castps_si256(distance));
-        key = _mm256_or_si256(key, _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7));
-        key = _mm256_blendv_epi8(_mm256_set1_epi32(-1), key, nodes);
-        key = mw__ray_sort_avx2(key);
-        child = _mm256_permutevar8x32_epi32(child, key);
-        _mm256_storeu_si256((__m256i *)(void *)&stack->key[stack->count], key);
-        _mm256_storeu_si256((__m256i *)(void *)&stack->node[stack->count], child);
-        stack->count += (uint32_t)__builtin_popcount(inner);
-    }
-    return all & ~inner;
+    uint32_t inner = mw__ray_push_avx2(node, met, distance, stack);
+    return (uint32_t)_mm256_movemask_ps(met) & ~inner;
 }
 
 #endif
