@@ -374,7 +374,7 @@ static void check_picture(mw_prober *prober, const double *rays, size_t stride,
     assert_memory_equal(touches[0], touches[1], sizeof touches[0]);
 }
 
-static void check_pictures_of(const shape *s, uint64_t *random)
+static void check_pictures_of(const shape *s, bool bundles, uint64_t *random)
 {
     enum { STRIDE = 7 };
     static double rays[STRIDE * PICTURE];
@@ -404,7 +404,10 @@ static void check_pictures_of(const shape *s, uint64_t *random)
                   (double)boxes[0] / (double)boxes[1]);
     assert_true(hits > 60);
 #ifdef __x86_64__
-    if (__builtin_cpu_supports("avx2")) assert_true(boxes[0] < boxes[1]);
+    /* of large triangles in disorder, few help */
+    if (bundles && __builtin_cpu_supports("avx2")) assert_true(boxes[0] < boxes[1] / 2);
+#else
+    (void)bundles;
 #endif
     mw_prober_destroy(prober);
     mw_surface_destroy(surface);
@@ -420,7 +423,7 @@ static void test_pictures(void **state)
     shape_free(&patch);
     shape_free(&soup);
     for (size_t i = 0; i < sizeof shapes / sizeof *shapes; i++) {
-        check_pictures_of(&shapes[i], &random);
+        check_pictures_of(&shapes[i], i < 2, &random);
         shape_free(&shapes[i]);
     }
 }
