@@ -91,8 +91,8 @@ static MW_INLINE void mw__estimate_sides(const mw_line *line, const mw_corners s
         e->side[k] = mw__side_rounded(line, s[k], s[k == 2 ? 0 : k + 1], &e->bound[k]);
 }
 
-/* The plane of a triangle, with normal n = (b - a) x (c - a): N = (a - q) . n and M = m . n. Each is
- * mw__side_rounded of another vector, as a - q may be a rounded difference like m. */
+/* The plane of a triangle, with normal n = (b - a) x (c - a): N = (a - q) . n and M = m . n. Each
+ * is as mw__side_rounded of another vector: a - q may be a rounded difference, like m. */
 typedef struct mw_line_plane {
     double n, m, n_bound, m_bound;
 } mw_line_plane;

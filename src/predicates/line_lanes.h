@@ -72,8 +72,9 @@ static MW_INLINE void mw__lanes_plane(const mw_line *line, const mw_corners s, d
 {
     mw_lanes a = MW_LANES_POINT(s[0]), u = MW_LANES_POINT(s[1]) - a, v = MW_LANES_POINT(s[2]) - a,
              q = a - MW_LANES_POINT(line->q), m = MW_LANES_POINT(line->m);
-    mw_lanes left = MW_LANES_NEXT(u) * MW_LANES_PREV(v), right = MW_LANES_PREV(u) * MW_LANES_NEXT(v),
-             normal = left - right, size = MW_LANES_MAGNITUDE(left) + MW_LANES_MAGNITUDE(right);
+    mw_lanes left = MW_LANES_NEXT(u) * MW_LANES_PREV(v),
+             right = MW_LANES_PREV(u) * MW_LANES_NEXT(v), normal = left - right,
+             size = MW_LANES_MAGNITUDE(left) + MW_LANES_MAGNITUDE(right);
     mw_lanes n = q * normal, mn = m * normal, n_size = MW_LANES_MAGNITUDE(q) * size,
              m_size = MW_LANES_MAGNITUDE(m) * size;
     double far[3] = {q[0], q[1], q[2]};
@@ -100,8 +101,8 @@ static MW_INLINE void mw__lanes_split(const mw_lanes *a, mw_lanes *high, mw_lane
     *low = *a - *high;
 }
 
-static MW_INLINE void mw__lanes_two_product(const mw_lanes *a, const mw_lanes *b,
-                                            mw_lanes *product, mw_lanes *tail)
+static MW_INLINE void mw__lanes_two_product(const mw_lanes *a, const mw_lanes *b, mw_lanes *product,
+                                            mw_lanes *tail)
 {
     mw_lanes a_high, a_low, b_high, b_low;
     mw__lanes_split(a, &a_high, &a_low);
@@ -125,7 +126,8 @@ static MW_INLINE void mw__lanes_from_line(const mw_line *line, const mw_corners 
     mw__lanes_two_sum(&q, &product, &p, &off);
     off = off + (product_tail + along * MW_LANES_POINT(line->tail));
     for (int k = 0; k < 3; k++) {
-        mw_lanes corner = MW_LANES_AXIS(s, k), head, tail, back = {-p[k], -p[k], -p[k], 0}, less = {off[k], off[k], off[k], 0};
+        mw_lanes corner = MW_LANES_AXIS(s, k), head, tail, back = {-p[k], -p[k], -p[k], 0},
+                 less = {off[k], off[k], off[k], 0};
         mw__lanes_two_sum(&corner, &back, &head, &tail);
         from[k] = head + (tail - less);
     }

@@ -131,7 +131,7 @@ static MW_INLINE void mw__beam_store(float to[4], const mw_lanes *from)
     memcpy(to, &rounded, sizeof rounded);
 }
 
-#define MW_LANES_CHOOSE(mask, a, b) \
+#define MW_LANES_CHOOSE(mask, a, b)                                                                \
     ((mw_lanes)(((mw_lanes_mask)(a) & (mask)) | ((mw_lanes_mask)(b) & ~(mask))))
 
 /* The same, all three at once (line_lanes.h). */

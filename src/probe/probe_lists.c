@@ -54,8 +54,8 @@ static mw_ray_search *lists_group_next(void *self, mw_ray_search *ended)
     mw_ray_search *search = &g->search[g->next++];
     mw__ray_search_none(search);
     g->list[i].count = 0;
-    g->good[i] = mw__prober_is_current(b->prober) &&
-                 mw__probe_ray(&b->cursor.options, q, q + 3, &g->ray[i]);
+    g->good[i] =
+        mw__prober_is_current(b->prober) && mw__probe_ray(&b->cursor.options, q, q + 3, &g->ray[i]);
     if (!g->good[i]) return search;
     mw__ray_search_begin(search, b->prober, &g->ray[i], g->found, &g->list[i]);
     if (g->guess < b->prober->surface->tri_count) mw__ray_search_guess(search, g->guess);

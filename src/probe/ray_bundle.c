@@ -24,10 +24,10 @@ typedef struct ray_bundle {
     size_t stride;
     mw_ray_query *ray;
     mw_ray_search *search;
-    /* The hull: as the beam of a ray, but on each axis the sides lie between two values of 1 / m. */
+    /* The hull: as the beam of a ray, but on each axis there are two values of 1 / m. */
     mw_bvh_beam hull;
     float less[3][2], greater[3][2];
-    double scale;                  /* of m */
+    double scale;                 /* of m */
     float q_width[3], m_width[3]; /* how far apart the rays are */
     /* Of all rays, axis by axis, what their beams have. Set at the first triangle. */
     bool begun;
@@ -192,8 +192,8 @@ bundle_rays_at(const ray_bundle *b, const mw_bvh_node *node, uint32_t i)
                    leave = _mm256_set1_ps(mw__beam_sides(node, b->hull.leave[k])[i]);
             enter = _mm256_sub_ps(enter, _mm256_loadu_ps(b->add_enter[k] + 8 * half));
             leave = _mm256_sub_ps(leave, _mm256_loadu_ps(b->add_leave[k] + 8 * half));
-            low = _mm256_max_ps(_mm256_mul_ps(enter, _mm256_loadu_ps(b->less_of[k] + 8 * half)),
-                                low);
+            low =
+                _mm256_max_ps(_mm256_mul_ps(enter, _mm256_loadu_ps(b->less_of[k] + 8 * half)), low);
             high = _mm256_min_ps(_mm256_mul_ps(leave, _mm256_loadu_ps(b->greater_of[k] + 8 * half)),
                                  high);
         }

@@ -273,8 +273,7 @@ static MW_INLINE void ray_searches_run(const mw_ray_source *source, mw_ray_visit
 
 #ifdef __x86_64__
 
-__attribute__((target("avx2"))) static void
-ray_searches_run_avx2(const mw_ray_source *source)
+__attribute__((target("avx2"))) static void ray_searches_run_avx2(const mw_ray_source *source)
 {
     ray_searches_run(source, mw__ray_visit_avx2, mw__lanes_above_avx2);
 }
@@ -338,10 +337,9 @@ mw_touch mw__ray_touch_found(const mw_ray_search *s)
 #ifdef __x86_64__
     known = mw__prober_has_vectors(s->prober) && ray_weights_avx2(s, side);
 #endif
-    mw_touch touch =
-        known ? mw__touch_inside(s->nearest, s->distance, side)
-              : mw__touch_at(&s->ray->line, s->nearest, s->nearest_corners, &s->nearest_estimate,
-                             s->distance);
+    mw_touch touch = known ? mw__touch_inside(s->nearest, s->distance, side)
+                           : mw__touch_at(&s->ray->line, s->nearest, s->nearest_corners,
+                                          &s->nearest_estimate, s->distance);
     touch.back = s->side == MW_RAY_BACK;
     return touch;
 }

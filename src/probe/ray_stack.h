@@ -63,7 +63,7 @@ static MW_INLINE uint32_t mw__ray_visit_portable(const mw_bvh_beam *beam, const 
 
 /* One step of the network: each number and its partner, which is `other`; the greater one goes to
  * the lane whose bit in `low` is 0. */
-#define MW_RAY_SORT_STEP(v, other, low) \
+#define MW_RAY_SORT_STEP(v, other, low)                                                            \
     _mm256_blend_epi32(_mm256_max_epi32(v, other), _mm256_min_epi32(v, other), low)
 
 __attribute__((target("avx2"))) static inline __m256i mw__ray_sort_avx2(__m256i v)
@@ -96,9 +96,10 @@ mw__ray_push_avx2(const mw_bvh_node *node, __m256 met, __m256 near, mw_ray_stack
     return inner;
 }
 
-__attribute__((target("avx2"))) static inline uint32_t
-mw__ray_visit_avx2(const mw_bvh_beam *beam, const mw_bvh_node *node, float near[MW_BVH_WIDTH],
-                   mw_ray_stack *stack)
+__attribute__((target("avx2"))) static inline uint32_t mw__ray_visit_avx2(const mw_bvh_beam *beam,
+                                                                          const mw_bvh_node *node,
+                                                                          float near[MW_BVH_WIDTH],
+                                                                          mw_ray_stack *stack)
 {
     __m256 distance, met = MW_LIKELY(beam->ahead) ? mw__beam_meets_ahead(beam, node, &distance)
                                                   : mw__beam_meets_avx2(beam, node, &distance);
