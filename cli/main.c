@@ -5,6 +5,7 @@
 #include "cli/frame/message.h"
 #include "cli/frame/program.h"
 #include "cli/frame/spelling.h"
+#include "cli/gdal/gdal_library.h"
 #include "cli/version.h"
 #include "src/base/posix.h"
 
@@ -90,12 +91,14 @@ static int main_run_arguments(int count, char **arguments)
     if (strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0) return main_print_help();
     if (strcmp(word, "--version") == 0) return main_print_version();
     const command *c = program_find(commands, COMMAND_COUNT, word);
-    return c ? program_run(c, count - 2, arguments + 2) : main_unknown_command(word);
+    return c ? program_run(c, arguments + 2) : main_unknown_command(word);
 }
 
 int main(int count, char **arguments)
 {
     standard_streams_fill();
     signal(SIGPIPE, SIG_IGN); /* a closed pipe is then an error of the output */
-    return main_run_arguments(count, arguments);
+    int end = main_run_arguments(count, arguments);
+    gdal_library_end();
+    return end;
 }

@@ -166,6 +166,15 @@ static bool file_holds_points(const char *path)
     return points;
 }
 
+/* A folder of 'meshwalk prepare --tiles'. */
+static bool file_is_tiles(const char *path)
+{
+    char name[4096];
+    struct stat s;
+    return snprintf(name, sizeof name, "%s/tiles.json", path) < (int)sizeof name &&
+           stat(name, &s) == 0;
+}
+
 static const char *files_layout;
 
 void files_use_layout(const char *layout)
@@ -188,6 +197,10 @@ int files_read_mesh(const char *path, mw_mesh_file *file)
         complain("%s: holds points, no triangles; 'meshwalk triangulate %s -o MESH' makes a mesh "
                  "of them",
                  path, path);
+    if (!files_is_standard(path) && file_is_tiles(path))
+        complain("%s: holds a mesh in tiles, which meshwalk.Tiles of the Python module takes; "
+                 "here give the mesh in one file",
+                 path);
     return end;
 }
 

@@ -90,10 +90,6 @@ uint32_t mw__probe_certain(const mw_prober *prober, const mw_line *line, double 
 
 /* --- nearest_on_surface.c --- */
 
-/* The distance of q from a triangle that has an area and finite corners, rounded as that of
- * mw_nearest_on_surface. q is finite. */
-double mw__distance_to_triangle(const mw_surface *surface, uint32_t triangle, const double q[3]);
-
 /* The answer of mw_nearest_on_surface, with current boxes. `guess`: a triangle to be looked at
  * first, or MW_NONE; the answer does not depend on it. */
 void mw__nearest_find(const mw_prober *prober, const double point[3], double max_distance,

@@ -66,7 +66,8 @@ struct mw_ray_search {
     const mw_prober *prober;
     const mw_ray_query *ray;
     mw_ray_found *found;
-    void *self; /* of `found` */
+    void *self;       /* of `found` */
+    bool one_of_same; /* of equal triangles, one is enough */
     mw_bvh_beam beam;
     mw_corners corners; /* of the triangle that is looked at */
     uint32_t nearest;   /* of mw__ray_found_nearest; or MW_NONE */
@@ -77,8 +78,9 @@ struct mw_ray_search {
     double underflow;                            /* mw__side_underflow of the line */
     uint64_t boxes, triangles, hits;
     /* The node that is visited, MW_NONE at the end: the children that are triangles and that the
-     * beam meets, as bits, and from where on it may meet each child. */
-    uint32_t at, triangles_met;
+     * beam meets, as bits, and from where on it may meet each child. Its children that are nodes
+     * wait from `floor` on. */
+    uint32_t at, triangles_met, floor;
     float near[MW_BVH_WIDTH];
     mw_ray_stack stack;
 };

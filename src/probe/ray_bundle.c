@@ -304,6 +304,7 @@ bool mw__ray_bundle_run(const mw_prober *prober, const mw_probe_options *options
                         mw_ray_search search[MW_BUNDLE_RAYS])
 {
     if (options->extent != MW_PROBE_RAY || !mw__prober_has_vectors(prober)) return false;
+    if (prober->bvh.same) return false; /* a ray alone knows what to make of equal triangles */
     if (!bundle_begins(queries, queries + stride)) return false;
 #ifdef __x86_64__
     ray_bundle b;

@@ -170,6 +170,7 @@ void mw__ray_search_begin(mw_ray_search *s, const mw_prober *prober, const mw_ra
 {
     s->found = found;
     s->self = self;
+    s->one_of_same = found == mw__ray_found_nearest || found == mw__ray_found_any;
 #ifdef __x86_64__
     if (mw__prober_has_vectors(prober)) {
         ray_search_begin_avx2(s, prober, ray);
@@ -202,6 +203,7 @@ static MW_INLINE void ray_search_prefetch_node(const mw_ray_search *s, uint32_t 
 static MW_INLINE void ray_search_visit(mw_ray_search *s, mw_ray_visit *visit)
 {
     const mw_bvh_node *node = &s->prober->bvh.node[s->at];
+    s->floor = s->stack.count;
     s->triangles_met = visit(&s->beam, node, s->near, &s->stack);
     s->boxes += MW_BVH_WIDTH;
     for (uint32_t left = s->triangles_met; left; left &= left - 1)
@@ -222,11 +224,45 @@ static MW_INLINE bool ray_search_look_at_all(mw_ray_search *s, const mw_bvh_node
     return true;
 }
 
+static bool corner_is_at(const double p[3], const double q[3])
+{
+    return p[0] == q[0] && p[1] == q[1] && p[2] == q[2];
+}
+
+/* Has the nearest triangle so far a lower number than t, and the corners of t, in whatever order?
+ * Then t is met at the same place, if it counts, and is not better. */
+static bool nearest_is_turned(const mw_ray_search *s, uint32_t t)
+{
+    if (s->nearest >= t) return false; /* or there is none */
+    for (uint32_t k = 0; k < 3; k++) {
+        const double *p = mw__surface_corner(s->prober->surface, t, k);
+        uint32_t i = 0;
+        while (i < 3 && !corner_is_at(p, s->nearest_corners[i])) i++;
+        if (i == 3) return false;
+    }
+    return true;
+}
+
+/* The node has equal triangles: look at the lowest of them. No child of the node waits. */
+static __attribute__((noinline)) bool ray_search_look_at_one(mw_ray_search *s, uint32_t triangle)
+{
+    bool met = s->stack.count > s->floor || s->triangles_met;
+    const uint32_t *v = s->prober->surface->tri[triangle].v;
+    met = met && !nearest_is_turned(s, triangle);
+    s->stack.count = s->floor;
+    s->triangles += met;
+    bool goes_on = !met || ray_search_look(s, triangle, v, NULL);
+    s->at = goes_on ? mw__ray_stack_pop(&s->stack, s->beam.reach) : MW_NONE;
+    return s->at != MW_NONE;
+}
+
 /* Look at the triangles of the node, then choose the next one. Returns whether the search goes
  * on. */
 static MW_INLINE bool ray_search_descend(mw_ray_search *s, mw_lanes_above *above)
 {
     const mw_bvh_node *node = &s->prober->bvh.node[s->at];
+    uint32_t same = mw__bvh_same(&s->prober->bvh, s->prober->slack, s->at);
+    if (MW_UNLIKELY(same != MW_NONE && s->one_of_same)) return ray_search_look_at_one(s, same);
     bool goes_on = ray_search_look_at_all(s, node, above);
     s->at = goes_on ? mw__ray_stack_pop(&s->stack, s->beam.reach) : MW_NONE;
     return s->at != MW_NONE;

@@ -224,7 +224,7 @@ else
 fi
 run info --layer a fields.ply; refused 2 "'--layer' is for vector files"
 row() { # row OPTION: the names that the help lists below an option in a row
-    sed -nE "/ --$1 NAME/,/^ {0,6}--/p" "$logs/out" | sed -n '/:$/,$p' | grep -E '^ {26}' |
+    sed -nE "/ --$1 NAME/,/^ {0,6}--/p" "$logs/out" | sed -n '/:$/,$p' | grep -E '^ {26}[^ ]' |
         tr -s "', " '\n' | grep . | sort
 }
 listed() { # listed OPTION: the names that the help lists below an option

@@ -36,6 +36,12 @@ prints "$(<expected)"
 run_on $'east;north\n1;2\n7;2\n7;2\n9;3\n' profile --columns east,north gap.off -; exits 0
 prints "$(<expected)"
 
+# A mesh that is no embedding is refused; no option of this command accepts it.
+printf '%s\n' "$overlap" >overlap.off
+run_on $'x,y\n1,2\n7,2\n' profile overlap.off -; refused 3 'overlap\.off: '
+says "'meshwalk check overlap\.off' .*--fix mends some"
+holds "--any is not offered" test -z "$(grep -e --any "$logs/err")"
+
 # What else a table tells of its points is not kept, and that is said.
 run_on $'name,x,y,m\na,1,2,0\nb,7,2,1\nc,9,3,2\n' profile gap.off -; exits 0
 prints "$(<expected)"

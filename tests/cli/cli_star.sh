@@ -319,6 +319,35 @@ holds "auto makes $automatic tests, stochastic $stochastic" test "$automatic" ==
 holds "forgetful makes $forgetful tests, stochastic $stochastic" \
     awk "BEGIN { exit !($forgetful > 1.01 * $stochastic) }"
 
+# --open: what is in the facets that are left is as on the whole; the others are outside.
+printf '%s\n' "$octahedron" | sed -e '2s/ 8 / 6 /' -e '$d' | sed '$d' >open.off
+run star --lonlat octahedron.off many.csv -o whole.csv; exits 0
+run star --lonlat --open open.off many.csv -o open.csv --stats; exits 0
+holds 'open facets are outside' awk -F, '
+    NR == FNR { row[FNR] = $0; triangle[FNR] = $4; next }
+    FNR > 1 && triangle[FNR] < 6 && $0 != row[FNR] { wrong++ }
+    FNR > 1 && triangle[FNR] >= 6 && ($3 != "outside" || $4 != -1 || $5 != "") { wrong++ }
+    FNR > 1 { kept += triangle[FNR] < 6; open += triangle[FNR] >= 6 }
+    END { exit !(wrong == 0 && kept > 1000 && open > 1000) }' whole.csv open.csv
+says '^outside +[1-9]'
+run_on $'0 0 0\n1 nan 0\n' star --open open.off -; exits 0; prints_line '^0,0,0,bad,-1,,,$'
+run star --lonlat open.off many.csv; refused 3 'edge . has no neighbour: the polyhedron is not closed'
+says 'with --open'
+for option in '--walk barycentric' '--start grid' '--borrow'; do
+    run star --open $option open.off many.csv; refused 2 'is for walks, and --open finds facets'
+done
+run star --open --centre 0,0,0.1 open.off many.csv; refused 2 'leave out --centre'
+run star --open --remesh 2 open.off -o none.off; refused 2 "'--open' is for DIRECTIONS"
+run sample --open --field z open.off many.csv; refused 2 "option '--open' needs --as star"
+run sample --as star --lonlat --field z --status octahedron.off many.csv -o whole.csv; exits 0
+run sample --as star --lonlat --open --field z --status open.off many.csv -o open.csv; exits 0
+holds 'values are the same' awk -F, '
+    NR == FNR { row[FNR] = $0; next }
+    $4 != "outside" && $0 != row[FNR] { wrong++ }
+    $4 == "outside" && $3 != "" { wrong++ }
+    $4 == "outside" { open++ }
+    END { exit !(wrong == 0 && open > 1000) }' whole.csv open.csv
+
 # Real polyhedra, where they are at hand: every walk and start agrees, nothing is lost.
 data=${MW_SHARED:-}/star
 [[ -d $data ]] || { left_out "there is no ../shared/data"; finish; }
