@@ -1,7 +1,7 @@
 /* prober.h - the prober, and what the files of this room share. Private.
  *
  * probe_touch.c decides what a line touches. plane_walk.c and probe_race.c walk over the surface
- * [thesis App. G]. probe_certain.c searches the BVH. probe_query.c is the query. */
+ * [thesis App. G]. ray_search.c searches the BVH. probe_query.c is the query. */
 #ifndef MW_SRC_PROBE_PROBER_H
 #define MW_SRC_PROBE_PROBER_H
 
@@ -80,14 +80,6 @@ mw_touch mw__touch_of_lowest(const mw_surface *surface, const mw_line *line, uin
 bool mw__touch_surely_inside(const mw_surface *surface, const mw_line *line, uint32_t triangle,
                              double d, mw_touch *touch);
 
-/* --- probe_certain.c --- */
-
-/* The best triangle that is touched at most max_distance away (0: no limit), or MW_NONE: exact and
- * complete. `seed`: a triangle, to be looked at first, or MW_NONE. Counts in *counters, unless that
- * is NULL. The BVH must be up to date. */
-uint32_t mw__probe_certain(const mw_prober *prober, const mw_line *line, double max_distance,
-                           uint32_t seed, mw_probe_counters *counters);
-
 /* --- nearest_on_surface.c --- */
 
 /* The answer of mw_nearest_on_surface, with current boxes. `guess`: a triangle to be looked at
@@ -114,6 +106,12 @@ void mw__probe_count(mw_probe_counters *sum, mw_probe_counters *work, bool hit);
 
 /* Are there boxes, which are up to date? */
 bool mw__prober_is_current(const mw_prober *prober);
+
+/* The best triangle that is touched at most max_distance away (0: no limit), or MW_NONE: exact and
+ * complete. `seed`: a triangle, to be looked at first, or MW_NONE. Counts in *counters, unless that
+ * is NULL. The BVH must be up to date. */
+uint32_t mw__probe_certain(const mw_prober *prober, const mw_line *line, double max_distance,
+                           uint32_t seed, mw_probe_counters *counters);
 
 /* Answer n certain probes as mw_probe does, several at a time; at most MW_PROBE_BLOCK. */
 #define MW_PROBE_BLOCK 512
