@@ -11,41 +11,51 @@
 typedef struct trap_entry trap_entry;
 typedef int trap_kind(const trap_entry *trap, const trap_plan *plan, trap_figures *figures);
 
+/* How the triangles of a probe lie. */
+typedef enum trap_layers {
+    LAYERS_EQUAL,
+    LAYERS_TURNED, /* one half of them faces the probe, one begins at another corner, or both */
+    LAYERS_NEAR    /* one behind the other, as near as doubles can be */
+} trap_layers;
+
 struct trap_entry {
     const char *name, *help;
     trap_kind *kind;
     trap_mesh_make *make;
     trap_position position;
     mw_start_kind start;
+    trap_layers layers;
 };
 
 static trap_kind trap_in_plane, trap_in_editor, trap_of_star, trap_of_probe, trap_of_delaunay,
     trap_of_segments;
 
 static const trap_entry traps[] = {
-    {"strip-30", "steps that shrink by 2^30 along a strip", trap_in_plane, trap_strip_30, 0, 0},
-    {"strip-300", "by 2^300", trap_in_plane, trap_strip_300, 0, 0},
-    {"strip-2000", "by 2^2000", trap_in_plane, trap_strip_2000, 0, 0},
-    {"fan", "all triangles at one vertex, far away", trap_in_plane, trap_fan, 0, 0},
-    {"half-fan", "half a wheel", trap_in_plane, trap_half_fan, 0, 0},
-    {"hubs", "a row of vertices between two hubs", trap_in_plane, trap_hubs, 0, 0},
-    {"rings", "squares round one another", trap_in_plane, trap_rings, 0, 0},
-    {"extent-1e-150", "uniform points, multiplied", trap_in_plane, trap_tiny, 0, 0},
-    {"extent-1e-290", "the same", trap_in_plane, trap_tinier, 0, 0},
-    {"extent-1e250", "the same", trap_in_plane, trap_huge, 0, 0},
+    {"strip-30", "steps that shrink by 2^30 along a strip", trap_in_plane, trap_strip_30, 0, 0, 0},
+    {"strip-300", "by 2^300", trap_in_plane, trap_strip_300, 0, 0, 0},
+    {"strip-2000", "by 2^2000", trap_in_plane, trap_strip_2000, 0, 0, 0},
+    {"fan", "all triangles at one vertex, far away", trap_in_plane, trap_fan, 0, 0, 0},
+    {"half-fan", "half a wheel", trap_in_plane, trap_half_fan, 0, 0, 0},
+    {"hubs", "a row of vertices between two hubs", trap_in_plane, trap_hubs, 0, 0, 0},
+    {"rings", "squares round one another", trap_in_plane, trap_rings, 0, 0, 0},
+    {"extent-1e-150", "uniform points, multiplied", trap_in_plane, trap_tiny, 0, 0, 0},
+    {"extent-1e-290", "the same", trap_in_plane, trap_tinier, 0, 0, 0},
+    {"extent-1e250", "the same", trap_in_plane, trap_huge, 0, 0, 0},
     {"vertices", "uniform points, queries at them", trap_in_plane, trap_uniform, TRAP_ON_VERTICES,
-     0},
-    {"edges", "at rounded middles of edges", trap_in_plane, trap_uniform, TRAP_ON_EDGES, 0},
+     0, 0},
+    {"edges", "at rounded middles of edges", trap_in_plane, trap_uniform, TRAP_ON_EDGES, 0, 0},
     {"clusters-grid", "clusters, queries at their points, start grid", trap_in_plane, trap_clusters,
-     TRAP_ON_VERTICES, MW_START_GRID},
-    {"pole", "a star-shaped polyhedron with two poles", trap_of_star, NULL, 0, 0},
-    {"editor-hub", "queries on the hub of an edited wheel", trap_in_editor, trap_half_fan, 0, 0},
-    {"equal-probe", "a certain probe of equal triangles", trap_of_probe, NULL, 0, 0},
+     TRAP_ON_VERTICES, MW_START_GRID, 0},
+    {"pole", "a star-shaped polyhedron with two poles", trap_of_star, NULL, 0, 0, 0},
+    {"editor-hub", "queries on the hub of an edited wheel", trap_in_editor, trap_half_fan, 0, 0, 0},
+    {"equal-probe", "a certain probe of equal triangles", trap_of_probe, NULL, 0, 0, LAYERS_EQUAL},
+    {"turned-probe", "the same, turned in six ways", trap_of_probe, NULL, 0, 0, LAYERS_TURNED},
+    {"near-probe", "the same, one ulp apart", trap_of_probe, NULL, 0, 0, LAYERS_NEAR},
     {"delaunay-1e-300", "triangulating uniform points, multiplied", trap_of_delaunay, trap_least, 0,
-     0},
-    {"delaunay-5e-324", "multiples of the least double", trap_of_delaunay, trap_denormal, 0, 0},
-    {"delaunay-circle", "rounded points of a circle", trap_of_delaunay, trap_circle, 0, 0},
-    {"overlapping", "constraints along one line", trap_of_segments, NULL, 0, 0},
+     0, 0},
+    {"delaunay-5e-324", "multiples of the least double", trap_of_delaunay, trap_denormal, 0, 0, 0},
+    {"delaunay-circle", "rounded points of a circle", trap_of_delaunay, trap_circle, 0, 0, 0},
+    {"overlapping", "constraints along one line", trap_of_segments, NULL, 0, 0, 0},
 };
 enum { TRAPS = sizeof traps / sizeof *traps };
 
@@ -385,16 +395,25 @@ static int trap_probe(void *self, size_t n, bool alone)
     return 0;
 }
 
-/* A third as many triangles as vertices, all of them at one point. */
+/* Corner k of triangle i: the corners are (0, 0), (1, 0), (0, 1). */
+static void trap_layer_corner(trap_layers layers, size_t i, size_t k, double p[3])
+{
+    if (layers == LAYERS_TURNED) k = i % 2 ? (i + 3 - k) % 3 : (i + k) % 3;
+    p[0] = k == 1;
+    p[1] = k == 2;
+    p[2] = 1 + (layers == LAYERS_NEAR ? (double)i * 0x1p-52 : 0);
+}
+
+/* A third as many triangles as vertices, all of them at one place. */
 static int trap_make_equal(const trap_entry *trap, size_t n, mw_surface **surface)
 {
     size_t count = n / 3;
-    double *points = calloc(9 * count, sizeof *points);
+    double *points = malloc(9 * count * sizeof *points);
     uint32_t *triangles = malloc(3 * count * sizeof *triangles);
     int end = points && triangles ? 0 : fail_memory();
-    for (size_t i = 0; i < count && end == 0; i++) {
-        points[9 * i + 3] = points[9 * i + 7] = 1;
-        for (size_t k = 0; k < 3; k++) triangles[3 * i + k] = (uint32_t)(3 * i + k);
+    for (size_t i = 0; i < 3 * count && end == 0; i++) {
+        trap_layer_corner(trap->layers, i / 3, i % 3, &points[3 * i]);
+        triangles[i] = (uint32_t)i;
     }
     if (end == 0) end = trap_make_surface(trap, points, 3 * count, triangles, count, surface);
     free(points);
@@ -420,7 +439,7 @@ static int trap_of_probe(const trap_entry *trap, const trap_plan *plan, trap_fig
     for (size_t i = 0; i < n && end == 0; i++) {
         double *q = &s.queries[6 * i];
         for (int k = 0; k < 6; k++) q[k] = k < 3 ? 0.4 * dataset_unit(&random) : 0;
-        q[5] = 1;
+        q[5] = -1; /* against the fronts */
     }
     if (end == 0) end = trap_take_times(&(trap_clock){trap_probe, &s, n, {0}, NULL, NULL}, plan, f);
     trap_surface_release(&s);
