@@ -59,9 +59,9 @@ static const choices terrain_task_choices = {"task", terrain_task_name, NULL};
 
 enum { WRITE_ROWS = 256 };
 
-/* The pixels of the raster are written to the same folder, as `meshwalk raster` writes them: floats,
- * not packed, a row to a block. They come from the same rows of memory each time, and GDAL is loaded
- * already. */
+/* The pixels of the raster are written to the same folder, as `meshwalk raster` writes them:
+ * floats, not packed, a row to a block. They come from the same rows of memory each time, and GDAL
+ * is loaded already. */
 static int terrain_write(terrain_run *r, command_time *time)
 {
     static const char *const names[] = {"z"};

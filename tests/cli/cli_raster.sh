@@ -194,11 +194,11 @@ holds "text" grep -q '^ncols *4' out.asc
 wide=(random.ply -q --resolution 0.04 --extent 0,40,100,42 --nodata -9999)
 run raster "${wide[@]}" -o wide.asc; exits 0
 run raster "${wide[@]}" -o wide.img --driver ENVI; exits 0
-holds "a wide raster as text" same_text <(tail -n +7 wide.asc | tr -s ' ' '\n' | grep . | as_floats) \
-    <(raw f wide.img)
+tail -n +7 wide.asc | tr -s ' ' '\n' | grep . >wide.txt
+holds "a wide raster as text" same_text <(as_floats <wide.txt) <(raw f wide.img)
 run raster "${wide[@]}" -o wide.tif; exits 0
-holds "the rows of a GeoTIFF" perl -e 'local $/; open my $t, "<:raw", "wide.tif"; open my $i, "<:raw",
-    "wide.img"; exit(index(<$t>, <$i>) < 0)'
+holds "the rows of a GeoTIFF" perl -e 'local $/; open my $t, "<:raw", "wide.tif";
+    open my $i, "<:raw", "wide.img"; exit(index(<$t>, <$i>) < 0)'
 run raster square.off -o out.tif --creation COMPRESS=DEFLATE,TILED=YES; exits 0
 run raster square.off -o bad.tif --creation COMPRESS=NO_SUCH; refused 4 'bad\.tif: GDAL says: '
 absent bad.tif
