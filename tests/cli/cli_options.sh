@@ -20,6 +20,8 @@ for library in zlib Jansson Cairo GDAL LAZ; do
     prints_line "^  $library +([0-9.]+,? (built in|found)|built in, but |not built in): ?"
 done
 run --help; exits 0; says_nothing
+all_commands=$(<"$logs/out")
+run -h; exits 0; says_nothing; prints "$all_commands"
 for c in "${commands[@]}"; do prints_line "^  $c "; done
 for c in "${commands[@]}"; do
     for option in --help -h '--help all' '-h all' --help=all; do
