@@ -6,6 +6,7 @@
 #include "cli/frame/files.h"
 #include "cli/frame/message.h"
 #include "cli/frame/program.h"
+#include "cli/gdal/gdal_library.h"
 #include "cli/gdal/library_versions.h"
 
 #include <meshwalk/base.h>
@@ -78,6 +79,7 @@ int main(int count, char **arguments)
         end = service_run(&of_program);
     }
     service_close(&of_program);
+    gdal_library_end();
     MPI_Finalize();
     return end;
 }

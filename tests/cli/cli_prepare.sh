@@ -112,6 +112,28 @@ if [[ -w /dev/full ]]; then
 fi
 holds "nothing is written" test ! -e x.mwm
 
+# Interrupted: there is the whole output, or nothing.
+awk 'BEGIN { srand(2); for (i = 0; i < 20000; i++) print rand(), rand() }' >many.txt
+run triangulate -q many.txt -o many.ply; exits 0
+for signal in INT TERM HUP; do
+    mkdir half
+    last="prepare --tiles and SIG$signal"
+    # a shell gives its children in the background no SIGINT: perl does
+    perl -e '$SIG{INT} = "DEFAULT"; exec @ARGV' \
+        "$meshwalk" prepare -q many.ply --tiles 50 -o half/t.tiles 2>"$logs/err" &
+    program=$!
+    until compgen -G 'half/*tiles*' >/dev/null || compgen -G 'half/.tiles*' >/dev/null; do
+        kill -0 $program 2>/dev/null || break
+    done
+    kill -$signal $program 2>/dev/null
+    wait $program 2>/dev/null
+    code=$?
+    holds "nothing is left, or all is there: $(ls -A half)" test \
+        "$(ls -A half)" = "" -o -e half/t.tiles/tiles.json
+    rm -r half
+done
+rm many.ply
+
 # Damaged files.
 head -c 1000 m.mwm >short.mwm
 run locate short.mwm q.csv; exits 3; says 'short.mwm: a damaged prepared mesh: it has 1000 bytes'

@@ -22,6 +22,17 @@ run apply w.npz w.npz; refused 2 'apply needs an output'
 run apply w.npz w.npz -o w.npz; refused 2 'w.npz'
 holds "nothing else was written" test "$(echo *)" == 'square.off w.npz'
 
+# A full disk is told as such, also by netCDF: here by a limit of 40 KiB.
+if "$meshwalk" --version | grep -q 'netCDF .*found'; then
+    awk 'BEGIN { for (i = 0; i < 9000; i++) print 0.25, i / 9000 }' >many.txt
+    last='weights, with no room for a file of 40 KiB'
+    (trap '' XFSZ; ulimit -f 40; exec "$meshwalk" weights square.off many.txt -o w3.nc) \
+        >"$logs/out" 2>"$logs/err"
+    code=$?; refused 4 'w3.nc: File too large$'
+    rm many.txt
+    only_files square.off w.npz
+fi
+
 # To cells: two triangles, a mesh of the same square moved by half, and no points' options.
 sed 's/^\(0\|1\) \(0\|1\) /\1.5 \2 /' square.off >moved.off
 conservative="--method conservative"

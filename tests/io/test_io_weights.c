@@ -119,7 +119,8 @@ static void test_npz(void **state)
 
 /* --- application ------------------------------------------------------------------------------ */
 
-/* zeta(time, node) as floats with a missing value, temp(time, layer, node) packed, node's own h. */
+/* zeta(time, node) as floats with a missing value, temp(time, layer, node) packed, node's own h;
+ * time, the depths of layers, and days that no field has. */
 static void write_fields(const char *path)
 {
     mw_netcdf_output *out;
@@ -133,7 +134,10 @@ static void write_fields(const char *path)
                   mw__netcdf_output_variable(out, "zeta", MW_NETCDF_FLOAT, 2, (int[]){time, node}),
               temp = mw__netcdf_output_variable(out, "temp", MW_NETCDF_SHORT, 3,
                                                 (int[]){time, layer, node}),
-              h = mw__netcdf_output_variable(out, "h", MW_NETCDF_DOUBLE, 1, &node);
+              h = mw__netcdf_output_variable(out, "h", MW_NETCDF_DOUBLE, 1, &node),
+              day = mw__netcdf_output_dimension(out, "day", 3);
+    mw__netcdf_output_variable(out, "depths", MW_NETCDF_DOUBLE, 1, &layer);
+    mw__netcdf_output_variable(out, "day", MW_NETCDF_DOUBLE, 1, &day);
     mw__netcdf_output_text(out, hours, "units", "hours since 2000-01-01");
     mw__netcdf_output_text(out, zeta, "units", "m");
     mw__netcdf_output_number(out, zeta, "_FillValue", MW_NETCDF_FLOAT, -999);
@@ -182,6 +186,17 @@ static void fields_expect(const char *path, bool left_out)
     assert_true(h[0] == 5 && h[1] == 7 && isnan(h[2]));
 }
 
+/* Of the variables of one dimension the file holds these alone. */
+static void expect_axes(const char *path, bool time, bool depths)
+{
+    mw_netcdf *file;
+    assert_int_equal(mw__netcdf_open(path, &file, NULL), MW_OK);
+    assert_true((mw__netcdf_find(file, "time") != NULL) == time);
+    assert_true((mw__netcdf_find(file, "depths") != NULL) == depths);
+    assert_null(mw__netcdf_find(file, "day"));
+    mw__netcdf_close(file);
+}
+
 static void test_apply(void **state)
 {
     (void)state;
@@ -197,13 +212,18 @@ static void test_apply(void **state)
     assert_int_equal(info.points, 3);
     assert_int_equal(info.unmapped, 1);
     fields_expect("o.nc", false);
+    expect_axes("o.nc", true, true);
     const mw_apply_weights_options leave = {.missing = MW_MISSING_LEFT_OUT, .threads = 2};
     assert_int_equal(mw_apply_weights("w.nc", "f.nc", "o.nc", &leave, NULL, &error), MW_OK);
     fields_expect("o.nc", true);
-    const char *const names[] = {"zeta"};
-    const mw_apply_weights_options one = {.fields = names, .field_count = 1};
+    const char *const names[] = {"h", "zeta"};
+    const mw_apply_weights_options one = {.fields = names + 1, .field_count = 1},
+                                   still = {.fields = names, .field_count = 1};
+    assert_int_equal(mw_apply_weights("w.nc", "f.nc", "o.nc", &still, NULL, &error), MW_OK);
+    expect_axes("o.nc", false, false);
     assert_int_equal(mw_apply_weights("w.nc", "f.nc", "o.nc", &one, &info, &error), MW_OK);
     assert_int_equal(info.fields, 1);
+    expect_axes("o.nc", true, false);
     double positions[3];
     numbers_read("o.nc", "point_y", 3, positions);
     assert_true(positions[0] == 10 && positions[2] == 12);
