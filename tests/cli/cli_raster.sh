@@ -97,6 +97,13 @@ prints_line '^extent +0 0 100 100$'
 run raster square.off -o out.tif --json; exits 0; holds "the report is JSON" is_json "$logs/out"
 run raster square.off -o out.tif --extent 0,0,1 ; refused 2 "'--extent' must be XMIN,YMIN,XMAX,YMAX"
 run raster square.off -o out.tif --extent 0,0,0,1; refused 2 "'--extent' must be"
+# A raster that nothing can hold.
+echo '<VRTDataset rasterXSize="2000000000" rasterYSize="2000000000"><GeoTransform>0,1e-9,0,4,0,-1e-9
+</GeoTransform><VRTRasterBand dataType="Float32" band="1"/></VRTDataset>' >endless.vrt
+run raster square.off -o out.tif --like endless.vrt
+refused 4 'a raster of 2000000000 times 2000000000 pixels is too large'
+run triangulate --from endless.vrt --tolerance 1 -o out.ply
+refused 4 'a raster of 2000000000 times 2000000000 pixels is too large'
 run raster square.off -o out.tif --resolution 1e-12
 refused 4 'a raster with pixels of 1e-12 has too many'
 run raster square.off -o out.tif --resolution 1e-7; refused 4 'a raster with pixels of 1e-07? has too many'
