@@ -238,8 +238,10 @@ static void raster_warn(const raster_settings *s, const char *path, const raster
                  path);
     if (!s->mean && w->mesh.crs && crs_is_lonlat(w->mesh.crs)) raster_warn_of_seam(path, w);
     if (b->filled == 0)
-        complain("%s: warning: no pixel has a value: none of their centres lies in the mesh",
-                 s->common.output);
+        complain(
+            "%s: warning: no pixel has a value: none of their centres lies in a triangle whose "
+            "vertices have values",
+            s->common.output);
     if (b->mistakable > 0)
         complain("%s: warning: %llu of its pixels have the value of --nodata", s->common.output,
                  (unsigned long long)b->mistakable);

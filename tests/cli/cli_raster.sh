@@ -97,6 +97,13 @@ prints_line '^extent +0 0 100 100$'
 run raster square.off -o out.tif --json; exits 0; holds "the report is JSON" is_json "$logs/out"
 run raster square.off -o out.tif --extent 0,0,1 ; refused 2 "'--extent' must be XMIN,YMIN,XMAX,YMAX"
 run raster square.off -o out.tif --extent 0,0,0,1; refused 2 "'--extent' must be"
+# A raster that nothing can hold.
+echo '<VRTDataset rasterXSize="2000000000" rasterYSize="2000000000"><GeoTransform>0,1e-9,0,4,0,-1e-9
+</GeoTransform><VRTRasterBand dataType="Float32" band="1"/></VRTDataset>' >endless.vrt
+run raster square.off -o out.tif --like endless.vrt
+refused 4 'a raster of 2000000000 times 2000000000 pixels is too large'
+run triangulate --from endless.vrt --tolerance 1 -o out.ply
+refused 4 'a raster of 2000000000 times 2000000000 pixels is too large'
 run raster square.off -o out.tif --resolution 1e-12
 refused 4 'a raster with pixels of 1e-12 has too many'
 run raster square.off -o out.tif --resolution 1e-7; refused 4 'a raster with pixels of 1e-07? has too many'
@@ -108,14 +115,14 @@ run raster square.off -o out.tif --like like.tif
 exits 0
 prints_line '^columns +13$'
 prints_line '^extent +10 19.199999999999996 58.1 71$'
-prints_line '^nodata +-9999$'; says 'out\.tif: warning: no pixel has a value'
+prints_line '^nodata +-9999$'; says 'warning: no pixel has a value: none of their centres lies in a triangle whose vertices have'
 run raster square.off -o out.tif --like like.tif --resolution 1
 refused 2 'with --like, which sets the pixels'
 run raster square.off -o like.tif --like like.tif; refused 2 'like\.tif'
 run raster square.off -o out.tif --like square.off; refused 3 'square\.off: GDAL says: '
 run raster square.off -o a.tif --resolution 0.25 --crs EPSG:2056; exits 0
 run raster square.off -o b.tif --like a.tif --crs EPSG:21781
-refused 3 'square\.off is in EPSG:21781 .*, a\.tif in EPSG:2056 .*: transform one of them first'
+refused 3 'square\.off is in EPSG:21781 .*, a\.tif in EPSG:2056 .*: transform one of them first; .*gdalwarp -t_srs'
 run raster square.off -o b.tif --like a.tif
 exits 0
 says 'square\.off: warning: its coordinate system is not known, and a\.tif is in EPSG:2056'
