@@ -227,7 +227,7 @@ static void run_drop_stars(space_run *r, space_rays_kind kind)
 {
     size_t kept = 0;
     for (size_t i = 0; i < r->entries; i++)
-        if (space_rays_need_star(kind) || !r->entry[i].engine->needs_star)
+        if (space_rays_need_star((int)kind) || !r->entry[i].engine->needs_star)
             r->entry[kept++] = r->entry[i];
     r->entries = kept;
 }

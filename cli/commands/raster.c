@@ -266,7 +266,7 @@ static int raster_write(const raster_settings *s, const char *path, raster_work 
                              .crs = w->mesh.crs ? w->mesh.crs : w->like.crs,
                              .driver = s->driver,
                              .creation = s->creation};
-    int end = raster_scan_create(&w->scan, w->mesh.locator, w->mesh.mesh, g);
+    int end = raster_scan_create(&w->scan, w->mesh.locator, w->mesh.mesh, g, s->common.threads);
     if (end == 0) end = gdal_raster_create(&w->raster, s->common.output, &form);
     b->mesh = &w->mesh;
     b->grid = g;

@@ -277,11 +277,15 @@ static MW_INLINE mw_ray_search *ray_source_next(const mw_ray_source *source, mw_
     return s;
 }
 
+/* A search that is alone asks at once for all that it may visit. */
 static MW_INLINE void ray_search_finish(mw_ray_search *s, mw_ray_visit *visit,
                                         mw_lanes_above *above)
 {
-    do ray_search_visit(s, visit);
-    while (ray_search_descend(s, above));
+    do {
+        ray_search_visit(s, visit);
+        for (uint32_t i = s->floor; i < s->stack.count; i++)
+            ray_search_prefetch_node(s, s->stack.node[i]);
+    } while (ray_search_descend(s, above));
 }
 
 /* Searches take turns; one that has ended makes room for the next. */

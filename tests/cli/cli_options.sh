@@ -26,6 +26,8 @@ run help raster all; exits 0; cp "$logs/out" "$logs/first"
 run raster --help all; holds "help raster all is that with all" cmp -s "$logs/out" "$logs/first"
 run help rastre; refused 2 "unknown command 'rastre'; did you mean 'raster'"
 run --help; exits 0; says_nothing
+all_commands=$(<"$logs/out")
+run -h; exits 0; says_nothing; prints "$all_commands"
 for c in "${commands[@]}"; do prints_line "^  $c "; done
 for c in "${commands[@]}"; do
     for option in --help -h '--help all' '-h all' --help=all; do

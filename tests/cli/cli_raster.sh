@@ -89,6 +89,17 @@ run raster -q random.ply -o one.img --driver ENVI --resolution 0.05 --threads 1;
 run raster -q random.ply -o many.img --driver ENVI --resolution 0.05 --threads 7; exits 0
 holds "one thread or seven" cmp -s one.img many.img
 
+# Neither on triangles beyond the rows, nor on those that reach into many strips of rows.
+run raster -q random.ply -o all.img --driver ENVI --resolution 0.125 --extent 0,0,100,100; exits 0
+run raster -q random.ply -o part.img --driver ENVI --resolution 0.125 \
+    --extent 20,30,60,50 --threads 3
+exits 0
+holds "a part of the raster" cmp -s part.img <(
+    perl -e 'local $/; open my $h, "<:raw", "all.img" or die; my $p = <$h>;
+        print substr $p, 4 * (800 * $_ + 160), 1280 for 400 .. 559')
+run raster -q square.off -o tall.img --driver ENVI --resolution 0.001 --threads 3; exits 0
+holds "triangles that are in all strips" test "$(raw f tall.img | sort -u | grep -c empty)" == 0
+
 # The grid.
 run raster random.ply -o out.tif
 exits 0
@@ -179,6 +190,15 @@ for output in out.asc out.png out.bil; do
     run raster square.off -o $output --resolution 0.25 --derive hillshade; exits 0; says_nothing
 done
 holds "text" grep -q '^ncols *4' out.asc
+# Rows that are blocks of the file, and a format that is copied from such a file.
+wide=(random.ply -q --resolution 0.04 --extent 0,40,100,42 --nodata -9999)
+run raster "${wide[@]}" -o wide.asc; exits 0
+run raster "${wide[@]}" -o wide.img --driver ENVI; exits 0
+tail -n +7 wide.asc | tr -s ' ' '\n' | grep . >wide.txt
+holds "a wide raster as text" same_text <(as_floats <wide.txt) <(raw f wide.img)
+run raster "${wide[@]}" -o wide.tif; exits 0
+holds "the rows of a GeoTIFF" perl -e 'local $/; open my $t, "<:raw", "wide.tif";
+    open my $i, "<:raw", "wide.img"; exit(index(<$t>, <$i>) < 0)'
 run raster square.off -o out.tif --creation COMPRESS=DEFLATE,TILED=YES; exits 0
 run raster square.off -o bad.tif --creation COMPRESS=NO_SUCH; refused 4 'bad\.tif: GDAL says: '
 absent bad.tif

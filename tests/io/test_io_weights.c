@@ -121,7 +121,7 @@ static void test_npz(void **state)
 
 /* zeta(time, node) as floats with a missing value, temp(time, layer, node) packed, node's own h;
  * time, the depths of layers, and days that no field has. */
-static void write_fields(const char *path)
+static void write_fields(const char *path, size_t steps)
 {
     mw_netcdf_output *out;
     mw_error error;
@@ -144,7 +144,7 @@ static void write_fields(const char *path)
     mw__netcdf_output_number(out, temp, "scale_factor", MW_NETCDF_DOUBLE, 0.5);
     mw__netcdf_output_number(out, temp, "add_offset", MW_NETCDF_DOUBLE, 10);
     mw__netcdf_output_defined(out);
-    for (size_t t = 0; t < 10; t++) {
+    for (size_t t = 0; t < steps; t++) {
         const double at = (double)t, z[4] = {at, at + 4, t == 9 ? -999 : 2 * at, t == 8 ? -999 : 0},
                      p[8] = {4 * at, 0, 6, 0, 0, 0, -2, 8};
         mw__netcdf_output_doubles(out, hours, &t, (size_t[]){1}, &at);
@@ -204,7 +204,7 @@ static void test_apply(void **state)
     mw_error error;
     mw_apply_weights_info info;
     write_example("w.nc", true);
-    write_fields("f.nc");
+    write_fields("f.nc", 10);
     if (mw_apply_weights("w.nc", "f.nc", "o.nc", NULL, &info, &error))
         fail_msg("%s", error.message);
     assert_int_equal(info.fields, 3);
@@ -224,6 +224,11 @@ static void test_apply(void **state)
     assert_int_equal(mw_apply_weights("w.nc", "f.nc", "o.nc", &one, &info, &error), MW_OK);
     assert_int_equal(info.fields, 1);
     expect_axes("o.nc", true, false);
+    write_fields("empty.nc", 0); /* no time yet */
+    if (mw_apply_weights("w.nc", "empty.nc", "p.nc", NULL, &info, &error))
+        fail_msg("%s", error.message);
+    assert_int_equal(info.fields, 3);
+    assert_int_equal(info.slabs, 1);
     double positions[3];
     numbers_read("o.nc", "point_y", 3, positions);
     assert_true(positions[0] == 10 && positions[2] == 12);
@@ -306,7 +311,7 @@ static void test_wrong_fields(void **state)
                                    rule = {.missing = (mw_missing_rule)7},
                                    reserved = {.reserved = {1}};
     write_example("w.nc", false);
-    write_fields("f.nc");
+    write_fields("f.nc", 10);
     assert_int_equal(mw_apply_weights("w.nc", "f.nc", "o.nc", &two, NULL, &error), MW_ERROR_INPUT);
     assert_non_null(strstr(error.message, "salt"));
     assert_int_equal(mw_apply_weights("w.nc", "f.nc", "o.nc", &axis, NULL, &error), MW_ERROR_INPUT);
