@@ -70,6 +70,15 @@ static int main_unknown_command(const char *word)
     return END_USAGE;
 }
 
+/* 'help', 'help COMMAND' and 'help COMMAND all': as other programs have it. */
+static int main_help(char **words)
+{
+    char wanted[] = "--help", *arguments[] = {wanted, words[0] ? words[1] : NULL, NULL};
+    if (!words[0]) return main_print_help();
+    const command *c = program_find(commands, COMMAND_COUNT, words[0]);
+    return c ? program_run(c, arguments) : main_unknown_command(words[0]);
+}
+
 /* Open closed standard streams on /dev/null. Else the next file that is opened would take the
  * number of one, and output or messages would go into that file. They are opened the wrong way
  * round: to read or to write the stream is an error, as it is where it is closed. */
@@ -90,6 +99,7 @@ static int main_run_arguments(int count, char **arguments)
     const char *word = arguments[1];
     if (strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0) return main_print_help();
     if (strcmp(word, "--version") == 0) return main_print_version();
+    if (strcmp(word, "help") == 0) return main_help(arguments + 2);
     const command *c = program_find(commands, COMMAND_COUNT, word);
     return c ? program_run(c, arguments + 2) : main_unknown_command(word);
 }

@@ -35,7 +35,7 @@ _meshwalk_options() {
             echo "--centre --lonlat --open --remesh --onto --deviation --format --nodata --walk --start --finish --sample --cells --levels --borrow --columns $stream $common"
             ;;
         probe)
-            echo "--max-distance --certain --extent --faces --min-distance --inside --start --guide --samples --iterations --race --weld --any --columns $stream $common"
+            echo "--max-distance --certain --extent --faces --min-distance --inside --all --one-per-place --nearest --start --guide --samples --iterations --race --weld --any --columns $stream $common"
             ;;
         walk) echo "--from --to --walk --animate --plane --grid --cells --max-distance --samples --iterations --as --centre --lonlat --weld $common" ;;
         convert) echo "--format --crs $common" ;;

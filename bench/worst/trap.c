@@ -46,6 +46,14 @@ static const trap_entry traps[] = {
     {"edges", "at rounded middles of edges", trap_in_plane, trap_uniform, TRAP_ON_EDGES, 0, 0},
     {"clusters-grid", "clusters, queries at their points, start grid", trap_in_plane, trap_clusters,
      TRAP_ON_VERTICES, MW_START_GRID, 0},
+    {"few-cluster", "one point in 100 in a tiny disc, queries there", trap_in_plane,
+     trap_few_cluster, 0, 0, 0},
+    {"few-graded", "in two rows that shrink by 2^36, queries there", trap_in_plane, trap_few_graded,
+     0, 0, 0},
+    {"few-comb", "in two rows of equal steps, queries there", trap_in_plane, trap_few_comb, 0, 0,
+     0},
+    {"few-wheel", "round one point, queries there", trap_in_plane, trap_few_wheel, 0, 0, 0},
+    {"few-wheels", "round eight points, queries there", trap_in_plane, trap_few_wheels, 0, 0, 0},
     {"pole", "a star-shaped polyhedron with two poles", trap_of_star, NULL, 0, 0, 0},
     {"editor-hub", "queries on the hub of an edited wheel", trap_in_editor, trap_half_fan, 0, 0, 0},
     {"equal-probe", "a certain probe of equal triangles", trap_of_probe, NULL, 0, 0, LAYERS_EQUAL},
@@ -145,6 +153,7 @@ static int trap_take_times(trap_clock *c, const trap_plan *plan, trap_figures *f
 typedef struct trap_scene {
     const trap_entry *trap;
     mw_mesh *mesh;
+    size_t first_few; /* as of the trap_mesh */
     mw_editor *editor;
     const mw_locator *locator;
     mw_locator *own; /* NULL with an editor */
@@ -165,14 +174,16 @@ static void trap_scene_release(trap_scene *s)
     free(s->locations);
 }
 
-static int trap_make_mesh(const trap_entry *trap, const trap_plan *plan, mw_mesh **mesh)
+static int trap_make_mesh(const trap_entry *trap, const trap_plan *plan, trap_scene *s)
 {
+    mw_mesh **mesh = &s->mesh;
     mw_error error;
     trap_mesh m;
     if (!trap->make(&m, plan->vertices, plan->seed)) {
         trap_mesh_release(&m);
         return fail_memory();
     }
+    s->first_few = m.first_few;
     mw_arrays arrays = {.points = m.points,
                         .point_count = m.point_count,
                         .triangles = m.triangles,
@@ -237,7 +248,8 @@ static int trap_scene_measure(trap_scene *s, const trap_plan *plan, trap_figures
     s->queries = malloc(2 * n * sizeof *s->queries);
     s->locations = malloc(n * sizeof *s->locations);
     if (!s->queries || !s->locations) return fail_memory();
-    trap_draw(s->mesh, s->trap->position, s->queries, n, plan->seed);
+    if (!trap_draw(s->mesh, s->first_few, s->trap->position, s->queries, n, plan->seed))
+        return fail_memory();
     for (size_t i = 0; i < 2 * n && s->editor; i++) s->queries[i] = 0; /* where the hub is */
     mw_locator_describe(s->locator, &info);
     f->bytes = (double)info.bytes;
@@ -253,7 +265,7 @@ static int trap_in_plane(const trap_entry *trap, const trap_plan *plan, trap_fig
     trap_scene s = {.trap = trap};
     mw_error error;
     mw_locator_options options = {.threads = 1};
-    int end = trap_make_mesh(trap, plan, &s.mesh);
+    int end = trap_make_mesh(trap, plan, &s);
     double begin = monotonic_seconds();
     if (end == 0 && mw_locator_create(s.mesh, &options, &s.own, &error))
         end = trap_fail(trap, &error);
@@ -271,7 +283,7 @@ static int trap_in_editor(const trap_entry *trap, const trap_plan *plan, trap_fi
     trap_scene s = {.trap = trap};
     mw_error error;
     mw_editor_options options = {.threads = 1};
-    int end = trap_make_mesh(trap, plan, &s.mesh);
+    int end = trap_make_mesh(trap, plan, &s);
     double begin = monotonic_seconds();
     if (end == 0 && mw_editor_create(s.mesh, &options, &s.editor, &error))
         end = trap_fail(trap, &error);

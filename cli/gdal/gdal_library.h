@@ -49,6 +49,8 @@ void gdal_library_end(void);
     F(GDALSetRasterNoDataValue)                                                                    \
     F(GDALGetRasterNoDataValue)                                                                    \
     F(GDALRasterIO)                                                                                \
+    F(GDALWriteBlock)                                                                              \
+    F(GDALGetBlockSize)                                                                            \
     F(GDALSetDescription)                                                                          \
     F(GDALGetRasterOffset)                                                                         \
     F(GDALGetRasterScale)                                                                          \

@@ -42,6 +42,21 @@ for m in m.mwm b.mwm; do
     run convert -q m.ply there.ply; exits 0
     holds "the mesh comes back" cmp -s back.ply there.ply
 done
+# Rasters, too, where the program was built with GDAL.
+for c in '--type float64' '--field depth' '--derive slope,triangle' '--outside nearest' \
+    '--max-edge 3.5' '--mean'; do
+    # shellcheck disable=SC2086 # words
+    run raster -q m.ply --resolution 0.4 $c --driver ENVI -o wanted.img
+    grep -Eq 'built with GDAL|cannot be loaded' "$logs/err" && break
+    exits 0
+    for m in m.mwm b.mwm; do
+        # shellcheck disable=SC2086 # words
+        run raster "$m" --resolution 0.4 $c --driver ENVI -o out.img; exits 0; says_nothing
+        holds "raster $c of $m is that of the mesh" cmp -s out.img wanted.img
+        holds "its coordinate system is that of the mesh" cmp -s <(sed '/^desc/,/}/d' out.hdr) \
+            <(sed '/^desc/,/}/d' wanted.hdr)
+    done
+done
 cp m.mwm hidden
 run locate -q hidden q.csv; exits 0
 gzip -kf m.mwm

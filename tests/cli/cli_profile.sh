@@ -134,7 +134,8 @@ printf '3 2 0 0\n1 1 2\n2 3 2\n3 9 9\n2 0\n1 1 2\n2 2 3\n0\n' >lines.poly
 run profile -q gap.off lines.poly; exits 0; prints_line '^[0-9]+,0,1,2,2,20,0,edge$'
 
 # What is refused.
-run_on $'x,y\n1,1\n,2\n' profile gap.off -; refused 3 'a point of the line has no finite x and y'
+run_on $'x,y\n1,1\n,2\n' profile gap.off -
+refused 3 'standard input: point 2 of the line has no finite x and y'
 run_on $'x,y\n' profile gap.off -; refused 3 'standard input: there are no lines in it'
 run_on $'x,y\n1,1\n2,2\n' profile --field depth gap.off -; refused 3 "has no field 'depth'"
 run_on $'x,y\n1,1\n2,2\n' profile --attribute name gap.off -
