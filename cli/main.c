@@ -5,6 +5,7 @@
 #include "cli/frame/message.h"
 #include "cli/frame/program.h"
 #include "cli/frame/spelling.h"
+#include "cli/gdal/gdal_library.h"
 #include "cli/version.h"
 #include "src/base/posix.h"
 
@@ -69,6 +70,15 @@ static int main_unknown_command(const char *word)
     return END_USAGE;
 }
 
+/* 'help', 'help COMMAND' and 'help COMMAND all': as other programs have it. */
+static int main_help(char **words)
+{
+    char wanted[] = "--help", *arguments[] = {wanted, words[0] ? words[1] : NULL, NULL};
+    if (!words[0]) return main_print_help();
+    const command *c = program_find(commands, COMMAND_COUNT, words[0]);
+    return c ? program_run(c, arguments) : main_unknown_command(words[0]);
+}
+
 /* Open closed standard streams on /dev/null. Else the next file that is opened would take the
  * number of one, and output or messages would go into that file. They are opened the wrong way
  * round: to read or to write the stream is an error, as it is where it is closed. */
@@ -89,13 +99,16 @@ static int main_run_arguments(int count, char **arguments)
     const char *word = arguments[1];
     if (strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0) return main_print_help();
     if (strcmp(word, "--version") == 0) return main_print_version();
+    if (strcmp(word, "help") == 0) return main_help(arguments + 2);
     const command *c = program_find(commands, COMMAND_COUNT, word);
-    return c ? program_run(c, count - 2, arguments + 2) : main_unknown_command(word);
+    return c ? program_run(c, arguments + 2) : main_unknown_command(word);
 }
 
 int main(int count, char **arguments)
 {
     standard_streams_fill();
     signal(SIGPIPE, SIG_IGN); /* a closed pipe is then an error of the output */
-    return main_run_arguments(count, arguments);
+    int end = main_run_arguments(count, arguments);
+    gdal_library_end();
+    return end;
 }

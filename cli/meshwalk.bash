@@ -12,8 +12,8 @@ _meshwalk_options() {
         check) echo "--fix --tolerance --numbers --format --as --centre --lonlat --weld --json $common" ;;
         triangulate) echo "--constraints --boundary --keep --split --strict --max-edge --from --tolerance --band --kind --weight --hidden --limit --format --columns --class --layer --where --crs --points-crs --constraints-crs --json $common" ;;
         locate) echo "--details --base --polygons --attribute --polygon-layer $query $stream $common" ;;
-        sample) echo "--field --outside --missing --nodata --status --as --centre --lonlat --time --values --time-column --wide --recover $query $stream $common" ;;
-        weights) echo "$query --method --values --norm --strict --stats --json --layer --where $common" ;;
+        sample) echo "--field --outside --missing --nodata --status --as --centre --lonlat --open --time --values --time-column --wide --recover $query $stream $common" ;;
+        weights) echo "$query --method --values --norm --lonlat --open --strict --stats --json --layer --where $common" ;;
         apply) echo "--field --missing --strict --stats --json $common" ;;
         contours) echo "--interval --levels --base --polygons --field --nodata --crs $common" ;;
         drape) echo "--field --nodata --outside-z --attribute --layer --columns --crs --lines-crs --strict $common" ;;
@@ -32,10 +32,10 @@ _meshwalk_options() {
             echo "--start --cells --layers --descent --format --stats --json $common"
             ;;
         star)
-            echo "--centre --lonlat --remesh --onto --deviation --format --nodata --walk --start --finish --sample --cells --levels --borrow --columns $stream $common"
+            echo "--centre --lonlat --open --remesh --onto --deviation --format --nodata --walk --start --finish --sample --cells --levels --borrow --columns $stream $common"
             ;;
         probe)
-            echo "--max-distance --certain --extent --faces --min-distance --inside --start --guide --samples --iterations --race --weld --any --columns $stream $common"
+            echo "--max-distance --certain --extent --faces --min-distance --inside --all --one-per-place --nearest --start --guide --samples --iterations --race --weld --any --columns $stream $common"
             ;;
         walk) echo "--from --to --walk --animate --plane --grid --cells --max-distance --samples --iterations --as --centre --lonlat --weld $common" ;;
         convert) echo "--format --crs $common" ;;

@@ -64,8 +64,10 @@ install(FILES ${PROJECT_BINARY_DIR}/meshwalkConfig.cmake
   DESTINATION ${package_dir})
 
 # pkg-config: the static library's own needs stand in Libs.private. The prefix is found from the
-# place of the file.
+# place of the file. The folders may be given relative to it, or as whole paths.
 file(RELATIVE_PATH pc_prefix ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
+file(RELATIVE_PATH pc_libdir ${CMAKE_INSTALL_PREFIX} ${CMAKE_INSTALL_FULL_LIBDIR})
+file(RELATIVE_PATH pc_includedir ${CMAKE_INSTALL_PREFIX} ${CMAKE_INSTALL_FULL_INCLUDEDIR})
 set(pc_private "-lm")
 if(MW_WITH_ZLIB)
   string(PREPEND pc_private "-lz ")

@@ -227,7 +227,8 @@ static void run_drop_stars(space_run *r, space_rays_kind kind)
 {
     size_t kept = 0;
     for (size_t i = 0; i < r->entries; i++)
-        if (kind == SPACE_CENTRE || !r->entry[i].engine->needs_star) r->entry[kept++] = r->entry[i];
+        if (space_rays_need_star((int)kind) || !r->entry[i].engine->needs_star)
+            r->entry[kept++] = r->entry[i];
     r->entries = kept;
 }
 
@@ -311,7 +312,7 @@ static int run_tasks(space_run *r)
 {
     int end = run_build(r);
     for (int kind = 0; kind < SPACE_RAYS_KINDS && end == 0; kind++) {
-        bool can = kind != SPACE_CENTRE || r->model->is_star;
+        bool can = !space_rays_need_star(kind) || r->model->is_star;
         if (can && (r->plan->tasks >> (SPACE_TASK_RAYS + kind) & 1))
             end = run_cast(r, (space_rays_kind)kind);
     }

@@ -20,7 +20,7 @@ typedef struct space_engine {
     const char *name;
     const char *casts[SPACE_WAYS + 1];   /* names of the ways to cast, up to NULL */
     const char *follows[SPACE_WAYS + 1]; /* and of those to follow moved vertices */
-    bool needs_star;                     /* casts SPACE_CENTRE only */
+    bool needs_star;                     /* casts from the centre only */
     bool is_first;                       /* answers with any triangle, not only the nearest */
     size_t most_rays, most_triangles;    /* 0: any number; a slow one takes no more */
     /* The version of the library; NULL if it is not there. */

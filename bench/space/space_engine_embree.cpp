@@ -188,7 +188,8 @@ double cast(void *self, unsigned way, const space_rays *rays, space_rays_kind ki
     RTCScene scene = static_cast<Scene *>(self)->answering();
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    if (kind == SPACE_STREAM) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    if (kind == SPACE_STREAM || kind == SPACE_SWEEP)
+        context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     Stopwatch watch;
     if (way == single)
         cast_single(scene, context, rays, found);

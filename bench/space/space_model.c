@@ -105,7 +105,7 @@ static double model_middle(const space_model *m, double middle[3])
 
 const char *space_rays_name(int kind)
 {
-    static const char *const names[SPACE_RAYS_KINDS] = {"centre", "random", "stream"};
+    static const char *const names[SPACE_RAYS_KINDS] = {"centre", "random", "stream", "sweep"};
     return kind >= 0 && kind < SPACE_RAYS_KINDS ? names[kind] : NULL;
 }
 
@@ -159,6 +159,19 @@ static void ray_draw_stream(double *ray, const space_model *m, size_t i, size_t 
     ray_set(ray, from, through, half);
 }
 
+/* Ray i of circles round the z axis, from above down, to and fro: each covers as much of the
+ * sphere. There are half as many circles as rays in one. */
+static void ray_draw_sweep(double *ray, size_t i, size_t n, double size)
+{
+    static const double origin[3];
+    size_t columns = (size_t)ceil(sqrt(2 * (double)n)), rows = (n + columns - 1) / columns,
+           row = i / columns, column = row % 2 ? columns - 1 - i % columns : i % columns;
+    double z = 1 - 2 * ((double)row + 0.5) / (double)rows, radius = sqrt(1 - z * z),
+           turn = 2 * acos(-1) * ((double)column + 0.5) / (double)columns;
+    double through[3] = {size * radius * cos(turn), size * radius * sin(turn), size * z};
+    ray_set(ray, origin, through, size);
+}
+
 bool space_rays_draw(space_rays *r, const space_model *m, space_rays_kind kind, size_t n,
                      uint64_t seed)
 {
@@ -174,6 +187,8 @@ bool space_rays_draw(space_rays *r, const space_model *m, space_rays_kind kind, 
             ray_draw_centre(ray, half, &random);
         else if (kind == SPACE_RANDOM)
             ray_draw_random(ray, m, &random);
+        else if (kind == SPACE_SWEEP)
+            ray_draw_sweep(ray, i, n, half);
         else
             ray_draw_stream(ray, m, i, side);
     }

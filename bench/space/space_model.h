@@ -35,10 +35,15 @@ typedef enum space_rays_kind {
     SPACE_CENTRE, /* from the origin, in random directions; of star-shaped models */
     SPACE_RANDOM, /* from random points round the model to random points of its box */
     SPACE_STREAM, /* from one point, line by line over a picture of the model */
+    SPACE_SWEEP,  /* from the origin, line by line round it; of star-shaped models */
     SPACE_RAYS_KINDS
 } space_rays_kind;
 
 const char *space_rays_name(int kind);
+static inline bool space_rays_need_star(int kind)
+{
+    return kind == SPACE_CENTRE || kind == SPACE_SWEEP;
+}
 
 /* Rays from q along m: x, y, z of q, then of m, which is the difference to a point through which
  * the ray goes, without rounding. So q, q + m and a third and fourth point have an exact

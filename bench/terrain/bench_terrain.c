@@ -1,7 +1,8 @@
 /* bench terrain: rasters and contours of a made terrain, beside the programs that people use. Each
  * way is a whole command, from file to file, but for `write`.
- *   raster    a GeoTIFF from a TIN; `write` writes the same pixels from memory; gmt triangulates
- *             its points and writes its own format; gdal_grid triangulates its points, too
+ *   raster    a GeoTIFF from a TIN in PLY, and from the same TIN in a prepared file; `write` writes
+ *             the same pixels from memory; gmt triangulates its points and writes its own format;
+ *             gdal_grid triangulates its points, too
  *   contours  lines of about fifty levels: of the TIN, and of a raster of as many pixels as the TIN
  *             has triangles
  * One row for each way; the first way of a task is what its others are compared with. */
@@ -23,7 +24,7 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { ROUNDS = 3, MOST_WAYS = 4, MOST_WORDS = 24, FEWEST_VERTICES = 100 };
+enum { ROUNDS = 3, MOST_WAYS = 5, MOST_WORDS = 24, FEWEST_VERTICES = 100 };
 enum { LEVELS = 50, PIXELS = 100000000, WORD_LENGTH = 64 };
 
 /* A way to do a task. */
@@ -41,15 +42,26 @@ typedef struct terrain_run {
     char numbers[6][WORD_LENGTH]; /* words that depend on the sizes */
     const terrain_way *ways[MOST_WAYS];
     size_t way_count;
-    float *pixels; /* a block of rows, for `write` */
+    float *pixels;  /* a block of rows, for `write` */
+    uint32_t tasks; /* a set */
     text table;
 } terrain_run;
+
+enum { TASK_CONTOURS, TASK_RASTER, TASKS };
+
+static const char *terrain_task_name(int i)
+{
+    return (const char *[]){"contours", "raster", NULL}[i];
+}
+static const choices terrain_task_choices = {"task", terrain_task_name, NULL};
 
 /* --- writing from memory ---------------------------------------------------------------------- */
 
 enum { WRITE_ROWS = 256 };
 
-/* The pixels of the raster are written block by block; the block is the same memory each time. */
+/* The pixels of the raster are written to the same folder, as `meshwalk raster` writes them:
+ * floats, not packed, a row to a block. They come from the same rows of memory each time, and GDAL
+ * is loaded already. */
 static int terrain_write(terrain_run *r, command_time *time)
 {
     static const char *const names[] = {"z"};
@@ -155,6 +167,11 @@ static const terrain_way raster_ways[] = {
      {"meshwalk", "raster", "-q", "tin.ply", "--resolution", "%0", "--extent", "%1", "-o",
       "meshwalk.tif"},
      "meshwalk.tif"},
+    {"meshwalk prepared",
+     NULL,
+     {"meshwalk", "raster", "-q", "tin.mwm", "--resolution", "%0", "--extent", "%1", "-o",
+      "prepared.tif"},
+     "prepared.tif"},
     {"write", NULL, {NULL}, "written.tif"},
     {"gmt triangulate -G",
      "gmt",
@@ -207,10 +224,10 @@ static int terrain_run_tasks(terrain_run *r, size_t vertices)
     for (size_t i = 0; end == 0 && i < r->side * WRITE_ROWS; i++)
         r->pixels[i] = (float)terrain_height((double)(i % r->side), (double)(i / r->side));
     terrain_set_numbers(r);
-    if (end == 0)
+    if (end == 0 && r->tasks >> TASK_CONTOURS & 1)
         end = terrain_measure(r, "contours", contour_ways,
                               sizeof contour_ways / sizeof *contour_ways);
-    if (end == 0)
+    if (end == 0 && r->tasks >> TASK_RASTER & 1)
         end = terrain_measure(r, "raster", raster_ways, sizeof raster_ways / sizeof *raster_ways);
     free(r->pixels);
     return end;
@@ -219,7 +236,7 @@ static int terrain_run_tasks(terrain_run *r, size_t vertices)
 static int terrain_check_settings(const bench_settings *s, const char *table)
 {
     if (table || s->enclose != ENCLOSE_AUTO || s->no_times || s->data || s->plot || s->engines ||
-        s->tasks || s->format == FORMAT_JSON) {
+        s->format == FORMAT_JSON) {
         complain("bench terrain makes its own terrain, runs all programs that are there, and "
                  "prints times with --format table or tsv");
         return END_USAGE;
@@ -229,9 +246,10 @@ static int terrain_check_settings(const bench_settings *s, const char *table)
 
 int bench_terrain(const bench_settings *s, const char *table)
 {
-    terrain_run r = {.settings = s};
+    terrain_run r = {.settings = s, .tasks = (UINT32_C(1) << TASKS) - 1};
     size_list sizes = {{1000000}, 1};
     int end = terrain_check_settings(s, table);
+    if (end == 0 && s->tasks) end = word_list_names(s->tasks, &terrain_task_choices, &r.tasks);
     if (end == 0 && s->sizes) end = word_list_sizes(s->sizes, &sizes);
     if (end == 0) end = files_try_output(s->common.output, NULL);
     if (end == 0) end = gdal_raster_check("bench.tif", NULL);

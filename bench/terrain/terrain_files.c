@@ -89,6 +89,19 @@ static int terrain_write_points(const char *folder, const double *xyz, size_t co
     return end;
 }
 
+static int terrain_write_prepared(const char *folder, const mw_mesh *mesh, const mw_mesh_file *file)
+{
+    mw_error error;
+    mw_locator *locator;
+    char name[4096];
+    const mw_prepare_options options = {.values = file};
+    snprintf(name, sizeof name, "%s/tin.mwm", folder);
+    if (mw_locator_create(mesh, NULL, &locator, &error) != MW_OK) return fail_query(&error);
+    mw_status status = mw_write_prepared(locator, name, &options, &error);
+    mw_locator_destroy(locator);
+    return status == MW_OK ? 0 : fail_writing(&error);
+}
+
 static int terrain_write_mesh(const char *folder, const mw_mesh *mesh, double *xyz)
 {
     mw_error error;
@@ -103,8 +116,10 @@ static int terrain_write_mesh(const char *folder, const mw_mesh *mesh, double *x
         mw_mesh_triangle(mesh, t, file.triangles + (size_t)3 * t);
     snprintf(name, sizeof name, "%s/tin.ply", folder);
     mw_status status = mw_write_mesh(name, &file, NULL, NULL, &error);
+    int end = status == MW_OK ? 0 : fail_writing(&error);
+    if (end == 0) end = terrain_write_prepared(folder, mesh, &file);
     free(file.triangles);
-    return status == MW_OK ? 0 : fail_writing(&error);
+    return end;
 }
 
 int terrain_write_tin(const char *folder, size_t vertices, uint64_t seed, size_t *triangles)

@@ -11,41 +11,59 @@
 typedef struct trap_entry trap_entry;
 typedef int trap_kind(const trap_entry *trap, const trap_plan *plan, trap_figures *figures);
 
+/* How the triangles of a probe lie. */
+typedef enum trap_layers {
+    LAYERS_EQUAL,
+    LAYERS_TURNED, /* one half of them faces the probe, one begins at another corner, or both */
+    LAYERS_NEAR    /* one behind the other, as near as doubles can be */
+} trap_layers;
+
 struct trap_entry {
     const char *name, *help;
     trap_kind *kind;
     trap_mesh_make *make;
     trap_position position;
     mw_start_kind start;
+    trap_layers layers;
 };
 
 static trap_kind trap_in_plane, trap_in_editor, trap_of_star, trap_of_probe, trap_of_delaunay,
     trap_of_segments;
 
 static const trap_entry traps[] = {
-    {"strip-30", "steps that shrink by 2^30 along a strip", trap_in_plane, trap_strip_30, 0, 0},
-    {"strip-300", "by 2^300", trap_in_plane, trap_strip_300, 0, 0},
-    {"strip-2000", "by 2^2000", trap_in_plane, trap_strip_2000, 0, 0},
-    {"fan", "all triangles at one vertex, far away", trap_in_plane, trap_fan, 0, 0},
-    {"half-fan", "half a wheel", trap_in_plane, trap_half_fan, 0, 0},
-    {"hubs", "a row of vertices between two hubs", trap_in_plane, trap_hubs, 0, 0},
-    {"rings", "squares round one another", trap_in_plane, trap_rings, 0, 0},
-    {"extent-1e-150", "uniform points, multiplied", trap_in_plane, trap_tiny, 0, 0},
-    {"extent-1e-290", "the same", trap_in_plane, trap_tinier, 0, 0},
-    {"extent-1e250", "the same", trap_in_plane, trap_huge, 0, 0},
+    {"strip-30", "steps that shrink by 2^30 along a strip", trap_in_plane, trap_strip_30, 0, 0, 0},
+    {"strip-300", "by 2^300", trap_in_plane, trap_strip_300, 0, 0, 0},
+    {"strip-2000", "by 2^2000", trap_in_plane, trap_strip_2000, 0, 0, 0},
+    {"fan", "all triangles at one vertex, far away", trap_in_plane, trap_fan, 0, 0, 0},
+    {"half-fan", "half a wheel", trap_in_plane, trap_half_fan, 0, 0, 0},
+    {"hubs", "a row of vertices between two hubs", trap_in_plane, trap_hubs, 0, 0, 0},
+    {"rings", "squares round one another", trap_in_plane, trap_rings, 0, 0, 0},
+    {"extent-1e-150", "uniform points, multiplied", trap_in_plane, trap_tiny, 0, 0, 0},
+    {"extent-1e-290", "the same", trap_in_plane, trap_tinier, 0, 0, 0},
+    {"extent-1e250", "the same", trap_in_plane, trap_huge, 0, 0, 0},
     {"vertices", "uniform points, queries at them", trap_in_plane, trap_uniform, TRAP_ON_VERTICES,
-     0},
-    {"edges", "at rounded middles of edges", trap_in_plane, trap_uniform, TRAP_ON_EDGES, 0},
+     0, 0},
+    {"edges", "at rounded middles of edges", trap_in_plane, trap_uniform, TRAP_ON_EDGES, 0, 0},
     {"clusters-grid", "clusters, queries at their points, start grid", trap_in_plane, trap_clusters,
-     TRAP_ON_VERTICES, MW_START_GRID},
-    {"pole", "a star-shaped polyhedron with two poles", trap_of_star, NULL, 0, 0},
-    {"editor-hub", "queries on the hub of an edited wheel", trap_in_editor, trap_half_fan, 0, 0},
-    {"equal-probe", "a certain probe of equal triangles", trap_of_probe, NULL, 0, 0},
-    {"delaunay-1e-300", "triangulating uniform points, multiplied", trap_of_delaunay, trap_least, 0,
+     TRAP_ON_VERTICES, MW_START_GRID, 0},
+    {"few-cluster", "one point in 100 in a tiny disc, queries there", trap_in_plane,
+     trap_few_cluster, 0, 0, 0},
+    {"few-graded", "in two rows that shrink by 2^36, queries there", trap_in_plane, trap_few_graded,
+     0, 0, 0},
+    {"few-comb", "in two rows of equal steps, queries there", trap_in_plane, trap_few_comb, 0, 0,
      0},
-    {"delaunay-5e-324", "multiples of the least double", trap_of_delaunay, trap_denormal, 0, 0},
-    {"delaunay-circle", "rounded points of a circle", trap_of_delaunay, trap_circle, 0, 0},
-    {"overlapping", "constraints along one line", trap_of_segments, NULL, 0, 0},
+    {"few-wheel", "round one point, queries there", trap_in_plane, trap_few_wheel, 0, 0, 0},
+    {"few-wheels", "round eight points, queries there", trap_in_plane, trap_few_wheels, 0, 0, 0},
+    {"pole", "a star-shaped polyhedron with two poles", trap_of_star, NULL, 0, 0, 0},
+    {"editor-hub", "queries on the hub of an edited wheel", trap_in_editor, trap_half_fan, 0, 0, 0},
+    {"equal-probe", "a certain probe of equal triangles", trap_of_probe, NULL, 0, 0, LAYERS_EQUAL},
+    {"turned-probe", "the same, turned in six ways", trap_of_probe, NULL, 0, 0, LAYERS_TURNED},
+    {"near-probe", "the same, one ulp apart", trap_of_probe, NULL, 0, 0, LAYERS_NEAR},
+    {"delaunay-1e-300", "triangulating uniform points, multiplied", trap_of_delaunay, trap_least, 0,
+     0, 0},
+    {"delaunay-5e-324", "multiples of the least double", trap_of_delaunay, trap_denormal, 0, 0, 0},
+    {"delaunay-circle", "rounded points of a circle", trap_of_delaunay, trap_circle, 0, 0, 0},
+    {"overlapping", "constraints along one line", trap_of_segments, NULL, 0, 0, 0},
 };
 enum { TRAPS = sizeof traps / sizeof *traps };
 
@@ -135,6 +153,7 @@ static int trap_take_times(trap_clock *c, const trap_plan *plan, trap_figures *f
 typedef struct trap_scene {
     const trap_entry *trap;
     mw_mesh *mesh;
+    size_t first_few; /* as of the trap_mesh */
     mw_editor *editor;
     const mw_locator *locator;
     mw_locator *own; /* NULL with an editor */
@@ -155,14 +174,16 @@ static void trap_scene_release(trap_scene *s)
     free(s->locations);
 }
 
-static int trap_make_mesh(const trap_entry *trap, const trap_plan *plan, mw_mesh **mesh)
+static int trap_make_mesh(const trap_entry *trap, const trap_plan *plan, trap_scene *s)
 {
+    mw_mesh **mesh = &s->mesh;
     mw_error error;
     trap_mesh m;
     if (!trap->make(&m, plan->vertices, plan->seed)) {
         trap_mesh_release(&m);
         return fail_memory();
     }
+    s->first_few = m.first_few;
     mw_arrays arrays = {.points = m.points,
                         .point_count = m.point_count,
                         .triangles = m.triangles,
@@ -227,7 +248,8 @@ static int trap_scene_measure(trap_scene *s, const trap_plan *plan, trap_figures
     s->queries = malloc(2 * n * sizeof *s->queries);
     s->locations = malloc(n * sizeof *s->locations);
     if (!s->queries || !s->locations) return fail_memory();
-    trap_draw(s->mesh, s->trap->position, s->queries, n, plan->seed);
+    if (!trap_draw(s->mesh, s->first_few, s->trap->position, s->queries, n, plan->seed))
+        return fail_memory();
     for (size_t i = 0; i < 2 * n && s->editor; i++) s->queries[i] = 0; /* where the hub is */
     mw_locator_describe(s->locator, &info);
     f->bytes = (double)info.bytes;
@@ -243,7 +265,7 @@ static int trap_in_plane(const trap_entry *trap, const trap_plan *plan, trap_fig
     trap_scene s = {.trap = trap};
     mw_error error;
     mw_locator_options options = {.threads = 1};
-    int end = trap_make_mesh(trap, plan, &s.mesh);
+    int end = trap_make_mesh(trap, plan, &s);
     double begin = monotonic_seconds();
     if (end == 0 && mw_locator_create(s.mesh, &options, &s.own, &error))
         end = trap_fail(trap, &error);
@@ -261,7 +283,7 @@ static int trap_in_editor(const trap_entry *trap, const trap_plan *plan, trap_fi
     trap_scene s = {.trap = trap};
     mw_error error;
     mw_editor_options options = {.threads = 1};
-    int end = trap_make_mesh(trap, plan, &s.mesh);
+    int end = trap_make_mesh(trap, plan, &s);
     double begin = monotonic_seconds();
     if (end == 0 && mw_editor_create(s.mesh, &options, &s.editor, &error))
         end = trap_fail(trap, &error);
@@ -385,16 +407,25 @@ static int trap_probe(void *self, size_t n, bool alone)
     return 0;
 }
 
-/* A third as many triangles as vertices, all of them at one point. */
+/* Corner k of triangle i: the corners are (0, 0), (1, 0), (0, 1). */
+static void trap_layer_corner(trap_layers layers, size_t i, size_t k, double p[3])
+{
+    if (layers == LAYERS_TURNED) k = i % 2 ? (i + 3 - k) % 3 : (i + k) % 3;
+    p[0] = k == 1;
+    p[1] = k == 2;
+    p[2] = 1 + (layers == LAYERS_NEAR ? (double)i * 0x1p-52 : 0);
+}
+
+/* A third as many triangles as vertices, all of them at one place. */
 static int trap_make_equal(const trap_entry *trap, size_t n, mw_surface **surface)
 {
     size_t count = n / 3;
-    double *points = calloc(9 * count, sizeof *points);
+    double *points = malloc(9 * count * sizeof *points);
     uint32_t *triangles = malloc(3 * count * sizeof *triangles);
     int end = points && triangles ? 0 : fail_memory();
-    for (size_t i = 0; i < count && end == 0; i++) {
-        points[9 * i + 3] = points[9 * i + 7] = 1;
-        for (size_t k = 0; k < 3; k++) triangles[3 * i + k] = (uint32_t)(3 * i + k);
+    for (size_t i = 0; i < 3 * count && end == 0; i++) {
+        trap_layer_corner(trap->layers, i / 3, i % 3, &points[3 * i]);
+        triangles[i] = (uint32_t)i;
     }
     if (end == 0) end = trap_make_surface(trap, points, 3 * count, triangles, count, surface);
     free(points);
@@ -420,7 +451,7 @@ static int trap_of_probe(const trap_entry *trap, const trap_plan *plan, trap_fig
     for (size_t i = 0; i < n && end == 0; i++) {
         double *q = &s.queries[6 * i];
         for (int k = 0; k < 6; k++) q[k] = k < 3 ? 0.4 * dataset_unit(&random) : 0;
-        q[5] = 1;
+        q[5] = -1; /* against the fronts */
     }
     if (end == 0) end = trap_take_times(&(trap_clock){trap_probe, &s, n, {0}, NULL, NULL}, plan, f);
     trap_surface_release(&s);

@@ -211,13 +211,27 @@ static void trap_shares(trap_position position, uint64_t *random, double share[3
     }
 }
 
-void trap_draw(const mw_mesh *mesh, trap_position position, double *queries, size_t n,
+/* The triangles with a vertex from `first` on; NULL: no memory. */
+static uint32_t *trap_triangles_from(const mw_mesh *mesh, size_t first, double *count)
+{
+    const uint32_t all = mw_mesh_triangle_count(mesh);
+    uint32_t *triangle = malloc(all * sizeof *triangle), n = 0, v[3];
+    for (uint32_t t = 0; t < all && triangle; t++) {
+        mw_mesh_triangle(mesh, t, v);
+        if (v[0] >= first || v[1] >= first || v[2] >= first) triangle[n++] = t;
+    }
+    *count = n;
+    return triangle;
+}
+
+bool trap_draw(const mw_mesh *mesh, size_t first, trap_position position, double *queries, size_t n,
                uint64_t seed)
 {
-    double count = mw_mesh_triangle_count(mesh), share[3], corner[2];
-    for (size_t i = 0; i < n; i++) {
+    double count, share[3], corner[2];
+    uint32_t *triangle = trap_triangles_from(mesh, first, &count);
+    for (size_t i = 0; i < n && triangle; i++) {
         uint32_t v[3];
-        mw_mesh_triangle(mesh, (uint32_t)(dataset_unit(&seed) * count), v);
+        mw_mesh_triangle(mesh, triangle[(uint32_t)(dataset_unit(&seed) * count)], v);
         trap_shares(position, &seed, share);
         queries[2 * i] = queries[2 * i + 1] = 0;
         for (int k = 0; k < 3; k++) {
@@ -227,4 +241,7 @@ void trap_draw(const mw_mesh *mesh, trap_position position, double *queries, siz
             queries[2 * i + 1] += share[k] * corner[1];
         }
     }
+    const bool done = triangle != NULL;
+    free(triangle);
+    return done;
 }

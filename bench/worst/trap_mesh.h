@@ -13,6 +13,7 @@ typedef struct trap_mesh {
     double *points;
     uint32_t *triangles;
     size_t point_count, triangle_count;
+    size_t first_few; /* queries are in triangles with a point from this one on; 0: in all */
 } trap_mesh;
 
 /* Fill *m with about n vertices; false when memory runs out. Release it in either case. */
@@ -21,6 +22,8 @@ typedef bool trap_mesh_make(trap_mesh *m, size_t n, uint64_t seed);
 trap_mesh_make trap_strip_30, trap_strip_300, trap_strip_2000, trap_fan, trap_half_fan, trap_hubs,
     trap_rings, trap_uniform, trap_tiny, trap_tinier, trap_huge, trap_least, trap_denormal,
     trap_clusters, trap_circle;
+/* --- trap_few.c --- */
+trap_mesh_make trap_few_cluster, trap_few_graded, trap_few_comb, trap_few_wheel, trap_few_wheels;
 
 void trap_mesh_release(trap_mesh *m);
 
@@ -31,8 +34,9 @@ typedef enum trap_position {
     TRAP_ON_EDGES /* at rounded middles of edges */
 } trap_position;
 
-/* Set n queries, x0 y0 x1 y1 ... */
-void trap_draw(const mw_mesh *mesh, trap_position position, double *queries, size_t n,
+/* Set n queries, x0 y0 x1 y1 ..., in triangles with a vertex from `first` on. False when out of
+ * memory. */
+bool trap_draw(const mw_mesh *mesh, size_t first, trap_position position, double *queries, size_t n,
                uint64_t seed);
 
 #endif

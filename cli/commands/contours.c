@@ -19,6 +19,7 @@
 #include <string.h>
 
 #define CONTOURS_MOST_LEVELS 1000000
+#define CONTOURS_FARTHEST 0x1p53 /* intervals from the base: doubles count them all up to there */
 
 typedef struct contours_settings {
     common_settings common;
@@ -56,7 +57,10 @@ typedef struct contour_levels {
 static int levels_fail(const char *name, const char *given)
 {
     complain("option '--%s' must be %s, not '%.60s'", name,
-             strcmp(name, "levels") == 0 ? "numbers separated by commas" : "a number", given);
+             strcmp(name, "levels") == 0     ? "numbers separated by commas"
+             : strcmp(name, "interval") == 0 ? "a positive number"
+                                             : "a number",
+             given);
     return END_USAGE;
 }
 
@@ -111,6 +115,21 @@ static double levels_round(double value, int decimals)
     return strtod(digits, NULL) + 0.0;
 }
 
+/* Are the multiples from the first up to the last few enough, and can doubles tell them apart? */
+static int levels_check(const contours_settings *s, double first, double last, double low,
+                        double high)
+{
+    if (!(last - first <= CONTOURS_MOST_LEVELS)) {
+        complain("--interval %s makes more than %d levels between %g and %g", s->interval,
+                 CONTOURS_MOST_LEVELS, low, high);
+        return END_RESOURCE;
+    }
+    if (fabs(first) <= CONTOURS_FARTHEST && fabs(last) <= CONTOURS_FARTHEST) return 0;
+    complain("--interval %s is too small for values between %g and %g, counted from %s",
+             s->interval, low, high, s->base ? s->base : "0");
+    return END_RESOURCE;
+}
+
 /* All multiples of the interval between the least and the largest value. */
 static int levels_make(contour_levels *l, const contours_settings *s, const double *values,
                        size_t count)
@@ -120,24 +139,17 @@ static int levels_make(contour_levels *l, const contours_settings *s, const doub
     int end = levels_number("interval", s->interval, &interval, &decimals);
     if (end == 0 && s->base) end = levels_number("base", s->base, &base, &of_base);
     if (end) return end;
-    if (!(interval > 0)) {
-        complain("option '--interval' must be a positive number, not '%.60s'", s->interval);
-        return END_USAGE;
-    }
     if (of_base > decimals || of_base < 0) decimals = decimals < 0 ? -1 : of_base;
     for (size_t i = 0; i < count; i++) {
         low = values[i] < low ? values[i] : low;
         high = values[i] > high ? values[i] : high;
     }
+    if (low > high) return 0; /* no vertex has a value */
     double first = floor((low - base) / interval), last = ceil((high - base) / interval);
-    if (low > high) last = first - 1; /* no vertex has a value */
-    if (last - first > CONTOURS_MOST_LEVELS) {
-        complain("--interval %s makes more than %d levels between %g and %g", s->interval,
-                 CONTOURS_MOST_LEVELS, low, high);
-        return END_RESOURCE;
-    }
-    size_t room = last >= first ? (size_t)(last - first) + 1 : 0;
-    l->values = malloc((room + 1) * sizeof *l->values);
+    end = levels_check(s, first, last, low, high);
+    if (end) return end;
+    size_t room = (size_t)(last - first) + 1;
+    l->values = malloc(room * sizeof *l->values);
     if (!l->values) return fail_memory();
     for (double k = first; k <= last && l->count < room; k++) {
         double level = levels_round(base + k * interval, decimals);

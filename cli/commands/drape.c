@@ -49,6 +49,9 @@ static void drape_tell(const drape *d)
     if (d->part > 0)
         complain("%s: remark: %s outside the mesh in part%s: %llu", path, noun,
                  d->polygons ? "" : ", which is left out", (unsigned long long)d->part);
+    if (d->dots > 0)
+        complain("%s: remark: %s whose points are all equal%s: %llu", path, noun,
+                 d->polygons ? "" : ", which are left out", (unsigned long long)d->dots);
     if (d->unmeasured > 0)
         complain("%s: warning: polygons without an area, or with rings that cross, whose areas are "
                  "not known: %llu",

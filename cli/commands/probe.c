@@ -9,6 +9,8 @@
 #include "cli/stream/query_stream.h"
 #include "cli/stream/statistics.h"
 
+#include <math.h>
+
 typedef struct probe_settings {
     query_stream_settings stream;
     double max_distance, min_distance;
@@ -16,7 +18,7 @@ typedef struct probe_settings {
     int guide;
     int start;         /* mw_probe_start */
     int extent, faces; /* mw_probe_extent, mw_probe_faces */
-    bool certain, inside, weld, any;
+    bool certain, inside, all, one_per_place, nearest, weld, any;
 } probe_settings;
 
 static const char *probe_start_name(int i)
@@ -87,6 +89,18 @@ static const option probe_options[] = {
      "QUERIES holds points x,y,z only: which are inside of the closed SURFACE? Writes the status "
      "inside, outside, on or bad",
      NULL},
+    {"all", 0, OPTION_FLAG, offsetof(probe_settings, all), NULL,
+     "every triangle that counts, in their order along the motion: a row for each, with the column "
+     "back; a row 'none' for a probe without any; with --certain",
+     NULL},
+    {"one-per-place", 0, OPTION_FLAG, offsetof(probe_settings, one_per_place), NULL,
+     "with --all: of several triangles at one place only the lowest, as where the line meets an "
+     "edge",
+     NULL},
+    {"nearest", 0, OPTION_FLAG, offsetof(probe_settings, nearest), NULL,
+     "QUERIES holds points x,y,z only: the nearest point of SURFACE to each, written as "
+     "status,triangle,distance,px,py,pz,w0,w1,w2",
+     NULL},
     {"start", 0, OPTION_CHOICE, offsetof(probe_settings, start), "NAME",
      "how to choose the first triangle (default: auto):", &starts},
     {"guide", 0, OPTION_FLAG, offsetof(probe_settings, guide), NULL,
@@ -114,7 +128,7 @@ static const option probe_options[] = {
     {"columns", 0, OPTION_TEXT, offsetof(probe_settings, stream.source.columns), "LIST",
      "columns of QUERIES that hold the point and the motion, six names or numbers from 1 (default: "
      "those that a header "
-     "calls x, y, z, mx, my, mz, or the only six; with --inside x, y, z)",
+     "calls x, y, z, mx, my, mz, or the only six; with --inside and --nearest x, y, z)",
      NULL},
     {"strict", 0, OPTION_FLAG, offsetof(probe_settings, stream.strict), NULL,
      "exit with 1 if a row is 'limit' or 'bad'; 'none' is an answer", NULL},
@@ -135,6 +149,9 @@ static const option random_options[] = {
     {0},
 };
 
+/* Probes in memory at a time with --all: each may touch any number of triangles. */
+#define ALL_BLOCK_SIZE ((size_t)1 << 14)
+
 /* A surface that is ready for probes, and the statistics of its probes. */
 typedef struct probed_surface {
     const probe_settings *settings;
@@ -144,6 +161,7 @@ typedef struct probed_surface {
     uint64_t states[MW_TOUCH_STATE_COUNT];
     uint64_t sides[MW_SURFACE_SIDE_COUNT];
     mw_probe_counters counters;
+    mw_touch_lists lists; /* with --all: of the block that is being written */
 } probed_surface;
 
 /* --- the surface ------------------------------------------------------------------------------ */
@@ -165,7 +183,7 @@ static int probed_surface_prepare(probed_surface *p, const char *path, const mw_
     mw_arrays arrays = mw_mesh_file_arrays(file);
     mw_surface_options surface = {
         .tolerant = s->any, .weld = s->weld, .progress = progress_of_call()};
-    mw_prober_options prober = {.boxes = s->certain || s->inside,
+    mw_prober_options prober = {.boxes = s->certain || s->inside || s->nearest,
                                 .guide = s->guide,
                                 .threads = s->stream.common.threads,
                                 .progress = progress_of_call()};
@@ -192,25 +210,23 @@ static int probed_surface_open(probed_surface *p, const char *path)
 
 static void probed_surface_release(probed_surface *p)
 {
+    mw_touch_lists_release(&p->lists);
     mw_prober_destroy(p->prober);
     mw_surface_destroy(p->surface);
 }
 
 /* --- the probes ------------------------------------------------------------------------------- */
 
-static int probed_surface_answer(void *self, const query_block *block, void *answers)
+static mw_probe_options probed_surface_options(const probed_surface *p, const query_block *block)
 {
-    probed_surface *p = self;
     const probe_settings *s = p->settings;
-    const mw_touch *touches = answers;
-    mw_error error;
-    mw_probe_counters counters = {0};
-    mw_probe_options options = {
+    return (mw_probe_options){
         .max_distance = s->max_distance,
         .certain = s->certain,
         .min_distance = s->min_distance,
         .faces = (mw_probe_faces)s->faces,
         .extent = (mw_probe_extent)s->extent,
+        .one_per_place = s->one_per_place,
         .start = (mw_probe_start)s->start,
         .samples = s->samples,
         .iterations = s->iterations,
@@ -220,6 +236,15 @@ static int probed_surface_answer(void *self, const query_block *block, void *ans
         .counters = s->stream.stats,
         .progress = progress_of_call(),
     };
+}
+
+static int probed_surface_answer(void *self, const query_block *block, void *answers)
+{
+    probed_surface *p = self;
+    const mw_touch *touches = answers;
+    mw_error error;
+    mw_probe_counters counters = {0};
+    mw_probe_options options = probed_surface_options(p, block);
     if (mw_probe_batch(p->prober, block->values, block->count, block->stride, &options, answers,
                        &counters, &error) != MW_OK)
         return fail_query(&error);
@@ -239,6 +264,108 @@ static bool probe_row(const void *self, const double *query, const void *answer,
     csv_row_weights(out, touch->triangle, touch->weight);
     return touch->state == MW_TOUCH_HIT || touch->state == MW_TOUCH_NONE;
 }
+
+/* --- all triangles of each probe --- */
+
+/* Touches that a probe has: in the lists, from `first` up to `end`; without any, `none`. */
+typedef struct probe_touches {
+    size_t first, end;
+    mw_touch none;
+} probe_touches;
+
+/* The lists do not tell a bad probe from one that touches nothing. */
+static mw_touch_state probe_state_without(const probed_surface *p, const double *query)
+{
+    bool segment = p->settings->extent == MW_PROBE_SEGMENT, finite = true, moves = false;
+    for (int k = 0; k < 3; k++) {
+        double motion = segment ? query[3 + k] - query[k] : query[3 + k];
+        finite = finite && isfinite(query[k]) && isfinite(motion);
+        moves = moves || motion != 0;
+    }
+    return finite && moves ? MW_TOUCH_NONE : MW_TOUCH_BAD;
+}
+
+static int probed_surface_answer_all(void *self, const query_block *block, void *answers)
+{
+    probed_surface *p = self;
+    probe_touches *of = answers;
+    mw_error error;
+    mw_probe_counters counters = {0};
+    mw_probe_options options = probed_surface_options(p, block);
+    mw_touch_lists_release(&p->lists);
+    if (mw_probe_all_batch(p->prober, block->values, block->count, block->stride, &options,
+                           &p->lists, &counters, &error) != MW_OK)
+        return fail_query(&error);
+    for (size_t i = 0; i < block->count; i++) {
+        of[i].first = p->lists.offset[i];
+        of[i].end = p->lists.offset[i + 1];
+        mw_touch_state state = MW_TOUCH_HIT;
+        if (of[i].first == of[i].end)
+            state = probe_state_without(p, block->values + i * block->stride);
+        of[i].none = (mw_touch){.triangle = MW_NONE, .state = (uint8_t)state};
+        p->states[state]++;
+    }
+    mw_probe_counters_add(&p->counters, &counters);
+    return 0;
+}
+
+static const void *probe_touch_part(const void *self, const void *answer, size_t i)
+{
+    const probed_surface *p = self;
+    const probe_touches *of = answer;
+    if (of->first == of->end) return i == 0 ? &of->none : NULL;
+    return i < of->end - of->first ? &p->lists.touch[of->first + i] : NULL;
+}
+
+static bool probe_touch_row(const void *self, const double *query, const void *answer, text *out)
+{
+    const mw_touch *touch = answer;
+    bool answered = probe_row(self, query, answer, out);
+    csv_row_count(out, touch->triangle != MW_NONE, touch->back);
+    return answered;
+}
+
+/* --- the nearest point --- */
+
+static mw_touch_state probe_nearest_state(const mw_nearest_surface_point *nearest,
+                                          const double *query)
+{
+    if (nearest->triangle != MW_NONE) return MW_TOUCH_HIT;
+    bool finite = isfinite(query[0]) && isfinite(query[1]) && isfinite(query[2]);
+    return finite ? MW_TOUCH_NONE : MW_TOUCH_BAD;
+}
+
+static int probed_surface_nearest(void *self, const query_block *block, void *answers)
+{
+    probed_surface *p = self;
+    const probe_settings *s = p->settings;
+    const mw_nearest_surface_point *nearest = answers;
+    mw_error error;
+    mw_nearest_options options = {.threads = s->stream.common.threads,
+                                  .progress = progress_of_call()};
+    double reach = s->max_distance > 0 ? s->max_distance : INFINITY;
+    if (mw_nearest_on_surface_batch(p->prober, block->values, block->count, block->stride, reach,
+                                    &options, answers, &error) != MW_OK)
+        return fail_query(&error);
+    for (size_t i = 0; i < block->count; i++)
+        p->states[probe_nearest_state(&nearest[i], block->values + i * block->stride)]++;
+    return 0;
+}
+
+static bool probe_nearest_row(const void *self, const double *query, const void *answer, text *out)
+{
+    const mw_nearest_surface_point *nearest = answer;
+    mw_touch_state state = probe_nearest_state(nearest, query);
+    bool found = state == MW_TOUCH_HIT;
+    (void)self;
+    csv_row_status(out, mw_touch_state_name(state), nearest->triangle);
+    csv_row_double(out, found, nearest->distance);
+    for (int k = 0; k < 3; k++) csv_row_double(out, found, nearest->point[k]);
+    csv_row_weights(out, nearest->triangle, nearest->weight);
+    return state != MW_TOUCH_BAD;
+}
+
+/* --- inside --- */
 
 static int probed_surface_sides(void *self, const query_block *block, void *answers)
 {
@@ -298,6 +425,10 @@ static int probed_surface_run(probed_surface *p, const char *path)
 {
     static const char *const answers[] = {"status", "triangle", "distance", "w0", "w1", "w2", NULL};
     static const char *const sides[] = {"status", NULL};
+    static const char *const touches[] = {"status", "triangle", "distance", "w0",
+                                          "w1",     "w2",       "back",     NULL};
+    static const char *const points[] = {"status", "triangle", "distance", "px", "py",
+                                         "pz",     "w0",       "w1",       "w2", NULL};
     query_stream s = {
         .settings = &p->settings->stream,
         .begin = p->begin,
@@ -312,13 +443,27 @@ static int probed_surface_run(probed_surface *p, const char *path)
         .report = probed_surface_report,
         .self = p,
     };
+    if (p->settings->inside || p->settings->nearest) s.columns.count = 3;
     if (p->settings->inside) {
-        s.columns.count = 3;
         s.answers = sides;
         s.kinds = "t";
         s.answer_size = 1;
         s.answer = probed_surface_sides;
         s.row = probe_side_row;
+    } else if (p->settings->nearest) {
+        s.answers = points;
+        s.kinds = "tirrrrrrr";
+        s.answer_size = sizeof(mw_nearest_surface_point);
+        s.answer = probed_surface_nearest;
+        s.row = probe_nearest_row;
+    } else if (p->settings->all) {
+        s.answers = touches;
+        s.kinds = "tirrrri";
+        s.answer_size = sizeof(probe_touches);
+        s.answer = probed_surface_answer_all;
+        s.row = probe_touch_row;
+        s.part = probe_touch_part;
+        s.block_size = ALL_BLOCK_SIZE;
     }
     return query_stream_run(&s, path);
 }
@@ -333,6 +478,14 @@ static int probe_check(const probe_settings *s)
     const char *why = NULL;
     if (s->inside && (certain_only || s->certain || s->max_distance > 0))
         why = "--inside takes no options of lines";
+    else if (s->nearest && (certain_only || s->certain))
+        why = "--nearest takes no options of lines but --max-distance";
+    else if (s->inside + s->nearest + s->all > 1)
+        why = "--all, --inside and --nearest ask for different answers";
+    else if (s->all && !s->certain)
+        why = "--all needs --certain";
+    else if (s->one_per_place && !s->all)
+        why = "--one-per-place needs --all";
     else if (certain_only && !s->certain)
         why = "--extent, --faces and --min-distance need --certain";
     else if (s->max_distance > 0 && s->min_distance > s->max_distance)
@@ -374,7 +527,8 @@ const command probe_command = {
         "be something; or bad, if the motion is zero or a number is not finite. The distance "
         "is negative behind the point; w0, w1, w2 are the weights of the triangle's corners. "
         "Of several triangles, walks report the first that they find, and --certain the "
-        "nearest. '-' is standard input.",
+        "nearest; with --all all of them, a row each. --nearest and --inside take points instead. "
+        "'-' is standard input.",
     .options = tables,
     .essential = "certain max-distance columns only-answers output",
     .settings_size = sizeof(probe_settings),

@@ -238,8 +238,10 @@ static void raster_warn(const raster_settings *s, const char *path, const raster
                  path);
     if (!s->mean && w->mesh.crs && crs_is_lonlat(w->mesh.crs)) raster_warn_of_seam(path, w);
     if (b->filled == 0)
-        complain("%s: warning: no pixel has a value: none of their centres lies in the mesh",
-                 s->common.output);
+        complain(
+            "%s: warning: no pixel has a value: none of their centres lies in a triangle whose "
+            "vertices have values",
+            s->common.output);
     if (b->mistakable > 0)
         complain("%s: warning: %llu of its pixels have the value of --nodata", s->common.output,
                  (unsigned long long)b->mistakable);
@@ -264,7 +266,7 @@ static int raster_write(const raster_settings *s, const char *path, raster_work 
                              .crs = w->mesh.crs ? w->mesh.crs : w->like.crs,
                              .driver = s->driver,
                              .creation = s->creation};
-    int end = raster_scan_create(&w->scan, w->mesh.locator, w->mesh.mesh, g);
+    int end = raster_scan_create(&w->scan, w->mesh.locator, w->mesh.mesh, g, s->common.threads);
     if (end == 0) end = gdal_raster_create(&w->raster, s->common.output, &form);
     b->mesh = &w->mesh;
     b->grid = g;

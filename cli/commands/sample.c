@@ -4,6 +4,7 @@
 #include "cli/frame/message.h"
 #include "cli/gdal/gdal_point_layer.h"
 #include "cli/input/mesh_field.h"
+#include "cli/input/star_input.h"
 #include "cli/output/csv_row.h"
 #include "cli/series/series_sample.h"
 #include "cli/stream/point_query.h"
@@ -21,7 +22,7 @@ typedef struct sample_settings {
     point_query_settings query;
     const char *field, *nodata;
     int outside, missing;
-    bool status, lonlat;
+    bool status, lonlat, open;
     int space;          /* SAMPLE_PLANE, SAMPLE_STAR */
     coordinates centre; /* not given: the origin */
     series_settings series;
@@ -101,6 +102,8 @@ static const option sample_options[] = {
      "--as star: POINTS are longitudes and latitudes in degrees; and so are x and y of a MESH "
      "without z, which then lies on the unit sphere",
      NULL},
+    {"open", 0, OPTION_FLAG, offsetof(sample_settings, open), NULL,
+     "--as star: MESH may leave directions open, as an ocean does; there is no value there", NULL},
     {0},
 };
 
@@ -188,6 +191,17 @@ static bool sample_row(const point_query *q, const void *self, const double poin
     return !isnan(value);
 }
 
+static bool sample_is_series(const sample_settings *s)
+{
+    return s->series.time || s->series.values || s->series.time_column;
+}
+
+static int sample_fail_wide(void)
+{
+    complain("option '--wide' is for values over time: --time");
+    return END_USAGE;
+}
+
 /* Values over time. Returns the exit code. */
 static int sample_series(const sample_settings *s, const char *const *operands)
 {
@@ -206,6 +220,8 @@ static int sample_series(const sample_settings *s, const char *const *operands)
     }
     series.fields = s->field;
     series.status = s->status;
+    series.globe = s->space == SAMPLE_STAR;
+    series.open = s->open;
     return series_sample(&s->query, &series, operands);
 }
 
@@ -244,30 +260,18 @@ static int sample_field(const sample_settings *s, const char *const *operands)
 /* The option that is given although a polyhedron does not know it; NULL: none is. */
 static const char *sample_option_of_plane(const sample_settings *s)
 {
-    const point_query_settings *q = &s->query;
-    const series_settings *over = &s->series;
     return s->outside          ? "outside"
-           : over->time        ? "time"
-           : over->values      ? "values"
-           : over->time_column ? "time-column"
-           : over->wide        ? "wide"
-           : over->recover     ? "recover"
-           : q->crs            ? "crs"
-           : q->tolerance != 0 ? "tolerance"
-           : q->sample         ? "sample"
-           : q->steps          ? "steps"
-           : q->cells          ? "cells"
-           : q->layers         ? "layers"
-           : q->walk           ? "walk"
-           : q->start          ? "start"
-           : q->arithmetic     ? "arithmetic"
-           : q->finish         ? "finish"
-           : q->fill           ? "fill"
-           : q->descent        ? "descent"
-           : q->areas          ? "areas"
-           : q->any            ? "any"
-           : q->trust          ? "trust"
-                               : NULL;
+           : s->series.recover ? "recover"
+                               : point_query_option_of_plane(&s->query);
+}
+
+/* Values over time on the globe. Returns the exit code. */
+static int sample_globe_series(const sample_settings *s, const char *const *operands)
+{
+    if (s->lonlat && !s->centre.count) return sample_series(s, operands);
+    complain("values over time on --as star %s",
+             s->lonlat ? "come from the centre 0,0,0: leave out --centre" : "need --lonlat");
+    return END_USAGE;
 }
 
 static int sample_star(const sample_settings *s, const char *const *operands)
@@ -279,6 +283,7 @@ static int sample_star(const sample_settings *s, const char *const *operands)
         .centre = &s->centre,
         .field = {.field = s->field, .quiet = stream->common.quiet},
         .lonlat = s->lonlat,
+        .open = s->open,
         .status = s->status,
         .nearest = s->missing == MISSING_NEAREST,
     };
@@ -286,11 +291,14 @@ static int sample_star(const sample_settings *s, const char *const *operands)
         complain("option '--%s' is not for --as star", unfit);
         return END_USAGE;
     }
+    if (sample_is_series(s)) return sample_globe_series(s, operands);
+    if (s->series.wide) return sample_fail_wide();
     if (!s->field) {
         complain("sample: which value? --as star needs --field NAME");
         return END_USAGE;
     }
-    int end = nodata_parse("nodata", s->nodata, &sample.field.nodata);
+    int end = star_input_check_open(s->open, &s->centre);
+    if (end == 0) end = nodata_parse("nodata", s->nodata, &sample.field.nodata);
     if (end == 0) end = files_check_output(stream->common.output, operands, 2);
     if (end == 0) end = point_layers_check(operands, 2);
     if (end == 0) end = query_stream_check_output(stream);
@@ -300,17 +308,15 @@ static int sample_star(const sample_settings *s, const char *const *operands)
 static int sample_run(const void *settings, const char *const *operands)
 {
     const sample_settings *s = settings;
-    const series_settings *over = &s->series;
     if (s->space == SAMPLE_STAR) return sample_star(s, operands);
-    if (s->lonlat || s->centre.count) {
-        complain("option '--%s' needs --as star", s->lonlat ? "lonlat" : "centre");
+    if (s->lonlat || s->centre.count || s->open) {
+        complain("option '--%s' needs --as star", s->lonlat         ? "lonlat"
+                                                  : s->centre.count ? "centre"
+                                                                    : "open");
         return END_USAGE;
     }
-    if (over->time || over->values || over->time_column) return sample_series(s, operands);
-    if (over->wide) {
-        complain("option '--wide' is for values over time: --time");
-        return END_USAGE;
-    }
+    if (sample_is_series(s)) return sample_series(s, operands);
+    if (s->series.wide) return sample_fail_wide();
     return sample_field(s, operands);
 }
 

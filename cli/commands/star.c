@@ -17,7 +17,7 @@ typedef struct star_settings {
     uint32_t sample, cells, levels;
     int walk, start; /* mw_star_walk_kind, mw_star_start_kind */
     int finish;      /* the number of a name of --finish */
-    bool lonlat, borrow;
+    bool lonlat, borrow, open;
     remesh_settings remesh;
 } star_settings;
 
@@ -83,6 +83,11 @@ static const option star_options[] = {
      "keep nothing beside the polyhedron, whose own triangles the walks follow: the same answers, "
      "several times slower",
      NULL},
+    {"open", 0, OPTION_FLAG, offsetof(star_settings, open), NULL,
+     "POLYHEDRON may leave directions open, as an ocean does, or overlap: boxes find the facet "
+     "that "
+     "a ray meets first; the status is outside if it meets none",
+     NULL},
     {"columns", 0, OPTION_TEXT, offsetof(star_settings, stream.source.columns), "LIST",
      "columns of DIRECTIONS that hold x, y and z, or longitude and latitude, as names or numbers "
      "from 1: u,v,w or "
@@ -135,8 +140,9 @@ static int ray_queries_make_index(ray_queries *r)
 static int ray_queries_open(ray_queries *r, const char *path)
 {
     const star_settings *s = r->settings;
-    const star_input_settings how = {&s->centre, s->lonlat, s->walk == MW_STAR_WALK_ORTHOGONAL,
-                                     s->stream.common.threads, s->borrow};
+    const star_input_settings how = {
+        &s->centre, s->lonlat, s->walk == MW_STAR_WALK_ORTHOGONAL, s->stream.common.threads,
+        s->borrow,  s->open};
     mw_mesh_file file;
     int end = files_read_mesh(path, &file);
     if (end) return end;
@@ -164,9 +170,17 @@ static void ray_queries_report(const void *self, report *out)
     const star_input *polyhedron = &r->query.polyhedron;
     mw_star_info star;
     mw_star_index_info index = {0};
+    ray_stream_report_status(&r->query, out);
+    if (polyhedron->prober) {
+        mw_prober_info boxes;
+        mw_prober_describe(polyhedron->prober, &boxes);
+        statistics_report_settings(out, &r->settings->stream.common);
+        report_count(out, "surface_bytes", mw_surface_bytes(polyhedron->surface));
+        report_count(out, "box_bytes", boxes.box_bytes);
+        return;
+    }
     mw_star_describe(polyhedron->star, &star);
     if (r->index) mw_star_index_describe(r->index, &index);
-    ray_stream_report_status(&r->query, out);
     report_string(out, "walk", star_walk_name(r->settings->walk));
     report_string(out, "start", star_start_name(r->settings->start));
     statistics_report_settings(out, &r->settings->stream.common);
@@ -185,6 +199,27 @@ static int star_check_limits(const star_settings *s)
     return end ? end : options_limit("levels", s->levels, MW_STAR_MAX_LEVELS + 1, NULL);
 }
 
+/* The option that is given although boxes do not walk; NULL: none is. */
+static const char *star_option_of_walks(const star_settings *s)
+{
+    return s->walk     ? "walk"
+           : s->start  ? "start"
+           : s->finish ? "finish"
+           : s->sample ? "sample"
+           : s->cells  ? "cells"
+           : s->levels ? "levels"
+           : s->borrow ? "borrow"
+                       : NULL;
+}
+
+static int star_check_open(const star_settings *s)
+{
+    const char *unfit = s->open ? star_option_of_walks(s) : NULL;
+    if (!unfit) return star_input_check_open(s->open, &s->centre);
+    complain("option '--%s' is for walks, and --open finds facets by boxes", unfit);
+    return END_USAGE;
+}
+
 static int star_locate(const star_settings *s, const char *const *operands)
 {
     static const char *const answers[] = {"status", "triangle", "w0", "w1", "w2", NULL};
@@ -201,6 +236,7 @@ static int star_locate(const star_settings *s, const char *const *operands)
     if (end == 0) end = point_layers_check(operands, 2);
     if (end == 0) end = query_stream_check_output(&s->stream);
     if (end == 0) end = star_check_limits(s);
+    if (end == 0) end = star_check_open(s);
     if (end == 0) end = ray_queries_open(&r, operands[0]);
     if (end == 0)
         end = ray_stream_run(&r.query, operands[1], answers, "tirrr", ray_queries_write_row,
@@ -215,13 +251,9 @@ static int star_locate(const star_settings *s, const char *const *operands)
 /* The option that is given although it means nothing for a remeshed polyhedron; NULL: none is. */
 static const char *star_option_of_rays(const star_settings *s)
 {
-    return s->walk                    ? "walk"
-           : s->start                 ? "start"
-           : s->finish                ? "finish"
-           : s->sample                ? "sample"
-           : s->cells                 ? "cells"
-           : s->levels                ? "levels"
-           : s->borrow                ? "borrow"
+    const char *of_walks = star_option_of_walks(s);
+    return of_walks                   ? of_walks
+           : s->open                  ? "open"
            : s->stream.source.columns ? "columns"
            : s->stream.source.layer   ? "layer"
            : s->stream.source.where   ? "where"
@@ -279,7 +311,8 @@ const command star_command = {
         "not finite, the status is bad and the triangle -1. w0, w1, w2 are the weights of the "
         "facet's corners at the point where the ray meets it. A ray through an edge or a "
         "corner belongs to the lowest-numbered facet that it meets. POLYHEDRON must be "
-        "closed, and the centre must see the inside of each facet, as that of a sphere does. "
+        "closed, and the centre must see the inside of each facet, as that of a sphere does; "
+        "with --open it may leave parts of the sphere open, as an ocean does. "
         "With --remesh or --onto there are no DIRECTIONS: a new mesh is written, whose vertices "
         "are where rays from the centre meet POLYHEDRON, with its fields interpolated there. "
         "'-' is standard input.",

@@ -643,7 +643,9 @@ const command triangulate_command = {
                    "become fields. With --constraints, "
                    "the lines and polygons of a file are edges of the mesh; its points follow "
                    "POINTS, with heights and "
-                   "fields interpolated where the file has none. '-' is standard input.",
+                   "fields interpolated where the file has none. With --from "
+                   "and --tolerance, a raster "
+                   "of heights in place of POINTS. '-' is standard input.",
     .options = tables,
     .essential = "columns constraints boundary max-edge output",
     .settings_size = sizeof(triangulate_settings),

@@ -5,6 +5,7 @@
 #include "cli/frame/progress.h"
 #include "cli/gdal/gdal_crs.h"
 #include "cli/remap/remap_weights.h"
+#include "cli/stream/globe_points.h"
 #include "cli/stream/located_points.h"
 
 #include <inttypes.h>
@@ -14,6 +15,7 @@
 typedef struct weights_settings {
     point_query_settings query;
     int method, values, norm;
+    bool lonlat, open;
 } weights_settings;
 
 enum { METHOD_LINEAR = 0, METHOD_CONSERVATIVE };
@@ -72,7 +74,8 @@ static int weights_write(const point_query *q, const located_points *p, const mw
                                            .rows = p->moved,
                                            .row_stride = p->width,
                                            .located = p->located,
-                                           .degrees = p->lonlat && p->moved == p->points};
+                                           .degrees = q->settings->globe ||
+                                                      (p->lonlat && p->moved == p->points)};
     const mw_file_options options = {.progress = progress_of_call()};
     progress_phase("writing", output);
     mw_status status = mw_write_weights(output, weights, &positions, &options, &error);
@@ -121,6 +124,7 @@ static int weights_refuse_points_options(const weights_settings *s)
                         : stream->source.layer ? "layer"
                         : stream->source.where ? "where"
                         : s->query.any         ? "any"
+                        : s->lonlat            ? "lonlat"
                                                : NULL;
     if (s->query.tolerance > 0) wrong = "tolerance";
     if (!wrong) return 0;
@@ -145,28 +149,67 @@ static int weights_of_cells(const weights_settings *s, const char *const *operan
     return end ? end : remap_weights_run(&settings, operands);
 }
 
-static int weights_run(const void *settings, const char *const *operands)
+/* --- points --- */
+
+static int weights_check_points(const weights_settings *s)
 {
-    const weights_settings *all = settings;
-    /* The query writes no rows: the output is ours. */
-    point_query_settings s = ((const weights_settings *)settings)->query;
+    const char *unfit = s->lonlat ? point_query_option_of_plane(&s->query) : NULL;
+    if (s->values || s->norm)
+        complain("option '--%s' is for --method conservative", s->values ? "values" : "norm");
+    else if (s->open && !s->lonlat)
+        complain("option '--open' needs --lonlat");
+    else if (unfit)
+        complain("option '--%s' is for points in the plane, not for --lonlat", unfit);
+    else
+        return 0;
+    return END_USAGE;
+}
+
+/* What the loading of the mesh's file makes besides. */
+typedef struct weights_globe {
+    const weights_settings *settings;
+    globe_points points;
+} weights_globe;
+
+static int weights_load(mw_mesh *mesh, const char *path, const mw_mesh_file *file, const void *self)
+{
+    weights_globe *g = *(weights_globe *const *)self;
+    (void)mesh;
+    return globe_points_make(&g->points, path, file, g->settings->open,
+                             g->settings->query.stream.common.threads);
+}
+
+static int weights_at_points(const weights_settings *all, const char *const *operands)
+{
+    weights_globe globe = {.settings = all}, *self = &globe;
+    point_query_settings s = all->query;
     const char *output = s.stream.common.output;
     point_query q;
     located_points p = {0};
-    int end = weights_check(output, operands);
-    if (end) return end;
-    if (all->method == METHOD_CONSERVATIVE) return weights_of_cells(all, operands);
-    if (all->values || all->norm) {
-        complain("option '--%s' is for --method conservative", all->values ? "values" : "norm");
-        return END_USAGE;
+    s.stream.common.output = NULL; /* the query writes no rows: the output is ours */
+    s.any = s.any || all->lonlat;
+    s.globe = all->lonlat;
+    int end = point_query_open(&q, &s, operands, false, all->lonlat ? weights_load : NULL, &self);
+    if (all->lonlat) {
+        q.elsewhere = globe_points_locate;
+        q.elsewhere_self = &globe.points;
     }
-    s.stream.common.output = NULL;
-    end = point_query_open(&q, &s, operands, false, NULL, NULL);
     if (end == 0) end = located_points_read(&p, &q, operands[1], NULL);
     if (end == 0) end = weights_make(&q, &p, output);
     located_points_release(&p);
     point_query_release(&q);
+    globe_points_release(&globe.points);
     return end;
+}
+
+static int weights_run(const void *settings, const char *const *operands)
+{
+    const weights_settings *s = settings;
+    int end = weights_check(s->query.stream.common.output, operands);
+    if (end) return end;
+    if (s->method == METHOD_CONSERVATIVE) return weights_of_cells(s, operands);
+    end = weights_check_points(s);
+    return end ? end : weights_at_points(s, operands);
 }
 
 static const option weights_options[] = {
@@ -177,6 +220,12 @@ static const option weights_options[] = {
     {"norm", 0, OPTION_CHOICE, offsetof(weights_settings, norm), "NAME",
      "--method conservative: what cells get that MESH covers in part (default: dstarea):",
      &weights_norms},
+    {"lonlat", 0, OPTION_FLAG, offsetof(weights_settings, lonlat), NULL,
+     "MESH and POINTS are longitudes and latitudes in degrees, and MESH lies on the sphere: it may "
+     "cross 180 degrees and the poles",
+     NULL},
+    {"open", 0, OPTION_FLAG, offsetof(weights_settings, open), NULL,
+     "--lonlat: MESH may leave parts of the sphere open, as an ocean does", NULL},
     {"strict", 0, OPTION_FLAG, offsetof(weights_settings, query.stream.strict), NULL,
      "exit with 1 if a point is in no triangle", NULL},
     {"stats", 0, OPTION_FLAG, offsetof(weights_settings, query.stream.stats), NULL,

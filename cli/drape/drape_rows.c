@@ -102,7 +102,9 @@ static int drape_write_line(drape *d, const drape_shape *shape)
         while (i < ring->count && ring->on[i]) i++;
         if (i > from) end = drape_write_piece(d, shape->first, ring, from, i, piece++);
     }
-    d->lost += piece == 0;
+    const bool dot = ring->length == 0 && ring->outside == 0;
+    d->dots += dot;
+    d->lost += piece == 0 && !dot;
     d->part += piece > 0 && ring->outside > 0;
     return end;
 }
@@ -197,7 +199,9 @@ static int drape_write_polygon(drape *d, const drape_shape *shape)
     csv_row_double(out, status == MW_OK, rest);
     csv_row_end(out);
     d->unmeasured += status != MW_OK;
-    d->lost += length == 0;
+    const bool dot = length == 0 && outside == 0;
+    d->dots += dot;
+    d->lost += length == 0 && !dot;
     d->part += length > 0 && outside > 0;
     d->rows++;
     return drape_put_polygon(d, shape);

@@ -19,6 +19,7 @@ typedef struct drape {
     row_output *out;
     uint64_t rows;       /* written */
     uint64_t lost, part; /* lines or polygons without any height, and those with some */
+    uint64_t dots;       /* those whose points are all equal */
     uint64_t unmeasured; /* polygons whose area is not known */
 } drape;
 

@@ -166,6 +166,29 @@ static bool file_holds_points(const char *path)
     return points;
 }
 
+bool files_remark_raster(const char *path)
+{
+    static const char *const endings[] = {".tif", ".tiff", ".asc", ".img", ".vrt", ".dem", ".hgt"};
+    const size_t length = strlen(path);
+    for (size_t i = 0; i < sizeof endings / sizeof *endings; i++) {
+        const size_t end = strlen(endings[i]);
+        if (length <= end || strcasecmp(path + length - end, endings[i]) != 0) continue;
+        complain("'meshwalk triangulate --from %s --tolerance Z -o MESH' makes a mesh of a raster",
+                 path);
+        return true;
+    }
+    return false;
+}
+
+/* A folder of 'meshwalk prepare --tiles'. */
+static bool file_is_tiles(const char *path)
+{
+    char name[4096];
+    struct stat s;
+    return snprintf(name, sizeof name, "%s/tiles.json", path) < (int)sizeof name &&
+           stat(name, &s) == 0;
+}
+
 static const char *files_layout;
 
 void files_use_layout(const char *layout)
@@ -184,10 +207,15 @@ int files_read_mesh(const char *path, mw_mesh_file *file)
         message_note_place(path, file->repeat_triangle, file->repeat);
     if (status == MW_OK) return 0;
     int end = fail_reading(&error);
-    if (status == MW_ERROR_INPUT && !files_is_standard(path) && file_holds_points(path))
+    if (files_is_standard(path)) return end;
+    if (status == MW_ERROR_INPUT && !files_remark_raster(path) && file_holds_points(path))
         complain("%s: holds points, no triangles; 'meshwalk triangulate %s -o MESH' makes a mesh "
                  "of them",
                  path, path);
+    if (file_is_tiles(path))
+        complain("%s: holds a mesh in tiles, which meshwalk.Tiles of the Python module takes; "
+                 "here give the mesh in one file",
+                 path);
     return end;
 }
 

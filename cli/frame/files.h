@@ -22,9 +22,13 @@ int files_check_text_output(const char *output);
  * exist. */
 bool files_same_output(const char *one, const char *other);
 
-/* Read a mesh. Returns 0, or an exit code after a complaint. */
+/* If the name is that of a raster, say how a mesh is made of it: it was not what is needed. */
+bool files_remark_raster(const char *path);
+
 /* The layout of meshes in netCDF that are read from now on; NULL: recognised. */
 void files_use_layout(const char *layout);
+
+/* Read a mesh. Returns 0, or an exit code after a complaint. */
 int files_read_mesh(const char *path, mw_mesh_file *file);
 
 /* Does a triangle have an area? In a mesh without one no point can be located. */

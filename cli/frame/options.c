@@ -288,12 +288,11 @@ int options_fail_operands(const command *c, int found)
     return END_USAGE;
 }
 
-int options_parse(const command *c, int count, char **arguments, void *settings,
+int options_parse(const command *c, char **arguments, void *settings,
                   const char *operands[MAX_OPERANDS])
 {
     int found = 0, end = 0;
     bool options = true;
-    (void)count; /* the list ends with NULL */
     for (char **word = arguments; *word && end == 0; word++) {
         if (options && strcmp(*word, "--") == 0)
             options = false;

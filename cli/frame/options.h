@@ -77,9 +77,9 @@ typedef struct common_settings {
 
 extern const option common_options[];
 
-/* Parse the arguments after the command's name. Returns 0, or an exit code after a complaint. If
- * the settings then have `help` set, the operands have not been checked. */
-int options_parse(const command *c, int count, char **arguments, void *settings,
+/* Parse the arguments after the command's name; NULL ends them. Returns 0, or an exit code after a
+ * complaint. If the settings then have `help` set, the operands have not been checked. */
+int options_parse(const command *c, char **arguments, void *settings,
                   const char *operands[MAX_OPERANDS]);
 
 /* Complain that a command got `found` operands, which is not what it wants. Returns END_USAGE. */

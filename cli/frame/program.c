@@ -24,12 +24,12 @@ static int program_print_help(const command *c, bool all)
     return files_write_text(NULL, &t);
 }
 
-int program_run(const command *c, int count, char **arguments)
+int program_run(const command *c, char **arguments)
 {
     const char *operands[MAX_OPERANDS] = {0};
     void *settings = calloc(1, c->settings_size);
     if (!settings) return fail_memory();
-    int end = options_parse(c, count, arguments, settings, operands);
+    int end = options_parse(c, arguments, settings, operands);
     const common_settings *common = settings;
     if (end == 0 && common->help) {
         end = program_print_help(c, common->help_all);

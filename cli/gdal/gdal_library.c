@@ -4,9 +4,33 @@
 
 #ifdef MW_GDAL
 
+static struct {
+    pthread_t thread;
+    bool loading; /* the thread runs, or has ended */
+} begun;
+
+static void *gdal_library_map(void *unused)
+{
+    (void)unused;
+    return dlopen(MW_GDAL, RTLD_NOW | RTLD_LOCAL);
+}
+
+void gdal_library_begin(void)
+{
+    if (!begun.loading)
+        begun.loading = pthread_create(&begun.thread, NULL, gdal_library_map, NULL) == 0;
+}
+
+void gdal_library_end(void)
+{
+    if (begun.loading) pthread_join(begun.thread, NULL);
+    begun.loading = false;
+}
+
 static bool gdal_library_find(gdal_functions *gdal)
 {
-    void *library = dlopen(MW_GDAL, RTLD_NOW | RTLD_LOCAL);
+    gdal_library_end();
+    void *library = gdal_library_map(NULL); /* at once, if it is loaded */
     if (!library) return false;
 #define GDAL_FIND(name)                                                                            \
     *(void **)&gdal->name = dlsym(library, #name);                                                 \
@@ -54,5 +78,7 @@ bool gdal_library_built(void)
 {
     return false;
 }
+
+void gdal_library_end(void) {}
 
 #endif

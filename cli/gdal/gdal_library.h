@@ -1,7 +1,8 @@
 /* gdal_library.h - GDAL, loaded while the program runs.
  *
  * GDAL takes tens of milliseconds and tens of megabytes to load, so the program is not linked with
- * it. The library is loaded when a file is met that nothing else reads. */
+ * it. The library is loaded when a file is met that nothing else reads, or while a mesh is read, if
+ * the output will need it. */
 #ifndef MW_CLI_GDAL_GDAL_LIBRARY_H
 #define MW_CLI_GDAL_GDAL_LIBRARY_H
 
@@ -9,6 +10,9 @@
 
 /* Was the program built with GDAL? */
 bool gdal_library_built(void);
+
+/* Wait for a thread of gdal_library_begin: the program must not end before. */
+void gdal_library_end(void);
 
 #ifdef MW_GDAL
 
@@ -45,6 +49,8 @@ bool gdal_library_built(void);
     F(GDALSetRasterNoDataValue)                                                                    \
     F(GDALGetRasterNoDataValue)                                                                    \
     F(GDALRasterIO)                                                                                \
+    F(GDALWriteBlock)                                                                              \
+    F(GDALGetBlockSize)                                                                            \
     F(GDALSetDescription)                                                                          \
     F(GDALGetRasterOffset)                                                                         \
     F(GDALGetRasterScale)                                                                          \
@@ -138,6 +144,9 @@ typedef struct gdal_functions {
     GDAL_FUNCTIONS(GDAL_MEMBER)
 #undef GDAL_MEMBER
 } gdal_functions;
+
+/* Begin to load GDAL, in a thread of its own: it will be needed, after other work. */
+void gdal_library_begin(void);
 
 /* Load GDAL, if it is not loaded yet; errors are then kept quiet. NULL if it cannot be loaded. */
 const gdal_functions *gdal_library_load(void);

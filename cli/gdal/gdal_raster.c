@@ -26,6 +26,7 @@ struct gdal_raster {
     char *scratch;              /* what is copied */
     char **creation;
     GDALDatasetH set;
+    bool by_row; /* a row is a block of the file */
 };
 
 static const GDALDataType types[] = {[RASTER_FLOAT32] = GDT_Float32,
@@ -160,6 +161,14 @@ static int raster_describe_bands(gdal_raster *r)
     return 0;
 }
 
+/* A file of one band whose blocks are rows takes them as they are, without GDAL's cache. */
+static void raster_find_blocks(gdal_raster *r)
+{
+    int width, height;
+    r->gdal->GDALGetBlockSize(r->gdal->GDALGetRasterBand(r->set, 1), &width, &height);
+    r->by_row = r->form.bands == 1 && width == (int)r->form.columns && height == 1;
+}
+
 /* GDAL keeps up to a twentieth of the memory of what is written. A few rows of tiles are enough,
  * and quicker: memory is used again. GDAL_CACHEMAX is the user's. */
 static void raster_limit_cache(const gdal_raster *r)
@@ -187,19 +196,27 @@ int gdal_raster_create(gdal_raster **raster, const char *path, const gdal_raster
     r->set = r->gdal->GDALCreate(r->driver, r->scratch, (int)form->columns, (int)form->rows,
                                  (int)form->bands, types[form->type],
                                  r->copier ? scratch_options : r->creation);
-    if (r->set && r->gdal->CPLGetLastErrorType() < CE_Warning) return raster_describe_bands(r);
-    return raster_fail(r, "it cannot be created");
+    if (!r->set || r->gdal->CPLGetLastErrorType() >= CE_Warning)
+        return raster_fail(r, "it cannot be created");
+    raster_find_blocks(r);
+    return raster_describe_bands(r);
 }
 
 int gdal_raster_write(gdal_raster *r, uint32_t band, uint32_t row, uint32_t rows, void *pixels)
 {
+    const GDALRasterBandH target = r->gdal->GDALGetRasterBand(r->set, (int)band + 1);
+    const size_t row_bytes = (size_t)r->form.columns * gdal_raster_size(r->form.type);
+    CPLErr failure = CE_None;
     r->gdal->CPLErrorReset();
-    if (r->gdal->GDALRasterIO(r->gdal->GDALGetRasterBand(r->set, (int)band + 1), GF_Write, 0,
-                              (int)row, (int)r->form.columns, (int)rows, pixels,
-                              (int)r->form.columns, (int)rows, types[r->form.type], 0,
-                              0) == CE_None)
-        return 0;
-    return raster_fail(r, "its rows cannot be written");
+    if (r->by_row)
+        for (uint32_t i = 0; failure == CE_None && i < rows; i++)
+            failure =
+                r->gdal->GDALWriteBlock(target, 0, (int)(row + i), (char *)pixels + i * row_bytes);
+    else
+        failure = r->gdal->GDALRasterIO(target, GF_Write, 0, (int)row, (int)r->form.columns,
+                                        (int)rows, pixels, (int)r->form.columns, (int)rows,
+                                        types[r->form.type], 0, 0);
+    return failure == CE_None ? 0 : raster_fail(r, "its rows cannot be written");
 }
 
 /* Close what was written, and copy it to its final form if that is another. */

@@ -167,17 +167,24 @@ static int rows_fail(const gdal_rows *r, const char *what)
     return END_RESOURCE;
 }
 
-int gdal_rows_check(const char *path)
+static int rows_check_driver(const char *path, const vector_format *format)
 {
-    const vector_format *format = vector_format_of(path);
     const gdal_functions *gdal = gdal_library_load();
     if (!gdal) {
         complain("%s: GDAL, which would write it, cannot be loaded (" MW_GDAL ")", path);
         return END_USAGE;
     }
-    if (gdal->GDALGetDriverByName(format->driver)) return gdal_directory_check(path);
+    if (gdal->GDALGetDriverByName(format->driver)) return 0;
     complain("%s: this GDAL does not write %s", path, format->driver);
     return END_USAGE;
+}
+
+int gdal_rows_check(const char *path)
+{
+    const vector_format *format = vector_format_of(path);
+    gdal_library_begin();
+    int end = format->rare ? rows_check_driver(path, format) : 0;
+    return end ? end : gdal_directory_check(path);
 }
 
 static int rows_read_header(gdal_rows *r)
@@ -220,10 +227,11 @@ int gdal_rows_open(gdal_rows **rows, const char *path, const gdal_rows_form *for
 {
     gdal_rows *r = *rows = calloc(1, sizeof *r);
     if (!r) return fail_memory();
-    r->gdal = gdal_library_load();
     r->form = *form;
     r->format = vector_format_of(path);
+    r->gdal = gdal_library_load();
     int end = gdal_directory_open(&r->target, path);
+    if (end == 0) end = rows_check_driver(path, r->format);
     if (end == 0 && r->format->lonlat_only) end = rows_check_lonlat(r);
     return end ? end : rows_read_header(r);
 }

@@ -9,8 +9,8 @@
 /* Does the name end as that of a vector file which GDAL could write? */
 bool gdal_rows_known(const char *path);
 
-/* Find out before long work whether such a file can be written. Returns 0, or an exit code after a
- * complaint. */
+/* Find out before long work whether such a file can be written here, and begin to load GDAL, whose
+ * answer gdal_rows_open has. Returns 0, or an exit code after a complaint. */
 int gdal_rows_check(const char *path);
 
 /* How the rows are to be read. */

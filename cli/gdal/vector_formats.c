@@ -31,7 +31,7 @@ static const vector_format formats[] = {
     {.ending = ".jml", .driver = "JML"},
     /* The file would begin by dropping a table of that name. */
     {.ending = ".sql", .driver = "PGDUMP", .options = {"DROP_TABLE=NO"}},
-    {.ending = ".parquet", .driver = "Parquet"},
+    {.ending = ".parquet", .driver = "Parquet", .rare = true},
 };
 /* clang-format on */
 

@@ -16,6 +16,7 @@ typedef struct vector_format {
     bool geometry_needed; /* every row needs a geometry */
     bool lonlat_meant;    /* without a system, it means longitudes and latitudes */
     bool lonlat_only;     /* and GDAL does not transform coordinates to these */
+    bool rare;            /* many builds of GDAL lack it */
 } vector_format;
 
 /* The format of a name; NULL: it is none of them. */

@@ -102,7 +102,9 @@ static const double *mesh_field_of_vertices(const mw_mesh_file *file, const char
     for (size_t i = 0; i < file->field_count; i++)
         if (strcmp(file->field_names[i], field) == 0) return file->fields[i];
     *stride = 3;
-    return file->has_z && strcmp(field, "z") == 0 ? file->points + 2 : NULL;
+    if (!file->has_z || strcmp(field, "z") != 0) return NULL;
+    static const double none; /* of no vertices */
+    return file->points ? file->points + 2 : &none;
 }
 
 int mesh_field_copy(const char *path, const mw_mesh_file *file, const mesh_field_choice *choice,

@@ -19,7 +19,7 @@
 enum { TABLE_BLOCK = 1 << 11 };
 
 /* Append the rows of a block as points of the line. */
-static int table_append(mw_constraint_file *c, const double *xy, size_t count)
+static int table_append(mw_constraint_file *c, const char *path, const double *xy, size_t count)
 {
     double *points = realloc(c->points, 3 * (c->point_count + count) * sizeof *points);
     if (!points) return fail_memory();
@@ -29,6 +29,10 @@ static int table_append(mw_constraint_file *c, const double *xy, size_t count)
         p[0] = xy[2 * i];
         p[1] = xy[2 * i + 1];
         p[2] = NAN;
+        if (isfinite(p[0]) && isfinite(p[1])) continue;
+        complain("%s: point %zu of the line has no finite x and y",
+                 files_is_standard(path) ? "standard input" : path, c->point_count);
+        return END_INPUT;
     }
     return 0;
 }
@@ -99,7 +103,7 @@ static int table_read(const char *path, const line_file_settings *settings, bool
     int end = query_source_open(&source, path, &how, &wanted, index);
     while (end == 0 && count > 0) {
         end = query_source_read(source, xy, TABLE_BLOCK, &count);
-        if (end == 0) end = table_append(c, xy, count);
+        if (end == 0) end = table_append(c, path, xy, count);
     }
     if (end == 0) end = table_chain(c);
     if (end == 0) end = table_note_crs(c, source, mesh_crs);

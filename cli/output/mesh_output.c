@@ -25,12 +25,22 @@ static bool mesh_output_is_packed(const char *output)
     return length > 3 && strcasecmp(output + length - 3, ".gz") == 0;
 }
 
+static bool mesh_output_is_prepared(const char *output)
+{
+    const char *ending = strrchr(output, '.');
+    return ending && strcasecmp(ending, ".mwm") == 0;
+}
+
 int mesh_output_check(const char *command_name, const char *output, int format)
 {
     if (!output)
         complain("%s: -o MESH is missing: where should the mesh go?", command_name);
     else if (files_is_standard(output) && format == FORMAT_BY_ENDING)
         complain("%s: a mesh on standard output needs --format", command_name);
+    else if (format == FORMAT_BY_ENDING && mesh_output_is_prepared(output))
+        complain("%s: 'meshwalk prepare MESH -o %s' writes prepared meshes; here name another "
+                 "ending, or a format with --format (off, ply, ...)",
+                 output, output);
     else if (format == FORMAT_BY_ENDING && !mw_mesh_format_of_path(output))
         complain("%s: no mesh format has this ending; name one with --format (off, ply, ...)",
                  output);

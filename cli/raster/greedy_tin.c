@@ -243,7 +243,7 @@ static int greedy_result_of(greedy_result *r, const mw_mesh *given, const dem *d
     const mw_mesh *mesh = given ? given : r->mesh;
     if (status == MW_OK) status = mw_locator_create(mesh, &options, &r->locator, &error);
     if (status != MW_OK) return fail_mesh(d->path, &error);
-    return raster_scan_create(&r->scan, r->locator, mesh, &d->grid);
+    return raster_scan_create(&r->scan, r->locator, mesh, &d->grid, threads);
 }
 
 /* State of a verification: the pixels whose error is too large. */

@@ -1,10 +1,11 @@
 #include "cli/raster/raster_bands.h"
 #include "cli/frame/message.h"
 #include "cli/frame/progress.h"
+#include "src/base/base.h"
+#include "src/base/posix.h"
 #include "src/base/threads.h"
 
 #include <math.h>
-#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -94,18 +95,24 @@ double raster_bands_property(const raster_mesh *m, raster_band band, uint32_t tr
 
 /* --- strips ----------------------------------------------------------------------------------- */
 
-/* Strips that are computed together. Meanwhile those before them are written. */
-typedef struct band_block {
+/* Strips on their way: computed by all threads, written in order by the first. Strip i uses slot i
+ * modulo their number, so no more strips than slots wait to be written, and all of them stay in a
+ * cache. */
+enum { MOST_SLOTS = 2 * MW_MOST_THREADS };
+typedef struct band_strips {
     const raster_bands *bands;
-    char *pixels[2][BAND_COUNT]; /* of each band: of these strips, and of those before them */
-    uint32_t first, end;         /* strips */
-    uint32_t before;             /* the first of those before them; the same as `first`: none */
     gdal_raster *raster;
-    int end_of_writing; /* 0, or an exit code */
-    atomic_uint next;   /* the strip to go on with */
-    atomic_uint_fast64_t filled, mistakable;
-    atomic_bool failed; /* memory ran out */
-} band_block;
+    uint32_t strips, slots;
+    char *pixels;         /* of each slot, band by band */
+    size_t band_bytes;    /* of a strip */
+    pthread_mutex_t lock; /* of what follows */
+    pthread_cond_t change;
+    uint32_t next;          /* the strip to be computed next */
+    uint32_t written;       /* so many strips are */
+    bool ready[MOST_SLOTS]; /* the strip of this slot can be written */
+    int end;                /* 0, or an exit code: everyone stops */
+    uint64_t found[2];      /* as filled and mistakable of raster_bands */
+} band_strips;
 
 /* What a thread works with. */
 typedef struct strip_worker {
@@ -180,19 +187,31 @@ static bool bands_are_rounded(const raster_bands *b)
     return b->count == 1 && b->bands[0] == BAND_VALUE && b->type == RASTER_FLOAT32 && !b->nearest;
 }
 
-/* Store `nodata` for NaN, and count as raster_bands_store. */
+/* Store `nodata` for NaN, and count as raster_bands_store. In most runs of pixels all have a
+ * value. */
 static void pixels_settle(double nodata, float *pixels, size_t count, uint64_t found[2])
 {
+    enum { RUN = 32 };
     const float none = (float)nodata;
-    uint64_t filled = 0, mistakable = 0;
-    for (size_t i = 0; i < count; i++) {
-        bool valued = pixels[i] == pixels[i];
-        filled += valued;
-        mistakable += pixels[i] == none;
-        pixels[i] = valued ? pixels[i] : none;
+    for (size_t from = 0; from < count; from += RUN) {
+        const size_t run = count - from < RUN ? count - from : RUN;
+        uint32_t valued = 0, mistakable = 0;
+        for (size_t i = 0; run == RUN && i < RUN; i++) {
+            valued += pixels[from + i] == pixels[from + i];
+            mistakable += pixels[from + i] == none;
+        }
+        if (run == RUN && valued == RUN) {
+            found[0] += RUN;
+            found[1] += mistakable;
+            continue;
+        }
+        for (size_t i = from; i < from + run; i++) {
+            const bool has = pixels[i] == pixels[i];
+            found[0] += has;
+            found[1] += pixels[i] == none;
+            pixels[i] = has ? pixels[i] : none;
+        }
     }
-    found[0] += filled;
-    found[1] += mistakable;
 }
 
 /* Replace each triangle by what it has. */
@@ -209,16 +228,20 @@ static void worker_derive(strip_worker *w, raster_band band, size_t count)
     }
 }
 
-static void worker_do_strip(strip_worker *w, const band_block *block, uint32_t strip)
+static char *strip_pixels(const band_strips *all, uint32_t strip, uint32_t band)
+{
+    return all->pixels + (strip % all->slots * (size_t)all->bands->count + band) * all->band_bytes;
+}
+
+static void worker_do_strip(strip_worker *w, const band_strips *all, uint32_t strip)
 {
     const raster_bands *b = w->bands;
     uint32_t height = raster_scan_height(b->scan), row = strip * height;
     uint32_t rows = b->grid->rows - row < height ? b->grid->rows - row : height;
     size_t count = (size_t)rows * b->grid->columns;
-    size_t before = (size_t)(strip - block->first) * height * b->grid->columns;
     raster_scan_pixels pixels = {.triangles = w->triangles};
     if (bands_are_rounded(b)) {
-        pixels.rounded = (float *)(void *)block->pixels[0][0] + before;
+        pixels.rounded = (float *)(void *)strip_pixels(all, strip, 0);
         raster_scan_strip(b->scan, strip, &w->cursor, &pixels);
         pixels_settle(b->nodata, pixels.rounded, count, w->found);
         return;
@@ -229,100 +252,115 @@ static void worker_do_strip(strip_worker *w, const band_block *block, uint32_t s
     for (uint32_t k = 0; k < b->count; k++) {
         if (b->bands[k] != BAND_VALUE) worker_derive(w, b->bands[k], count);
         uint64_t none[2] = {0};
-        raster_bands_store(b, w->values, count,
-                           block->pixels[0][k] + before * gdal_raster_size(b->type),
+        raster_bands_store(b, w->values, count, strip_pixels(all, strip, k),
                            k == 0 ? w->found : none);
     }
 }
 
-/* Write the strips before those of the block. */
-static int block_write(const band_block *block)
+static int strip_write(const band_strips *all, uint32_t strip)
 {
-    const raster_bands *b = block->bands;
-    uint32_t height = raster_scan_height(b->scan), row = block->before * height;
-    uint32_t rows = (block->first - block->before) * height;
-    if (rows > b->grid->rows - row) rows = b->grid->rows - row;
+    const raster_bands *b = all->bands;
+    uint32_t height = raster_scan_height(b->scan), row = strip * height,
+             rows = b->grid->rows - row < height ? b->grid->rows - row : height;
     int end = 0;
-    for (uint32_t k = 0; rows > 0 && end == 0 && k < b->count; k++)
-        end = gdal_raster_write(block->raster, b->offset + k, row, rows, block->pixels[1][k]);
+    for (uint32_t k = 0; end == 0 && k < b->count; k++)
+        end = gdal_raster_write(all->raster, b->offset + k, row, rows, strip_pixels(all, strip, k));
     progress_points((uint64_t)(row + rows) * b->grid->columns,
                     (double)(row + rows) / b->grid->rows);
     return end;
 }
 
-static void block_work(void *work, uint32_t member)
+static bool worker_make(strip_worker *w)
 {
-    band_block *block = work;
-    const raster_bands *b = block->bands;
-    strip_worker w = {.bands = b};
-    size_t count = (size_t)raster_scan_height(b->scan) * b->grid->columns;
-    /* GDAL is called by the thread that the program began with: member 0. */
-    if (member == 0) block->end_of_writing = block_write(block);
-    bool doubles = !bands_are_rounded(b);
-    if (doubles) w.values = malloc(count * sizeof *w.values);
-    bool wanted = b->bands[0] != BAND_VALUE || b->nearest;
-    if (wanted) w.triangles = malloc(count * sizeof *w.triangles);
-    if ((w.values || !doubles) && (w.triangles || !wanted) &&
-        mw_cursor_init(b->mesh->locator, NULL, &w.cursor, NULL) == MW_OK) {
-        for (uint32_t strip; (strip = atomic_fetch_add(&block->next, 1)) < block->end;)
-            worker_do_strip(&w, block, strip);
-    } else {
-        atomic_store(&block->failed, true);
+    const raster_bands *b = w->bands;
+    const size_t count = (size_t)raster_scan_height(b->scan) * b->grid->columns;
+    const bool doubles = !bands_are_rounded(b), wanted = b->bands[0] != BAND_VALUE || b->nearest;
+    if (doubles) w->values = malloc(count * sizeof *w->values);
+    if (wanted) w->triangles = malloc(count * sizeof *w->triangles);
+    return (w->values || !doubles) && (w->triangles || !wanted) &&
+           mw_cursor_init(b->mesh->locator, NULL, &w->cursor, NULL) == MW_OK;
+}
+
+/* --- threads ---------------------------------------------------------------------------------- */
+
+/* With the lock held: do something without it, and report. */
+static void strips_compute_next(band_strips *all, strip_worker *w)
+{
+    const uint32_t strip = all->next++;
+    pthread_mutex_unlock(&all->lock);
+    worker_do_strip(w, all, strip);
+    pthread_mutex_lock(&all->lock);
+    all->ready[strip % all->slots] = true;
+    pthread_cond_broadcast(&all->change);
+}
+
+static void strips_write_next(band_strips *all)
+{
+    const uint32_t strip = all->written;
+    pthread_mutex_unlock(&all->lock);
+    const int end = strip_write(all, strip);
+    pthread_mutex_lock(&all->lock);
+    all->ready[strip % all->slots] = false;
+    all->written++;
+    if (end) all->end = end;
+    pthread_cond_broadcast(&all->change);
+}
+
+/* A strip is computed by a thread that runs already, and written by the caller's, which runs from
+ * the beginning: so nobody waits for a thread that could not be made. GDAL is called by the thread
+ * that the program began with: member 0. */
+static void strips_work(void *self, uint32_t member)
+{
+    band_strips *all = self;
+    strip_worker w = {.bands = all->bands};
+    const bool made = worker_make(&w), writes = member == 0;
+    pthread_mutex_lock(&all->lock);
+    if (!made && !all->end) all->end = fail_memory();
+    while (!all->end && (writes ? all->written : all->next) < all->strips) {
+        if (writes && all->ready[all->written % all->slots])
+            strips_write_next(all);
+        else if (all->next < all->strips && all->next - all->written < all->slots)
+            strips_compute_next(all, &w);
+        else
+            pthread_cond_wait(&all->change, &all->lock);
     }
-    atomic_fetch_add(&block->filled, w.found[0]);
-    atomic_fetch_add(&block->mistakable, w.found[1]);
+    for (int i = 0; i < 2; i++) all->found[i] += w.found[i];
+    pthread_cond_broadcast(&all->change);
+    pthread_mutex_unlock(&all->lock);
     free(w.values);
     free(w.triangles);
 }
 
-/* --- blocks ----------------------------------------------------------------------------------- */
+/* At most about this many bytes of pixels wait to be written. */
+#define WAITING_BYTES ((size_t)1 << 26)
 
-/* About this many bytes of pixels wait to be written. */
-#define BLOCK_BYTES ((size_t)1 << 25)
-
-static bool block_make_pixels(band_block *block, size_t bytes)
+/* Two strips for each thread: one that it computes, and one that is written later. */
+static uint32_t strips_slots(size_t bytes, uint32_t team)
 {
-    for (int i = 0; i < 2; i++)
-        for (uint32_t k = 0; k < block->bands->count; k++)
-            if (!(block->pixels[i][k] = malloc(bytes))) return false;
-    return true;
-}
-
-/* Go on with the strips from `first` up to, not including, `end`. */
-static void block_move(band_block *block, uint32_t first, uint32_t end)
-{
-    block->before = block->first;
-    block->first = first;
-    block->end = end;
-    atomic_store(&block->next, first);
-    for (int k = 0; k < BAND_COUNT; k++) {
-        char *pixels = block->pixels[0][k];
-        block->pixels[0][k] = block->pixels[1][k];
-        block->pixels[1][k] = pixels;
-    }
+    const size_t most = WAITING_BYTES / bytes;
+    return 2 * team <= most ? 2 * team : most > 2 ? (uint32_t)most : 2;
 }
 
 int raster_bands_write(raster_bands *b, gdal_raster *raster)
 {
-    uint32_t height = raster_scan_height(b->scan), strips = raster_scan_strips(b->scan);
-    size_t strip_bytes = (size_t)height * b->grid->columns * gdal_raster_size(b->type);
-    size_t at_once = BLOCK_BYTES / strip_bytes / b->count, most = 8 * mw__team(b->threads, strips);
-    uint32_t step = (uint32_t)(at_once < 1 ? 1 : at_once > most ? most : at_once);
-    band_block block = {.bands = b, .raster = raster};
-    int end = block_make_pixels(&block, step * strip_bytes) ? 0 : fail_memory();
+    const uint32_t strips = raster_scan_strips(b->scan), team = mw__team(b->threads, strips);
+    const size_t bytes =
+        (size_t)raster_scan_height(b->scan) * b->grid->columns * gdal_raster_size(b->type);
+    band_strips all = {.bands = b,
+                       .raster = raster,
+                       .strips = strips,
+                       .slots = strips_slots(bytes * b->count, team),
+                       .band_bytes = bytes};
+    all.pixels = mw__alloc_lines(all.slots, bytes * b->count);
+    if (!all.pixels) return fail_memory();
     if (b->bands[0] == BAND_VALUE) raster_scan_take_values(b->scan, b->mesh->values);
-    for (uint32_t strip = 0; end == 0 && strip < strips; strip += step) {
-        block_move(&block, strip, strips - strip < step ? strips : strip + step);
-        mw__team_run(mw__team(b->threads, block.end - strip), block_work, &block);
-        end = atomic_load(&block.failed) ? fail_memory() : block.end_of_writing;
-    }
-    block_move(&block, strips, strips);
-    if (end == 0) end = block_write(&block);
-    for (uint32_t k = 0; k < b->count; k++) {
-        free(block.pixels[0][k]);
-        free(block.pixels[1][k]);
-    }
-    b->filled = atomic_load(&block.filled);
-    b->mistakable = atomic_load(&block.mistakable);
-    return end;
+    pthread_mutex_init(&all.lock, NULL);
+    pthread_cond_init(&all.change, NULL);
+    mw__team_run(team, strips_work, &all);
+    free(all.pixels);
+    pthread_mutex_destroy(&all.lock);
+    pthread_cond_destroy(&all.change);
+    b->filled = all.found[0];
+    b->mistakable = all.found[1];
+    return all.end;
 }

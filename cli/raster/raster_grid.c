@@ -47,6 +47,11 @@ static int grid_fail_size(const raster_grid_wish *wish)
 
 int raster_grid_complete(raster_grid *g)
 {
+    if ((double)g->columns * g->rows > MOST_OF_ALL) {
+        complain("a raster of %u times %u pixels is too large", (unsigned)g->columns,
+                 (unsigned)g->rows);
+        return END_RESOURCE;
+    }
     g->x = malloc(g->columns * sizeof *g->x);
     g->y = calloc((size_t)g->rows + RASTER_GRID_SPARE, sizeof *g->y);
     if (!g->x || !g->y) return fail_memory();

@@ -28,8 +28,9 @@ int raster_like_grid(const raster_like *like, raster_grid *grid, const char *mes
                           .columns = form->columns,
                           .rows = form->rows};
     if (mesh_crs && like->crs && !crs_same(mesh_crs, like->crs)) {
-        complain("%s is in %s, %s in %s: transform one of them first", mesh,
-                 crs_name(mesh_crs, names[0]), like->path, crs_name(like->crs, names[1]));
+        complain("%s is in %s, %s in %s: transform one of them first; 'gdalwarp -t_srs' "
+                 "brings a raster to another system",
+                 mesh, crs_name(mesh_crs, names[0]), like->path, crs_name(like->crs, names[1]));
         return END_INPUT;
     }
     if (!mesh_crs != !like->crs && !quiet)

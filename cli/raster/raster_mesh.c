@@ -13,8 +13,9 @@
 
 void raster_mesh_release(raster_mesh *m)
 {
-    mw_locator_destroy(m->locator);
-    mw_mesh_destroy(m->mesh);
+    mw_locator_destroy(m->own_locator);
+    if (!m->map) mw_mesh_destroy(m->mesh);
+    mw_prepared_close(m->map);
     mw_operator_destroy(m->seam);
     free(m->values);
     free(m->own);
@@ -74,7 +75,9 @@ static int raster_mesh_locate(raster_mesh *m, const char *path, const raster_mes
     mw_error error;
     mw_locator_options options = {
         .border = s->border, .threads = s->common->threads, .progress = progress_of_call()};
-    if (mw_locator_create(m->mesh, &options, &m->locator, &error) == MW_OK) return 0;
+    const mw_status status = mw_locator_create(m->mesh, &options, &m->own_locator, &error);
+    m->locator = m->own_locator;
+    if (status == MW_OK) return 0;
     int end = fail_mesh(path, &error);
     if (end == END_INPUT && m->seam)
         mesh_seam_explain(path, &(mw_seam_pieces){.west = m->west});
@@ -83,17 +86,38 @@ static int raster_mesh_locate(raster_mesh *m, const char *path, const raster_mes
     return end;
 }
 
-/* The extent of the vertices that triangles have, and their number: those of the file, which lie in
- * order. */
-static int raster_mesh_measure(raster_mesh *m, const mw_mesh_file *file)
+/* Vertices and triangles are taken from the mesh so many at a time. */
+enum { BLOCK = 256 };
+
+static uint32_t block_count(uint32_t first, uint32_t end)
 {
-    uint8_t *used = calloc(file->point_count + 1, 1);
+    return end - first < BLOCK ? end - first : BLOCK;
+}
+
+static void raster_mesh_mark_used(const raster_mesh *m, uint8_t *used)
+{
+    const uint32_t n = mw_mesh_triangle_count(m->mesh);
+    uint32_t corners[3 * BLOCK];
+    for (uint32_t t = 0; t < n; t += BLOCK) {
+        const uint32_t count = block_count(t, n);
+        mw_mesh_stored_triangles(m->mesh, t, count, corners, NULL);
+        for (uint32_t i = 0; i < 3 * count; i++) used[corners[i]] = 1;
+    }
+}
+
+/* The extent of the vertices that triangles have, and their number. */
+static int raster_mesh_measure(raster_mesh *m)
+{
+    const uint32_t n = mw_mesh_vertex_count(m->mesh);
+    double points[2 * BLOCK];
+    uint8_t *used = calloc((size_t)n + 1, 1);
     if (!used) return fail_memory();
-    for (size_t i = 0; i < 3 * file->triangle_count; i++) used[file->triangles[i]] = 1;
+    raster_mesh_mark_used(m, used);
     for (int k = 0; k < 4; k++) m->extent[k] = k < 2 ? (double)INFINITY : -(double)INFINITY;
-    for (size_t i = 0; i < file->point_count; i++) {
-        const double *p = file->points + 3 * i;
-        if (!used[i]) continue;
+    for (uint32_t v = 0; v < n; v++) {
+        const double *p = points + 2 * (size_t)(v % BLOCK);
+        if (v % BLOCK == 0) mw_mesh_stored_vertices(m->mesh, v, block_count(v, n), points, NULL);
+        if (!used[v]) continue;
         for (int k = 0; k < 2; k++) {
             m->extent[k] = p[k] < m->extent[k] ? p[k] : m->extent[k];
             m->extent[k + 2] = p[k] > m->extent[k + 2] ? p[k] : m->extent[k + 2];
@@ -175,31 +199,74 @@ static int raster_mesh_leave_values(raster_mesh *m, const mw_mesh_file *file)
 static int raster_mesh_take_values(raster_mesh *m, const char *path, const mw_mesh_file *file,
                                    const raster_mesh_settings *s)
 {
-    int end = m->seam ? 0 : mesh_field_load(m->mesh, path, file, &s->field);
-    if (end) return end;
-    size_t size = (size_t)mw_mesh_vertex_count(m->mesh) * sizeof *m->values;
-    m->values = malloc(size + 1);
-    if (!m->values) return fail_memory();
-    if (m->seam) return raster_mesh_spread(m);
-    memcpy(m->values, mw_mesh_field(m->mesh, s->field.field), size);
+    if (!m->seam) return mesh_field_copy(path, file, &s->field, &m->values);
+    m->values = malloc((size_t)mw_mesh_vertex_count(m->mesh) * sizeof *m->values + 1);
+    return m->values ? raster_mesh_spread(m) : fail_memory();
+}
+
+static int raster_mesh_fill_values(raster_mesh *m, const char *path, const mw_mesh_file *file,
+                                   const raster_mesh_settings *s)
+{
+    return s->over_time ? raster_mesh_leave_values(m, file)
+                        : raster_mesh_take_values(m, path, file, s);
+}
+
+/* --- prepared files --------------------------------------------------------------------------- */
+
+/* Is the mesh, as it was prepared, the one that is asked for? */
+static bool raster_mesh_takes_map(const char *path, const raster_mesh_settings *s)
+{
+    return s->max_edge == 0 && !s->cut && mw_prepared_known(path);
+}
+
+/* Map a prepared file. `map` stays NULL if its locator lacks the border that is needed. */
+static int raster_mesh_map(raster_mesh *m, const char *path, const raster_mesh_settings *s)
+{
+    mw_error error;
+    mw_prepared_info info;
+    const mw_map_options options = {.threads = s->common->threads, .progress = progress_of_call()};
+    progress_phase("checking", path);
+    if (mw_mesh_map(path, &options, &m->map, &error) != MW_OK) return fail_reading(&error);
+    mw_prepared_describe(m->map, &info);
+    if (!s->border || info.border) return 0;
+    mw_prepared_close(m->map);
+    m->map = NULL;
     return 0;
 }
 
-int raster_mesh_read(raster_mesh *m, const char *path, const raster_mesh_settings *s)
+static int raster_mesh_attach_map(raster_mesh *m, const char *path, const raster_mesh_settings *s)
+{
+    const mw_mesh_file *values = mw_prepared_values(m->map);
+    m->mesh = mw_prepared_mesh(m->map);
+    m->locator = mw_prepared_locator(m->map);
+    m->file_vertices = values->point_count;
+    int end = mesh_crs_settle(path, s->crs, values->crs, s->common->quiet, &m->crs);
+    if (end == 0) end = raster_mesh_fill_values(m, path, values, s);
+    return end ? end : raster_mesh_measure(m);
+}
+
+/* --- all of it -------------------------------------------------------------------------------- */
+
+static int raster_mesh_read_file(raster_mesh *m, const char *path, const raster_mesh_settings *s)
 {
     mw_mesh_file file;
-    *m = (raster_mesh){0};
     int end = files_read_mesh(path, &file);
     if (end) return end;
     end = mesh_crs_settle(path, s->crs, file.crs, s->common->quiet, &m->crs);
     progress_phase("preparing", path);
     if (end == 0) end = raster_mesh_cut(m, path, &file, s);
     if (end == 0) end = raster_mesh_create(m, path, &file, s);
-    if (end == 0)
-        end = s->over_time ? raster_mesh_leave_values(m, &file)
-                           : raster_mesh_take_values(m, path, &file, s);
+    if (end == 0) end = raster_mesh_fill_values(m, path, &file, s);
     if (end == 0 && s->max_edge > 0) end = raster_mesh_peel(m, path, &file, s);
-    if (end == 0) end = raster_mesh_measure(m, &file);
     mw_mesh_file_release(&file);
+    if (end == 0) end = raster_mesh_measure(m);
     return end ? end : raster_mesh_locate(m, path, s);
+}
+
+int raster_mesh_read(raster_mesh *m, const char *path, const raster_mesh_settings *s)
+{
+    *m = (raster_mesh){0};
+    int end = raster_mesh_takes_map(path, s) ? raster_mesh_map(m, path, s) : 0;
+    if (end) return end;
+    return m->map ? raster_mesh_attach_map(m, path, s) : raster_mesh_read_file(m, path, s);
 }

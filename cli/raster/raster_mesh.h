@@ -16,8 +16,10 @@ typedef struct raster_mesh_settings {
 } raster_mesh_settings;
 
 typedef struct raster_mesh {
+    mw_prepared *map; /* of a prepared file, which has mesh and locator; or NULL */
     mw_mesh *mesh;
-    mw_locator *locator;
+    const mw_locator *locator;
+    mw_locator *own_locator;
     double *values;    /* one for each vertex, NaN where it is missing */
     mw_operator *seam; /* makes them of `own` where the mesh was cut (mesh_seam.h); else NULL */
     double *own;       /* one for each vertex of the file, then */

@@ -15,11 +15,12 @@
 
 typedef struct raster_scan raster_scan;
 
-/* Prepare a mesh with a locator of its own, which outlive the scan. Memory: 32 bytes for each
- * vertex, 12 for each triangle, and 4 for each strip that it reaches into, at most five. Returns 0,
- * or an exit code after a complaint; release it in both cases. */
+/* Prepare a mesh with a locator of its own, which outlive the scan, on several threads (0: one for
+ * each processor). Memory: 32 bytes for each vertex, and for each triangle 4 for each strip
+ * that it reaches into, at most four. Returns 0, or an exit code after a complaint; release it in
+ * both cases. */
 int raster_scan_create(raster_scan **scan, const mw_locator *locator, const mw_mesh *mesh,
-                       const raster_grid *grid);
+                       const raster_grid *grid, uint32_t threads);
 void raster_scan_release(raster_scan *s); /* NULL is allowed */
 
 /* Take the values that strips get from now on: one for each vertex of the mesh, which stay. NULL:

@@ -11,15 +11,26 @@ static int64_t limit(double value, int64_t least, int64_t most)
     return value >= (double)most ? most : value > (double)least ? (int64_t)value : least;
 }
 
-row_range rows_between(const raster_grid *g, double south, double north)
+int32_t scan_row_south_of(const raster_grid *g, double northing)
 {
-    int64_t rows = g->rows;
-    row_range r = {limit((g->north - north) / g->height - 0.5, 0, rows),
-                   limit((g->north - south) / g->height - 0.5, -1, rows - 1)};
-    while (r.first > 0 && g->y[r.first - 1] <= north) r.first--;
-    while (r.first < rows && g->y[r.first] > north) r.first++;
-    while (r.last + 1 < rows && g->y[r.last + 1] >= south) r.last++;
-    while (r.last >= 0 && g->y[r.last] < south) r.last--;
+    int64_t rows = g->rows, row = limit((g->north - northing) / g->height - 0.5, 0, rows);
+    while (row > 0 && g->y[row - 1] <= northing) row--;
+    while (row < rows && g->y[row] > northing) row++;
+    return (int32_t)row;
+}
+
+/* Rows of the strip whose centres lie between the corners of a triangle. */
+static row_range rows_of_triangle(const scan_strip *s, const scan_vertex *const corner[3])
+{
+    const scan_vertex *a = corner[0], *b = corner[1], *c = corner[2],
+                      *north = a->row < b->row ? a : b, *south = a->y < b->y ? a : b;
+    if (c->row < north->row) north = c;
+    if (c->y < south->y) south = c;
+    /* That row is south of the corner, unless the corner is on it. */
+    const bool reached = south->row < (int64_t)s->grid->rows && s->grid->y[south->row] == south->y;
+    row_range r = {north->row, (int64_t)south->row - !reached};
+    if (r.first < s->first) r.first = s->first;
+    if (r.last > s->last) r.last = s->last;
     return r;
 }
 
@@ -239,29 +250,18 @@ static void triangle_values(const scan_triangle *t, double py, const double *res
     }
 }
 
-/* The same, rounded to floats: by the plane, where that is sure of them. `room`: pixels of the row
- * from the first on. */
-static SCAN_INLINE void triangle_rounded(const scan_triangle *t, double py, const double *px,
-                                         float *result, int64_t count, int64_t room)
-{
-    if (scan_plane_fill(&t->plane, py, px, result, count, room)) return;
-    for (int64_t i = 0; i < count; i++) {
-        double value;
-        triangle_values(t, py, px + i, &value, 1);
-        result[i] = (float)value;
-    }
-}
-
 /* Pixels first .. last of a row belong to the triangle, and are far enough from its sides. */
-static SCAN_INLINE void triangle_fill_row(const scan_triangle *t, const scan_strip *s, int64_t row,
-                                          int64_t first, int64_t last)
+static void triangle_fill_row(const scan_triangle *t, const scan_strip *s, int64_t row,
+                              int64_t first, int64_t last)
 {
     const raster_grid *g = s->grid;
     const size_t begin = (size_t)(row - s->first) * g->columns + (size_t)first;
     const int64_t count = last - first + 1;
-    if (s->rounded)
-        triangle_rounded(t, g->y[row], g->x + first, s->rounded + begin, count,
-                         (int64_t)g->columns - first);
+    for (int64_t i = 0; s->rounded && i < count; i++) {
+        double value;
+        triangle_values(t, g->y[row], g->x + first + i, &value, 1);
+        s->rounded[begin + (size_t)i] = (float)value;
+    }
     if (s->result) triangle_values(t, g->y[row], g->x + first, s->result + begin, count);
     for (int64_t i = 0; s->triangles && i < count; i++) s->triangles[begin + (size_t)i] = t->number;
 }
@@ -328,6 +328,38 @@ static scan_crossing side_crossing(const scan_side *side)
     return scan_crossing_make(side->from[1], side->start, side->slope, side->margin);
 }
 
+/* The first pixel of each row, and the one behind the last. */
+typedef struct row_ends {
+    const int32_t *begin, *end;
+} row_ends;
+
+/* Rows first .. first + count - 1, of which the sides' crossings are known. */
+static void triangle_fill_block(const scan_triangle *t, const scan_strip *s, int64_t first,
+                                int64_t count, const scan_crossings *c, row_ends ends)
+{
+    for (int64_t i = 0; i < count; i++)
+        if (c->sure[i] && ends.begin[i] < ends.end[i])
+            triangle_fill_row(t, s, first + i, ends.begin[i], ends.end[i] - 1);
+}
+
+/* The same, as floats by the plane. False: it was not sure of them. */
+static SCAN_INLINE bool triangle_plane_block(const scan_triangle *t, const scan_strip *s,
+                                             int64_t first, int64_t count, const scan_crossings *c,
+                                             row_ends ends)
+{
+    const raster_grid *g = s->grid;
+    const int64_t columns = g->columns;
+    float *row = s->rounded + (first - s->first) * columns;
+    scan_ints unsure = {0};
+    for (int64_t i = 0; i < count; i++, row += columns) {
+        const int64_t begin = ends.begin[i], end = ends.end[i];
+        if (c->sure[i] && begin < end)
+            scan_plane_fill(&t->plane, g->y[first + i], g->x + begin, row + begin, end - begin,
+                            columns - begin, &unsure);
+    }
+    return !scan_is_unsure(&unsure);
+}
+
 /* Rows first .. last of the strip. */
 static SCAN_INLINE void triangle_fill_rows(const scan_triangle *t, const scan_strip *s,
                                            int64_t first, int64_t last)
@@ -339,21 +371,16 @@ static SCAN_INLINE void triangle_fill_rows(const scan_triangle *t, const scan_st
     c.middle[0] = t->middle[0];
     c.middle[1] = t->middle[1];
     c.columns = s->grid->columns;
-    const bool is_left = t->across->is_left;
-    const int32_t *begin = is_left ? c.on_across : c.on_other,
-                  *end = is_left ? c.on_other : c.on_across;
+    const bool is_left = t->across->is_left,
+               by_plane = s->rounded && !s->result && !s->triangles && t->plane.error < 0x1p200;
+    const row_ends ends = {is_left ? c.on_across : c.on_other, is_left ? c.on_other : c.on_across};
     for (; first <= last; first += SCAN_ROWS) {
         const int64_t left = last - first + 1, count = left < SCAN_ROWS ? left : SCAN_ROWS;
         scan_crossings_find(&c, s->grid->y + first, count);
-        for (int64_t i = 0; s->rounded && i < count; i++)
-            __builtin_prefetch(
-                s->rounded + (size_t)(first + i - s->first) * s->grid->columns + begin[i], 1);
-        for (int64_t i = 0; i < count; i++) {
-            if (!c.sure[i])
-                triangle_test_row(t, s, first + i);
-            else if (begin[i] < end[i])
-                triangle_fill_row(t, s, first + i, begin[i], end[i] - 1);
-        }
+        if (!by_plane || !triangle_plane_block(t, s, first, count, &c, ends))
+            triangle_fill_block(t, s, first, count, &c, ends);
+        for (int64_t i = 0; i < count; i++)
+            if (!c.sure[i]) triangle_test_row(t, s, first + i);
     }
 }
 
@@ -376,10 +403,8 @@ triangle_fill_rows_avx2(const scan_triangle *t, const scan_strip *s, int64_t fir
 void scan_triangle_fill(const scan_strip *s, uint32_t number, const scan_vertex *const corner[3])
 {
     scan_triangle t;
-    if (!triangle_load(&t, s, number, corner)) return;
-    row_range rows = rows_between(s->grid, t.south, t.north);
-    if (rows.first < s->first) rows.first = s->first;
-    if (rows.last > s->last) rows.last = s->last;
+    const row_range rows = rows_of_triangle(s, corner);
+    if (rows.first > rows.last || !triangle_load(&t, s, number, corner)) return;
 #ifdef __x86_64__
     if (__builtin_cpu_supports("avx2")) {
         triangle_fill_rows_avx2(&t, s, rows.first, rows.last);

@@ -17,7 +17,8 @@
 /* A vertex as the scan has it. */
 typedef struct scan_vertex {
     double x, y, value;
-    uint32_t number; /* of the mesh */
+    int32_t row;   /* scan_row_south_of(y) */
+    int32_t strip; /* of that row */
 } scan_vertex;
 
 /* Where the pixels of some rows go. */
@@ -34,12 +35,13 @@ typedef struct scan_strip {
     uint32_t *triangles;
 } scan_strip;
 
-/* Rows whose centres lie between two northings: first .. last. None if first > last. */
+/* Rows, or strips of them: first .. last. None if first > last. */
 typedef struct row_range {
     int64_t first, last;
 } row_range;
 
-row_range rows_between(const raster_grid *g, double south, double north);
+/* The first row whose centres are at this northing or south of it; the number of rows: none. */
+int32_t scan_row_south_of(const raster_grid *g, double northing);
 
 /* The least and the greatest of three numbers. */
 static inline double scan_least(double a, double b, double c)

@@ -259,7 +259,7 @@ int remeshed_star_run(const remesh_settings *s, const common_settings *common,
 {
     remeshing r = {.settings = s,
                    .common = common,
-                   .how = {centre, lonlat, false, common->threads, false},
+                   .how = {.centre = centre, .lonlat = lonlat, .threads = common->threads},
                    .path = path};
     int end = remeshing_check(&r);
     if (end == 0) end = files_read_mesh(path, &r.given);

@@ -7,6 +7,7 @@
 #include "cli/gdal/gdal_crs.h"
 #include "cli/output/csv_row.h"
 #include "cli/series/series_values.h"
+#include "cli/stream/globe_points.h"
 #include "cli/stream/located_points.h"
 
 #include <stdlib.h>
@@ -21,6 +22,7 @@ typedef struct series_run {
     const char *output;      /* NULL: standard output */
     const char *points_path; /* for messages */
     point_query query;
+    globe_points globe;
     uint32_t *face;
     size_t face_count;
     series_choice choice;
@@ -37,13 +39,15 @@ static int run_load(mw_mesh *mesh, const char *path, const mw_mesh_file *file, c
 {
     series_run *r = *(series_run *const *)self;
     (void)mesh;
-    (void)path;
     r->face_count = file->faces ? file->face_count : file->triangle_count;
-    if (!file->faces) return 0;
-    r->face = malloc(file->triangle_count * sizeof *r->face + 1);
-    if (!r->face) return fail_memory();
-    memcpy(r->face, file->faces, file->triangle_count * sizeof *r->face);
-    return 0;
+    if (file->faces) {
+        r->face = malloc(file->triangle_count * sizeof *r->face + 1);
+        if (!r->face) return fail_memory();
+        memcpy(r->face, file->faces, file->triangle_count * sizeof *r->face);
+    }
+    return r->settings->globe ? globe_points_make(&r->globe, path, file, r->settings->open,
+                                                  r->query_settings->stream.common.threads)
+                              : 0;
 }
 
 /* --- columns ---------------------------------------------------------------------------------- */
@@ -108,6 +112,7 @@ static void run_release(series_run *r)
     series_values_release(&r->values);
     located_points_release(&r->points);
     series_close(&r->choice);
+    globe_points_release(&r->globe);
     point_query_release(&r->query);
 }
 
@@ -363,7 +368,13 @@ int series_sample(const point_query_settings *query, const series_settings *sett
     if (end == 0) end = run_check_output(&r, operands);
     if (end) return end;
     if (run_is_netcdf(&r)) plain.stream.common.output = NULL;
+    plain.globe = settings->globe;
+    plain.any = plain.any || settings->globe;
     end = point_query_open(&r.query, &plain, operands, false, run_load, &self);
+    if (settings->globe) {
+        r.query.elsewhere = globe_points_locate;
+        r.query.elsewhere_self = &r.globe;
+    }
     if (end == 0) end = run_prepare(&r, operands);
     const series_points at = {.mesh = r.query.mesh,
                               .face = r.face,

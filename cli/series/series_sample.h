@@ -10,6 +10,8 @@ typedef struct series_settings {
     const char *time_column; /* --time-column; NULL: none */
     const char *fields;      /* --field */
     bool recover, wide, status;
+    bool globe; /* points and mesh are longitudes and latitudes on the globe, */
+    bool open;  /* which may be open */
 } series_settings;
 
 /* Returns the exit code. */

@@ -127,7 +127,7 @@ void extent_warn_of_seam(const char *mesh_path, const extent_box *extent, const 
     if (wide == 0 || wide > count / 10) return;
     complain("%s: warning: %" PRIu32
              " of its triangles are wider than 180 degrees: in the plane a mesh "
-             "cannot cross that "
-             "meridian; 'meshwalk star --lonlat' locates on the sphere",
+             "cannot cross that meridian; 'meshwalk star --lonlat' locates on the sphere, with "
+             "--open where the mesh does not cover all of it",
              mesh_path, wide);
 }

@@ -130,6 +130,7 @@ static int located_points_remark(const located_points *p, const point_query *q, 
         complain("%s: remark: %zu points have no position in the coordinate system of the mesh; "
                  "their status is bad",
                  shown, (size_t)crs->lost);
+    if (q->settings->globe) return 0;
     extent_add(&extent, p->moved, p->count, p->width);
     extent_remark(q->path, &q->extent, path, &extent, p->count - located_points_lost(p));
     return 0;

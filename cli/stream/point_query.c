@@ -172,6 +172,7 @@ static int point_query_make_locator(point_query *q, const char *path, bool borde
 {
     mw_error error;
     const point_query_settings *settings = q->settings;
+    if (settings->globe) return 0;
     mw_locator_options options = {.any = settings->any,
                                   .border = border || settings->tolerance > 0,
                                   .areas = settings->areas,
@@ -185,6 +186,26 @@ static int point_query_make_locator(point_query *q, const char *path, bool borde
     q->locator = q->own_locator;
     point_query_warn(q, path);
     return 0;
+}
+
+const char *point_query_option_of_plane(const point_query_settings *q)
+{
+    return q->crs              ? "crs"
+           : q->tolerance != 0 ? "tolerance"
+           : q->sample         ? "sample"
+           : q->steps          ? "steps"
+           : q->cells          ? "cells"
+           : q->layers         ? "layers"
+           : q->walk           ? "walk"
+           : q->start          ? "start"
+           : q->arithmetic     ? "arithmetic"
+           : q->finish         ? "finish"
+           : q->fill           ? "fill"
+           : q->descent        ? "descent"
+           : q->areas          ? "areas"
+           : q->any            ? "any"
+           : q->trust          ? "trust"
+                               : NULL;
 }
 
 int point_query_check_index(uint32_t cells, uint32_t layers)
@@ -256,7 +277,7 @@ static int point_query_settle(point_query *q, mw_mesh *mesh, const mw_mesh_file 
 {
     const point_query_settings *s = q->settings;
     const bool quiet = s->stream.common.quiet;
-    if (!quiet) extent_warn_of_seam(q->path, &q->extent, mesh);
+    if (!quiet && !s->globe) extent_warn_of_seam(q->path, &q->extent, mesh);
     q->first_number = file->first_number;
     int end = mesh_crs_settle(q->path, s->crs, file->crs, quiet, &q->crs);
     return end || !load ? end : load(mesh, q->path, file, self);

@@ -19,12 +19,17 @@ typedef struct point_query_settings {
     bool areas, any;
     bool trust; /* a prepared mesh is not checked */
     bool lines; /* of a command about lines, which has no --any */
+    bool globe; /* points are located on the globe (globe_points.h): the plane does not count */
 } point_query_settings;
 
 extern const option point_query_options[];
 
 /* The names that --walk, --start and --descent accept. */
 extern const choices point_query_walks, point_query_starts, point_query_descents;
+
+/* The option that is given although points are located on a polyhedron, not in the plane; NULL:
+ * none is. */
+const char *point_query_option_of_plane(const point_query_settings *settings);
 
 /* Refuse values of --cells and --layers above the limits of the library. Returns 0, or END_USAGE
  * after a complaint. */
@@ -57,15 +62,15 @@ typedef struct point_query {
     mw_mesh *own_mesh;       /* made from a file of another kind, or NULL */
     mw_locator *own_locator; /* NULL if it is that of `map` */
     const mw_mesh *mesh;
-    const mw_locator *locator;
-    mw_index *index;       /* NULL if the start has none */
-    const char *path;      /* of the mesh */
-    char *crs;             /* its coordinate system; NULL: not known */
-    uint32_t *own_faces;   /* of a file that is not mapped */
-    const uint32_t *faces; /* of its file, per triangle; NULL: they are the triangles */
-    int first_number;      /* what its file counts from: 0 or 1 */
-    extent_box extent;     /* of its vertices */
-    double begin;          /* monotonic_seconds when the command began */
+    const mw_locator *locator; /* NULL if points are located on the globe */
+    mw_index *index;           /* NULL if the start has none */
+    const char *path;          /* of the mesh */
+    char *crs;                 /* its coordinate system; NULL: not known */
+    uint32_t *own_faces;       /* of a file that is not mapped */
+    const uint32_t *faces;     /* of its file, per triangle; NULL: they are the triangles */
+    int first_number;          /* what its file counts from: 0 or 1 */
+    extent_box extent;         /* of its vertices */
+    double begin;              /* monotonic_seconds when the command began */
     point_query_count_rows *count_rows; /* NULL: tell how many points got which mw_where */
     point_query_values *values;         /* NULL: no values are asked for */
     point_query_elsewhere *elsewhere;   /* NULL: points are located here, in the locator */

@@ -53,6 +53,7 @@ typedef struct query_pipeline {
     double *moved; /* the same in the coordinate system of the mesh; may be `values` */
     char *answers;
     text chunk[CHUNKS];
+    size_t *row_end; /* with parts: in the chunk, where the rows of each query end */
     uint64_t unanswered[CHUNKS];
     stream_statistics statistics;
 } query_pipeline;
@@ -69,14 +70,29 @@ static void pipeline_begin_row(const query_pipeline *p, size_t i, text *out)
     text_bytes(out, row, length);
 }
 
-static void pipeline_write_row(const query_pipeline *p, size_t i, bool *answered, text *out)
+/* One row. Returns whether it is an answer. */
+static bool pipeline_write_row(const query_pipeline *p, size_t i, const void *answer, text *out)
 {
     const query_stream *s = p->stream;
     pipeline_begin_row(p, i, out);
     size_t begin = out->size;
-    *answered = s->row(s->self, p->moved + i * p->width, p->answers + i * s->answer_size, out);
+    bool answered = s->row(s->self, p->moved + i * p->width, answer, out);
     if (!s->settings->only_answers) csv_row_adapt(out, begin, p->table.separator, p->decimal);
     csv_row_end(out);
+    return answered;
+}
+
+/* The rows of query i. Returns whether all are answers. */
+static bool pipeline_write_rows(const query_pipeline *p, size_t i, text *out)
+{
+    const query_stream *s = p->stream;
+    const void *answer = p->answers + i * s->answer_size, *part;
+    if (!s->part) return pipeline_write_row(p, i, answer, out);
+    bool answered = true;
+    for (size_t k = 0; (part = s->part(s->self, answer, k)); k++)
+        answered = pipeline_write_row(p, i, part, out) && answered;
+    p->row_end[i] = out->size;
+    return answered;
 }
 
 static void pipeline_format_chunk(query_pipeline *p, size_t k, size_t count)
@@ -84,11 +100,8 @@ static void pipeline_format_chunk(query_pipeline *p, size_t k, size_t count)
     size_t begin = k * CHUNK, end = begin + CHUNK < count ? begin + CHUNK : count;
     text_clear(&p->chunk[k]);
     p->unanswered[k] = 0;
-    for (size_t i = begin; i < end; i++) {
-        bool answered;
-        pipeline_write_row(p, i, &answered, &p->chunk[k]);
-        p->unanswered[k] += !answered;
-    }
+    for (size_t i = begin; i < end; i++)
+        p->unanswered[k] += !pipeline_write_rows(p, i, &p->chunk[k]);
 }
 
 /* The first block tells what the columns hold. */
@@ -102,15 +115,29 @@ static int pipeline_learn_chunks(query_pipeline *p, size_t chunks)
     return end;
 }
 
-static int pipeline_write_chunks(query_pipeline *p, size_t chunks)
+/* Features have the point of their query, however many it has. */
+static int pipeline_write_features(query_pipeline *p, size_t k, size_t count)
+{
+    const text *chunk = &p->chunk[k];
+    size_t first = k * CHUNK, last = first + CHUNK < count ? first + CHUNK : count, begin = 0;
+    int end = 0;
+    if (!p->row_end)
+        return gdal_rows_write(p->rows, chunk->bytes, chunk->size, p->values + first * p->width,
+                               p->width);
+    for (size_t i = first; end == 0 && i < last; begin = p->row_end[i++])
+        end = gdal_rows_write(p->rows, chunk->bytes + begin, p->row_end[i] - begin,
+                              p->values + i * p->width, 0);
+    return end;
+}
+
+static int pipeline_write_chunks(query_pipeline *p, size_t chunks, size_t count)
 {
     int end = pipeline_learn_chunks(p, chunks);
     for (size_t k = 0; end == 0 && k < chunks; k++) {
         const text *chunk = &p->chunk[k];
         if (chunk->failed) return fail_memory();
         if (p->rows)
-            end = gdal_rows_write(p->rows, chunk->bytes, chunk->size,
-                                  p->values + k * CHUNK * p->width, p->width);
+            end = pipeline_write_features(p, k, count);
         else
             mw_output_write(p->out, chunk->bytes, chunk->size);
         p->statistics.unanswered += p->unanswered[k];
@@ -140,7 +167,7 @@ static int pipeline_write_block(query_pipeline *p, size_t count)
     size_t chunks = formatting.chunks;
     mw__team_run(mw__team(p->stream->settings->common.threads, chunks), pipeline_format_chunks,
                  &formatting);
-    return pipeline_write_chunks(p, chunks);
+    return pipeline_write_chunks(p, chunks, count);
 }
 
 /* Bring the queries into the coordinate system of the mesh. */
@@ -177,10 +204,16 @@ static int pipeline_choose_decimal(query_pipeline *p)
     return END_INPUT;
 }
 
+static size_t pipeline_block_size(const query_pipeline *p)
+{
+    size_t size = p->stream->block_size;
+    return size ? size : QUERY_BLOCK_SIZE;
+}
+
 static int pipeline_read_block(query_pipeline *p, size_t *count)
 {
     double before = query_source_fraction(p->source);
-    int end = query_source_read(p->source, p->values, QUERY_BLOCK_SIZE, count);
+    int end = query_source_read(p->source, p->values, pipeline_block_size(p), count);
     progress_part(before, query_source_fraction(p->source));
     return end == 0 && *count > 0 ? pipeline_choose_decimal(p) : end;
 }
@@ -268,11 +301,13 @@ static int pipeline_run(query_pipeline *p)
     mw_error error;
     const query_stream *s = p->stream;
     if (p->out) signals_set_temporary(mw_output_temporary(p->out));
-    size_t bytes = QUERY_BLOCK_SIZE * p->width * sizeof *p->values;
+    size_t most = pipeline_block_size(p), bytes = most * p->width * sizeof *p->values;
     p->values = malloc(bytes);
     p->moved = p->crs.transform ? malloc(bytes) : p->values;
-    p->answers = malloc(QUERY_BLOCK_SIZE * s->answer_size);
-    int end = p->values && p->moved && p->answers ? pipeline_run_blocks(p) : fail_memory();
+    p->answers = malloc(most * s->answer_size);
+    p->row_end = s->part ? malloc(most * sizeof *p->row_end) : NULL;
+    bool room = p->values && p->moved && p->answers && (p->row_end || !s->part);
+    int end = room ? pipeline_run_blocks(p) : fail_memory();
     progress_phase("writing", NULL);
     if (p->out && mw_output_close(p->out, end == 0, &error) != MW_OK && end == 0)
         end = fail_writing(&error);
@@ -280,6 +315,7 @@ static int pipeline_run(query_pipeline *p)
     if (end == 0) end = closed;
     signals_set_temporary(NULL);
     for (size_t k = 0; k < CHUNKS; k++) text_release(&p->chunk[k]);
+    free(p->row_end);
     free(p->answers);
     if (p->moved != p->values) free(p->moved);
     free(p->values);

@@ -37,6 +37,9 @@ typedef struct query_block {
 typedef int query_stream_answer(void *self, const query_block *block, void *answers);
 typedef bool query_stream_row(const void *self, const double *query, const void *answer, text *out);
 typedef void query_stream_report(const void *self, report *r);
+/* Of answers with several rows: what row i is written from, or NULL behind the last one. There is
+ * at least one. */
+typedef const void *query_stream_part(const void *self, const void *answer, size_t i);
 
 typedef struct query_stream {
     const query_stream_settings *settings;
@@ -53,6 +56,8 @@ typedef struct query_stream {
     size_t answer_size;         /* bytes of the answer to one query */
     query_stream_answer *answer;
     query_stream_row *row;
+    query_stream_part *part; /* NULL: a row for each query, from its answer */
+    size_t block_size;       /* queries in memory at a time; 0: QUERY_BLOCK_SIZE, the most */
     query_stream_report *report;
     void *self;
 } query_stream;

@@ -32,8 +32,8 @@ static int ray_stream_answer(void *self, const query_block *block, void *answers
         points = q->points;
         stride = 3;
     }
-    if (mw_star_locate_batch(q->polyhedron.star, points, block->count, stride, &options, answers,
-                             &counters, &error) != MW_OK)
+    if (star_input_locate(&q->polyhedron, points, stride, block->count, &options, answers,
+                          &counters, &error) != MW_OK)
         return fail_query(&error);
     if (q->field) {
         const mw_hits hits = mw_hits_of_locations(answers, block->count);
@@ -74,8 +74,9 @@ int ray_stream_run(ray_stream *q, const char *path, const char *const *answers, 
 
 void ray_stream_report_status(const ray_stream *q, report *out)
 {
-    static const mw_where states[] = {MW_INSIDE, MW_ON_EDGE, MW_ON_VERTEX, MW_BAD};
-    for (size_t i = 0; i < sizeof states / sizeof *states; i++)
+    static const mw_where states[] = {MW_INSIDE, MW_ON_EDGE, MW_ON_VERTEX, MW_BAD, MW_OUTSIDE};
+    const size_t count = sizeof states / sizeof *states - (q->polyhedron.prober ? 0 : 1);
+    for (size_t i = 0; i < count; i++)
         report_count(out, mw_where_name(states[i]), q->statistics.where[states[i]]);
 }
 

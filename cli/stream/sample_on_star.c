@@ -65,8 +65,9 @@ static void star_sample_report(const void *self, report *out)
 static int star_sample_open(star_sample *s, const char *path)
 {
     const star_sample_settings *settings = s->settings;
-    const star_input_settings how = {settings->centre, settings->lonlat, false,
-                                     settings->stream->common.threads, false};
+    const star_input_settings how = {
+        settings->centre, settings->lonlat, false, settings->stream->common.threads, false,
+        settings->open};
     mesh_field_choice choice = settings->field;
     mw_mesh_file file;
     int end = files_read_mesh(path, &file);

@@ -10,7 +10,7 @@ typedef struct star_sample_settings {
     const query_stream_settings *stream;
     const coordinates *centre;
     mesh_field_choice field; /* without `triangles` */
-    bool lonlat, status;
+    bool lonlat, open, status;
     bool nearest; /* where a corner has no value: that of the nearest corner that has one */
 } star_sample_settings;
 

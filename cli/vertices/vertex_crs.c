@@ -73,8 +73,9 @@ static int located_file_move(const located_file *f, const located_file *mesh,
         lost += gdal_transform_points(t, more, more_count, 2, common->threads);
     gdal_transform_close(t);
     if (lost == 0) return end;
-    complain("%s: %" PRIu64 " of its points have no position in %s", f->path, lost,
-             crs_name(mesh->crs, names[0]));
+    complain("%s: %" PRIu64 " of its points have no position in %s; 'ogr2ogr -clipsrc' cuts a "
+             "file to a region",
+             f->path, lost, crs_name(mesh->crs, names[0]));
     return END_INPUT;
 }
 

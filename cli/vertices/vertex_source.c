@@ -43,7 +43,11 @@ static int vertex_source_open_table(vertex_source *s, const char *path,
         return vertex_source_refuse(path, "option '--where' is for files that GDAL reads");
     int end = options->classes ? las_classes_parse(options->classes, how.classes) : 0;
     if (end) return end;
-    if (mw_point_reader_open(path, &how, &s->reader, &error) != MW_OK) return fail_reading(&error);
+    if (mw_point_reader_open(path, &how, &s->reader, &error) != MW_OK) {
+        end = fail_reading(&error);
+        if (end == END_INPUT) files_remark_raster(path);
+        return end;
+    }
     const char *name = files_is_standard(path) ? "standard input" : path;
     return s->chosen ? 0 : query_columns_check_points(name, s->reader);
 }

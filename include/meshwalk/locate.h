@@ -157,7 +157,10 @@ typedef struct mw_locator_info {
      * MW_START_CURVE, MW_START_TWO_LEVEL_GRID, or MW_START_CHAINS if walks from these would be
      * long. MW_START_AUTO: no guide is built. */
     mw_start_kind guide;
-    size_t guide_bytes; /**< of the bytes, for the guide */
+    size_t guide_bytes; /**< of the bytes, for the guide and chains */
+    /** Of these, for chains. They are the guide, or they end long walks beside another guide that
+     * leads far to a few triangles; 0: the locator has none. */
+    size_t chain_bytes;
 } mw_locator_info;
 
 /** Fill `info` with the sizes of a locator. O(1). */

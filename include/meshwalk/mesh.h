@@ -187,6 +187,36 @@ MW_API void mw_mesh_vertex(const mw_mesh *mesh, uint32_t vertex, double point[2]
 MW_API void mw_mesh_triangle(const mw_mesh *mesh, uint32_t triangle, uint32_t vertices[3]);
 
 /**
+ * Copy triangles in the order of the mesh's memory, where neighbours mostly lie near each other: a
+ * pass over all of them takes a fraction of the time that one by number takes, because it finds in
+ * the cache what it needs. Triangles and vertices have places there, from 0.
+ *
+ * @param mesh     the mesh
+ * @param first    the place of the first triangle
+ * @param count    how many; first + count is at most the number of triangles, not checked
+ * @param corners  receives 3 * count places of vertices, of each triangle as given
+ * @param numbers  NULL, or receives the number of each triangle
+ *
+ * Thread-safe. O(count).
+ */
+MW_API void mw_mesh_stored_triangles(const mw_mesh *mesh, uint32_t first, uint32_t count,
+                                     uint32_t *corners, uint32_t *numbers);
+
+/**
+ * Copy vertices in the order of the mesh's memory, as mw_mesh_stored_triangles().
+ *
+ * @param mesh     the mesh
+ * @param first    the place of the first vertex
+ * @param count    how many; first + count is at most the number of vertices, not checked
+ * @param points   receives x, y of each vertex
+ * @param numbers  NULL, or receives the number of each vertex
+ *
+ * Thread-safe. O(count).
+ */
+MW_API void mw_mesh_stored_vertices(const mw_mesh *mesh, uint32_t first, uint32_t count,
+                                    double *points, uint32_t *numbers);
+
+/**
  * The triangle on the other side of a local edge.
  *
  * @param mesh        the mesh

@@ -27,12 +27,6 @@ static void box_add(mwp_box *box, const double low[2], const double high[2])
     }
 }
 
-static bool box_has(const mwp_box *box, const double p[2])
-{
-    return p[0] >= box->low[0] && p[0] <= box->high[0] && p[1] >= box->low[1] &&
-           p[1] <= box->high[1];
-}
-
 /* --- the boxes of this rank ------------------------------------------------------------------- */
 
 static void box_add_triangle(mwp_box *box, const mw_mesh *mesh, uint32_t t)
@@ -101,21 +95,14 @@ static bool router_build(mwp_router *router, const mwp_parcels *all)
 
 /* --- the grid --------------------------------------------------------------------------------- */
 
-enum { SIDE = 128, MOST_BOXES = 64 * 64 };
-
-/* The column or row of a coordinate within the box of all. It does not fall where the coordinate
- * rises, so the cells of a box's ends enclose those of its points. */
-static uint32_t grid_place(const mwp_router *r, double x, int axis)
-{
-    const mwp_box *all = &r->box[r->level[r->levels - 1]];
-    const double at = (x - all->low[axis]) * r->scale[axis];
-    return at < SIDE - 1 ? (uint32_t)at : SIDE - 1;
-}
+enum { SIDE = MWP_GRID_SIDE, MOST_BOXES = 64 * 64 };
 
 static void grid_add_box(mwp_router *r, const mwp_box *box)
 {
-    const uint32_t begin = grid_place(r, box->low[0], 0), end = grid_place(r, box->high[0], 0);
-    for (uint32_t row = grid_place(r, box->low[1], 1); row <= grid_place(r, box->high[1], 1); row++)
+    const uint32_t begin = mwp__grid_place(r, box->low[0], 0),
+                   end = mwp__grid_place(r, box->high[0], 0);
+    for (uint32_t row = mwp__grid_place(r, box->low[1], 1);
+         row <= mwp__grid_place(r, box->high[1], 1); row++)
         for (uint32_t column = begin; column <= end; column++) {
             int32_t *cell = &r->cell[row * SIDE + column];
             if (*cell == MWP_CELL_EMPTY)
@@ -129,9 +116,9 @@ static void grid_add_box(mwp_router *r, const mwp_box *box)
 static void router_make_grid(mwp_router *r)
 {
     if (r->count == 0 || r->count > MOST_BOXES) return;
-    const mwp_box *all = &r->box[r->level[r->levels - 1]];
+    r->all = r->box[r->level[r->levels - 1]];
     for (int axis = 0; axis < 2; axis++) {
-        r->scale[axis] = SIDE / (all->high[axis] - all->low[axis]);
+        r->scale[axis] = SIDE / (r->all.high[axis] - r->all.low[axis]);
         if (!(r->scale[axis] > 0 && r->scale[axis] < INFINITY)) return;
     }
     r->cell = mwp__alloc(SIDE * SIDE, sizeof *r->cell);
@@ -183,7 +170,7 @@ static int router_descend(const mwp_router *r, uint32_t level, size_t node, cons
                           int *ranks, int count)
 {
     const mwp_box *box = &r->box[r->level[level] + node];
-    if (!box_has(box, p)) return count;
+    if (!mwp__box_has(box, p)) return count;
     if (level == 0) {
         if (count == 0 || ranks[count - 1] != box->rank) ranks[count++] = box->rank;
         return count;
@@ -199,11 +186,7 @@ int mwp__router_find(const mwp_router *router, const double point[2], int *ranks
 {
     const mwp_router *r = router;
     if (r->count == 0) return 0;
-    if (r->cell && box_has(&r->box[r->level[r->levels - 1]], point)) {
-        const int32_t rank =
-            r->cell[grid_place(r, point[1], 1) * SIDE + grid_place(r, point[0], 0)];
-        ranks[0] = rank;
-        if (rank != MWP_CELL_SEVERAL) return rank != MWP_CELL_EMPTY;
-    }
+    ranks[0] = mwp__router_cell(r, point);
+    if (ranks[0] != MWP_CELL_SEVERAL) return ranks[0] != MWP_CELL_EMPTY;
     return router_descend(r, r->levels - 1, 0, point, ranks, 0);
 }

@@ -6,6 +6,7 @@
 #include "cli/frame/files.h"
 #include "cli/frame/message.h"
 #include "cli/frame/program.h"
+#include "cli/gdal/gdal_library.h"
 #include "cli/gdal/library_versions.h"
 
 #include <meshwalk/base.h>
@@ -58,7 +59,7 @@ static int main_run(int count, char **arguments)
     if (strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0) return main_print_help();
     if (strcmp(word, "--version") == 0) return main_print_version();
     const command *c = program_find(commands, COMMAND_COUNT, word);
-    if (c) return program_run(c, count - 2, arguments + 2);
+    if (c) return program_run(c, arguments + 2);
     complain("unknown command '%s'; 'meshwalk-mpi --help' lists them", word);
     return END_USAGE;
 }
@@ -78,6 +79,7 @@ int main(int count, char **arguments)
         end = service_run(&of_program);
     }
     service_close(&of_program);
+    gdal_library_end();
     MPI_Finalize();
     return end;
 }

@@ -51,16 +51,16 @@ static mw_status part_locate(const mwp_part *part, const void *points, size_t n,
                : MW_OK;
 }
 
+/* Of a point in a triangle of the piece. */
 static mwp_location location_of_part(const mwp_mesh *m, const mw_location *at)
 {
-    mwp_location l = location_nowhere(MW_OUTSIDE);
-    if (at->triangle == MW_NONE) return l;
+    mwp_location l = {.triangle = m->part.own.triangle[at->triangle],
+                      .hole = MW_NONE,
+                      .rank = m->wire.rank,
+                      .index = m->part.own.given[at->triangle],
+                      .where = at->where,
+                      .local = at->local};
     memcpy(l.weight, at->weight, sizeof l.weight);
-    l.triangle = m->part.own.triangle[at->triangle];
-    l.index = m->part.own.given[at->triangle];
-    l.rank = m->wire.rank;
-    l.where = at->where;
-    l.local = at->local;
     return l;
 }
 
@@ -71,26 +71,30 @@ static mwp_location location_of_part(const mwp_mesh *m, const mw_location *at)
 struct mwp_block {
     int *ranks;      /* of one query */
     int *rank;       /* per query: the only rank in whose boxes it is, or NOBODY, or SEVERAL */
+    bool *known;     /* per query: it has its answer, or one that a lower triangle may replace */
     uint32_t *count; /* questions for each rank */
-    /* Queries in this rank's boxes, from the beginning of the block: those in no other rank's, and
-     * the others. */
-    uint32_t *own, *shared;
-    size_t own_count, shared_count;
+    /* Queries, from the beginning of the block: in the boxes of this rank only; of one other rank
+     * only; of several. `shared` are those of `several` that are in this rank's boxes, too. */
+    uint32_t *own, *other, *several, *shared;
+    size_t own_count, other_count, several_count, shared_count;
     size_t own_done; /* of `own`: located so far */
     size_t room;     /* of the next two */
     question *points;
     mw_location *found;
 };
 
-enum { NOBODY = -1, SEVERAL = -2 };
+enum { NOBODY = MWP_CELL_EMPTY, SEVERAL = MWP_CELL_SEVERAL };
 
 static void block_release(mwp_block *w)
 {
     if (!w) return;
     free(w->ranks);
     free(w->rank);
+    free(w->known);
     free(w->count);
     free(w->own);
+    free(w->other);
+    free(w->several);
     free(w->shared);
     free(w->points);
     free(w->found);
@@ -104,49 +108,71 @@ static mwp_block *block_create(const mwp_mesh *m, size_t n, size_t room)
     if (!w) return NULL;
     *w = (mwp_block){.ranks = mwp__alloc((size_t)m->wire.size, sizeof *w->ranks),
                      .rank = mwp__alloc(n, sizeof *w->rank),
+                     .known = mwp__alloc(n, sizeof *w->known),
                      .count = mwp__alloc((size_t)m->wire.size, sizeof *w->count),
                      .own = mwp__alloc(n, sizeof *w->own),
+                     .other = mwp__alloc(n, sizeof *w->other),
+                     .several = mwp__alloc(n, sizeof *w->several),
                      .shared = mwp__alloc(n, sizeof *w->shared),
                      .room = room,
                      .points = mwp__alloc(room, sizeof *w->points),
                      .found = mwp__alloc(room, sizeof *w->found)};
-    if (w->ranks && w->rank && w->count && w->own && w->shared && w->points && w->found) return w;
+    if (w->ranks && w->rank && w->known && w->count && w->own && w->other && w->several &&
+        w->shared && w->points && w->found)
+        return w;
     block_release(w);
     return NULL;
 }
 
-/* Note in whose boxes query i is. */
-static void query_look(const mwp_locating *l, size_t i, mwp_block *w)
+/* In whose boxes a query is that the grid does not tell: the only rank, or NOBODY, or SEVERAL. */
+static int query_look(const mwp_locating *l, size_t i, mwp_block *w)
 {
-    const int own = l->mesh->wire.rank;
+    const double *p = query_point(l, i);
     const uint32_t place = (uint32_t)(i - l->begin);
-    const int count = mwp__router_find(&l->mesh->router, query_point(l, i), w->ranks);
     bool here = false;
-    for (int k = 0; k < count; k++) here = here || w->ranks[k] == own;
-    w->rank[place] = count == 0 ? NOBODY : count == 1 ? w->ranks[0] : SEVERAL;
-    if (here && count == 1)
-        w->own[w->own_count++] = place;
-    else if (here)
-        w->shared[w->shared_count++] = place;
-    else /* until an answer comes */
-        l->locations[i].triangle = -1, l->locations[i].where = MW_OUTSIDE;
+    if (!isfinite(p[0]) || !isfinite(p[1])) {
+        l->locations[i] = location_nowhere(MW_BAD);
+        w->known[place] = true;
+        return NOBODY;
+    }
+    const int count = mwp__router_find(&l->mesh->router, p, w->ranks);
+    if (count < 2) return count == 0 ? NOBODY : w->ranks[0];
+    for (int k = 0; k < count; k++) here = here || w->ranks[k] == l->mesh->wire.rank;
+    w->several[w->several_count++] = place;
+    if (here) w->shared[w->shared_count++] = place;
+    return SEVERAL;
 }
 
-/* The other ranks that may have the triangle of query i, in w->ranks; none if its answer is
- * known. Returns how many. */
-static int query_ranks(const mwp_locating *l, size_t i, const mwp_block *w)
+/* Note in whose boxes each query is. Half of them may be another rank's, in any order, so which is
+ * not branched on: each is written to both lists, and stays in one. */
+static void block_look(const mwp_locating *l, mwp_block *w)
 {
-    const mwp_location *at = &l->locations[i];
-    const int only = w->rank[i - l->begin], own = l->mesh->wire.rank;
-    int kept = 0;
-    if (only != SEVERAL) {
-        w->ranks[0] = only;
-        return only != NOBODY && only != own;
+    const int me = l->mesh->wire.rank;
+    size_t own = 0, other = 0;
+    w->own_done = w->several_count = w->shared_count = 0;
+    for (size_t i = l->begin; i < l->end; i++) {
+        const uint32_t place = (uint32_t)(i - l->begin);
+        int rank = mwp__router_cell(&l->mesh->router, query_point(l, i));
+        if (rank == SEVERAL) rank = query_look(l, i, w);
+        w->rank[place] = rank;
+        w->own[own] = w->other[other] = place;
+        own += rank == me;
+        other += rank >= 0 && rank != me;
     }
-    if (at->triangle >= 0 && at->where == MW_INSIDE) return 0;
+    w->own_count = own;
+    w->other_count = other;
+}
+
+/* The other ranks that may have the triangle of a query in the boxes of several, in w->ranks; none
+ * if its answer is known. Returns how many. */
+static int query_ranks(const mwp_locating *l, uint32_t place, const mwp_block *w)
+{
+    const size_t i = l->begin + place;
+    int kept = 0;
+    if (w->known[place] && l->locations[i].where == MW_INSIDE) return 0;
     const int count = mwp__router_find(&l->mesh->router, query_point(l, i), w->ranks);
     for (int k = 0; k < count; k++)
-        if (w->ranks[k] != own) w->ranks[kept++] = w->ranks[k];
+        if (w->ranks[k] != l->mesh->wire.rank) w->ranks[kept++] = w->ranks[k];
     return kept;
 }
 
@@ -159,8 +185,11 @@ static mw_status block_locate(const mwp_locating *l, const uint32_t *queries, si
         memcpy(w->points[k].point, query_point(l, l->begin + queries[k]), sizeof *w->points);
     mw_status status =
         part_locate(&l->mesh->part, w->points, n, l->options.threads, w->found, error);
-    for (size_t k = 0; k < n && !status; k++)
-        l->locations[l->begin + queries[k]] = location_of_part(l->mesh, &w->found[k]);
+    for (size_t k = 0; k < n && !status; k++) {
+        w->known[queries[k]] = w->found[k].triangle != MW_NONE;
+        if (w->known[queries[k]])
+            l->locations[l->begin + queries[k]] = location_of_part(l->mesh, &w->found[k]);
+    }
     return status;
 }
 
@@ -180,16 +209,8 @@ static mw_status block_sort(const mwp_locating *l, mwp_error *error)
 {
     mwp_block *w = l->block;
     mw_status status = MW_OK;
-    w->own_count = w->own_done = w->shared_count = 0;
-    for (size_t i = l->begin; i < l->end; i++) {
-        const double *p = query_point(l, i);
-        const bool finite = isfinite(p[0]) && isfinite(p[1]);
-        w->rank[i - l->begin] = NOBODY;
-        if (finite)
-            query_look(l, i, w);
-        else
-            l->locations[i] = location_nowhere(MW_BAD);
-    }
+    memset(w->known, 0, (l->end - l->begin) * sizeof *w->known);
+    block_look(l, w);
     for (size_t k = 0; k < w->shared_count && !status; k += w->room) {
         const size_t left = w->shared_count - k;
         status = block_locate(l, w->shared + k, left < w->room ? left : w->room, error);
@@ -206,21 +227,28 @@ static bool asked_make_room(mwp_locating *l, size_t n)
     return l->asked;
 }
 
+static void question_add(mwp_locating *l, mwp_parcels *questions, int rank, uint32_t place)
+{
+    const double *p = query_point(l, l->begin + place);
+    l->asked[questions->next[rank]] = place;
+    *(question *)mwp__parcels_add(questions, rank) = (question){{p[0], p[1]}};
+}
+
 static mw_status block_pack(mwp_locating *l, mwp_parcels *questions, mwp_error *error)
 {
     const mwp_block *w = l->block;
     memset(w->count, 0, (size_t)l->mesh->wire.size * sizeof *w->count);
-    for (size_t i = l->begin; i < l->end; i++)
-        for (int k = query_ranks(l, i, w) - 1; k >= 0; k--) w->count[w->ranks[k]]++;
+    for (size_t i = 0; i < w->other_count; i++) w->count[w->rank[w->other[i]]]++;
+    for (size_t i = 0; i < w->several_count; i++)
+        for (int k = query_ranks(l, w->several[i], w) - 1; k >= 0; k--) w->count[w->ranks[k]]++;
     if (!mwp__parcels_create(questions, &l->mesh->wire, sizeof(question), w->count) ||
         !asked_make_room(l, questions->total))
         return mwp__fail_memory(error);
-    for (size_t i = l->begin; i < l->end; i++)
-        for (int k = query_ranks(l, i, w) - 1; k >= 0; k--) {
-            const double *p = query_point(l, i);
-            l->asked[questions->next[w->ranks[k]]] = (uint32_t)(i - l->begin);
-            *(question *)mwp__parcels_add(questions, w->ranks[k]) = (question){{p[0], p[1]}};
-        }
+    for (size_t i = 0; i < w->other_count; i++)
+        question_add(l, questions, w->rank[w->other[i]], w->other[i]);
+    for (size_t i = 0; i < w->several_count; i++)
+        for (int k = query_ranks(l, w->several[i], w) - 1; k >= 0; k--)
+            question_add(l, questions, w->ranks[k], w->several[i]);
     return MW_OK;
 }
 
@@ -228,7 +256,7 @@ static mw_status block_pack(mwp_locating *l, mwp_parcels *questions, mwp_error *
  * are made for each time, want many. */
 static size_t locating_room(uint32_t threads, size_t most)
 {
-    enum { FEW = 1 << 14 };
+    enum { FEW = 1 << 13 };
     return threads == 1 && most > FEW ? FEW : most;
 }
 
@@ -290,19 +318,23 @@ static mw_status locate_answer(void *self, const void *questions, size_t n, void
     return status;
 }
 
-static void locate_take(void *self, int rank, size_t place, const void *record)
+static void locate_take(void *self, int rank, size_t first, const void *answers, size_t n)
 {
     const mwp_locating *l = self;
-    const answer *a = record;
-    mwp_location *at = &l->locations[l->begin + l->asked[place]];
-    if (at->triangle >= 0 && at->triangle <= a->triangle) return;
-    *at = (mwp_location){.triangle = a->triangle,
-                         .hole = MW_NONE,
-                         .rank = rank,
-                         .index = a->given,
-                         .where = a->where,
-                         .local = a->local};
-    memcpy(at->weight, a->weight, sizeof at->weight);
+    const answer *a = answers;
+    for (size_t i = 0; i < n; i++, a++) {
+        const uint32_t place = l->asked[first + a->number];
+        mwp_location *at = &l->locations[l->begin + place];
+        if (l->block->known[place] && at->triangle <= a->triangle) continue;
+        l->block->known[place] = true;
+        *at = (mwp_location){.triangle = a->triangle,
+                             .hole = MW_NONE,
+                             .rank = rank,
+                             .index = a->given,
+                             .where = a->where,
+                             .local = a->local};
+        memcpy(at->weight, a->weight, sizeof at->weight);
+    }
 }
 
 /* --- points in no triangle -------------------------------------------------------------------- */
@@ -333,11 +365,10 @@ static mw_status locate_settle(void *self, mwp_error *error)
     const mw_query_options options = {.tolerance = l->options.tolerance};
     if (mw_cursor_init(rim->locator, &options, &cursor, &from)) return mwp__fail_as(error, &from);
     for (size_t i = l->begin; i < l->end; i++) {
-        mwp_location *at = &l->locations[i];
-        if (at->triangle >= 0 || at->where == MW_BAD) continue;
+        if (l->block->known[i - l->begin]) continue;
         const double *p = query_point(l, i);
         const mw_location found = mw_locate(rim->locator, &cursor, p[0], p[1]);
-        *at = location_of_rim(rim, &found);
+        l->locations[i] = location_of_rim(rim, &found);
     }
     return MW_OK;
 }

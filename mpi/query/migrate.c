@@ -90,12 +90,13 @@ static mw_status migrate_answer(void *self, const void *questions, size_t n, voi
     return migration_add(self, questions, n, error);
 }
 
-static void migrate_take(void *self, int rank, size_t place, const void *answer)
+static void migrate_take(void *self, int rank, size_t first, const void *answers, size_t n)
 {
     (void)self;
     (void)rank;
-    (void)place;
-    (void)answer;
+    (void)first;
+    (void)answers;
+    (void)n;
 }
 
 static mw_status migrate_settle(void *self, mwp_error *error)

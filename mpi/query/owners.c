@@ -129,11 +129,16 @@ static mw_status owners_answer(void *self, const void *questions, size_t n, void
     return status;
 }
 
-static void owners_take(void *self, int rank, size_t place, const void *answer)
+static void owners_take(void *self, int rank, size_t first, const void *answers, size_t n)
 {
     const owners *o = self;
+    const char *from = answers;
     (void)rank;
-    memcpy(o->results + o->asked[place] * o->bytes, (const char *)answer + NUMBER, o->bytes);
+    for (size_t i = 0; i < n; i++, from += NUMBER + o->bytes) {
+        uint32_t number;
+        memcpy(&number, from, sizeof number);
+        memcpy(o->results + o->asked[first + number] * o->bytes, from + NUMBER, o->bytes);
+    }
 }
 
 static mw_status owners_settle(void *self, mwp_error *error)

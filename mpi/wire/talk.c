@@ -273,11 +273,9 @@ static void answers_end(mwp_talk *t)
     const char *answer = t->to_take;
     size_t first = 0; /* the place of the first question for rank r */
     for (int r = 0; r < t->wire->size; r++) {
-        const size_t begin = first + b->next[r];
-        for (uint32_t i = 0; i < b->counted[r]; i++, answer += t->about->answer_size) {
-            uint32_t number;
-            memcpy(&number, answer, sizeof number);
-            t->about->take(t->self, r, begin + number, answer);
+        if (b->counted[r] > 0) {
+            t->about->take(t->self, r, first + b->next[r], answer, b->counted[r]);
+            answer += b->counted[r] * t->about->answer_size;
         }
         b->next[r] += b->granted[r];
         if (t->block.count) first += t->block.count[r];

@@ -19,7 +19,8 @@
  *   answer  Answer n questions of other ranks: write at most one answer for each, in order, each of
  *           which begins with the uint32_t number of its question, from 0. Returns how many there
  *           are through *count.
- *   take    An answer of a rank to a question of the present block, by its place in the parcels.
+ *   take    n answers of a rank to questions of the present block. Each begins with the uint32_t
+ *           number of its question, from the place `first` in the parcels on.
  *   settle  The block has all its answers.
  *   meanwhile  Do some work while messages are under way, or NULL. *more: there is more to do in
  *           this block. */
@@ -28,7 +29,7 @@ typedef struct mwp_talk_about {
     mw_status (*load)(void *self, mwp_parcels *questions, bool *more, mwp_error *error);
     mw_status (*answer)(void *self, const void *questions, size_t n, void *answers, size_t *count,
                         mwp_error *error);
-    void (*take)(void *self, int rank, size_t place, const void *answer);
+    void (*take)(void *self, int rank, size_t first, const void *answers, size_t n);
     mw_status (*settle)(void *self, mwp_error *error);
     mw_status (*meanwhile)(void *self, bool *more, mwp_error *error);
 } mwp_talk_about;

@@ -312,6 +312,23 @@ def fields(
     }
 
 
+def of_triangles(
+    values: ArrayLike, count: int, triangle: NDArray[Any], missing: Any
+) -> NDArray[Any]:
+    """The values of the triangles found; `missing` where `triangle` is -1."""
+    array = np.asanyarray(values)
+    if array.ndim == 0 or array.shape[0] != count:
+        raise ValueError(
+            f"values must have a row for each of the {count} triangles; its shape is {array.shape}"
+        )
+    nothing: Any = np.asarray(missing)
+    kind = np.result_type(array.dtype, missing if array.dtype.kind in "iufc" else nothing)
+    there = triangle >= 0
+    out = np.full(triangle.shape + array.shape[1:], nothing, kind)
+    out[there] = np.ma.filled(array[triangle[there]].astype(kind), nothing)
+    return out
+
+
 def named(
     fields: Mapping[str, NDArray[np.float64]], name: str, what: str = ""
 ) -> NDArray[np.float64]:

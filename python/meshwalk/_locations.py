@@ -237,20 +237,7 @@ class Locations:
         """
         if isinstance(values, str):
             values = _arrays.named(getattr(self._mesh, "triangle_fields", {}), values, "triangle")
-        array = np.asanyarray(values)
-        count = self._mesh.triangle_count
-        if array.ndim == 0 or array.shape[0] != count:
-            raise ValueError(
-                f"values must have a row for each of the {count} triangles; its shape is"
-                f" {array.shape}"
-            )
-        nothing: Any = np.asarray(missing)
-        kind = np.result_type(array.dtype, missing if array.dtype.kind in "iufc" else nothing)
-        there = self.triangle >= 0
-        out = np.full(self.shape + array.shape[1:], nothing, kind)
-        taken = array[self.triangle[there]]
-        out[there] = np.ma.filled(taken.astype(kind), nothing)
-        return out
+        return _arrays.of_triangles(values, self._mesh.triangle_count, self.triangle, missing)
 
     def operator(self) -> csr_array:
         """The interpolation as a sparse matrix: values at the points are ``operator @ values``.

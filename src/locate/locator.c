@@ -1,5 +1,6 @@
 /* locator.c - preparing a mesh for queries. */
 #include "locate/locator.h"
+#include "locate/guide_walks.h"
 #include "base/options.h"
 
 #include "base/clock.h"
@@ -137,24 +138,6 @@ static bool locator_lay_guide(const mw_locator *locator, mw_job *job, mw_index *
     return !mw__job_stopped(job);
 }
 
-/* How many tiles a walk from the guide visits on average: measured on walks to the middles of a few
- * tiles all over the mesh. A walk counts for at most MOST tiles. */
-static double guide_walk_length(const mw_locator *locator, const mw_index *guide)
-{
-    enum { TILES_PER_WALK = 256, WALKS = 256, MOST = 1 << 14 };
-    const mw_tiling *tiling = &locator->tiling;
-    const mw_kernels *kernels = mw__walk_kernels(locator->auto_walk, tiling);
-    uint32_t n = tiling->tri_count, walks = n / TILES_PER_WALK < WALKS ? n / TILES_PER_WALK : WALKS;
-    uint64_t visited = 0;
-    for (uint32_t i = 0; i < walks; i++) {
-        mw_point q = mw__tile_middle(tiling, (uint32_t)((uint64_t)n * i / walks));
-        mw_walk walk = mw__walk_begin(tiling, q, mw__index_tile(tiling, guide, q), MOST, i, NULL);
-        kernels->run[true][false](&walk);
-        visited += MOST - walk.fuel;
-    }
-    return walks ? (double)visited / walks : 0;
-}
-
 static bool guide_make_chains(const mw_locator *locator, mw_job *job, mw_index *guide)
 {
     mw_index chains = {.start = MW_START_CHAINS, .sort_batches = guide->start == MW_START_AUTO};
@@ -173,13 +156,14 @@ bool mw__locator_guide(const mw_locator *locator, mw_job *job, mw_index *guide)
     static const double FEW = 24;
     enum { SMALL = 256 };
     const mw_tiling *tiling = &locator->tiling;
+    const mw_guided guided = {tiling, guide, locator->auto_walk, locator->threads};
     mw_job_span outer = mw__job_part(job, 0.6);
     bool done = locator_lay_guide(locator, job, guide);
     mw__job_part_end(job, outer);
     if (!done) return false;
     if (tiling->tile_of || tiling->border_loops || !tiling->embedding || tiling->tri_count < SMALL)
         return true;
-    bool leads = guide->start != MW_START_AUTO && !(guide_walk_length(locator, guide) > FEW);
+    bool leads = guide->start != MW_START_AUTO && !(mw__guide_mean_walk(&guided) > FEW);
     return leads || guide_make_chains(locator, job, guide);
 }
 
@@ -254,8 +238,12 @@ static mw_status locator_prepare(mw_locator *locator, const mw_locator_options *
     }
     mw__job_stage(job, "measuring the extent", 0.02);
     mw__locator_measure(locator, job);
-    outer = mw__job_part(job, 0.08);
+    outer = mw__job_part(job, 0.06);
     bool done = !mw__job_stopped(job) && mw__locator_guide(locator, job, &locator->guide);
+    mw__job_part_end(job, outer);
+    outer = mw__job_part(job, 0.02);
+    const mw_guided guided = {tiling, &locator->guide, locator->auto_walk, locator->threads};
+    done = done && mw__guide_make_fallback(&guided, job, &locator->fallback);
     mw__job_part_end(job, outer);
     return done ? MW_OK : mw__fail_memory(error);
 }
@@ -317,6 +305,7 @@ void mw_locator_destroy(mw_locator *locator)
 {
     if (!locator) return;
     mw__index_release(&locator->guide);
+    mw__index_release(&locator->fallback);
     mw__border_tree_release(&locator->border_tree);
     mw__tiling_release(&locator->tiling);
     free(locator);
@@ -325,10 +314,11 @@ void mw_locator_destroy(mw_locator *locator)
 void mw_locator_describe(const mw_locator *locator, mw_locator_info *info)
 {
     const mw_tiling *tiling = &locator->tiling;
-    size_t border = mw__border_tree_bytes(&locator->border_tree);
+    size_t border = mw__border_tree_bytes(&locator->border_tree),
+           chains = mw__index_bytes(&locator->fallback),
+           guide = mw__index_bytes(&locator->guide) + chains;
     *info = (mw_locator_info){
-        .bytes =
-            sizeof *locator + mw__tiling_bytes(tiling) + border + mw__index_bytes(&locator->guide),
+        .bytes = sizeof *locator + mw__tiling_bytes(tiling) + border + guide,
         .border_bytes = border,
         .area_bytes = tiling->area ? tiling->tri_count * sizeof(double) : 0,
         .fill_bytes = tiling->ghost_count ? mw__tiling_copy_bytes(tiling) : 0,
@@ -339,7 +329,8 @@ void mw_locator_describe(const mw_locator *locator, mw_locator_info *info)
         .embedding = tiling->embedding,
         .unfilled = tiling->border_loops != NULL,
         .guide = locator->guide.start,
-        .guide_bytes = mw__index_bytes(&locator->guide),
+        .guide_bytes = guide,
+        .chain_bytes = locator->guide.start == MW_START_CHAINS ? guide : chains,
     };
 }
 

@@ -21,6 +21,9 @@ struct mw_locator {
     double scale;
     /* The guide, with which queries begin by default; MW_START_AUTO: there is none. */
     mw_index guide;
+    /* Chains for the few tiles that the guide leads far to, or for all, which end long walks;
+     * MW_START_AUTO: there are none. */
+    mw_index fallback;
     /* A tile within this squared distance is expected to be nearer than any of a sample. */
     double near2;
     /* The same for a guide: the area of one of its cells, as if it were a grid without refined

@@ -230,19 +230,34 @@ static mw_verdict walk_hand_over(const mw_tiling *tiling, mw_walk *walk, mw_verd
     return verdict;
 }
 
-/* The chains that serve as the locator's guide, if the start was left to choose; else NULL. A batch
- * that was left to choose may have chosen to go from query to query: that counts, too. */
-static const mw_index *query_chains(const mw_locator *locator, const mw_cursor *cursor)
+/* Was the start left to choose? A batch that was left to choose may have chosen to go from query to
+ * query: that counts, too. */
+static bool query_is_guided(const mw_locator *locator, const mw_cursor *cursor)
 {
     const mw_index *guide = &locator->guide;
     bool chained = cursor->start == MW_START_SORTED || cursor->start == MW_START_LAST;
-    bool chosen = cursor->index
-                      ? cursor->index == guide
-                      : cursor->start == MW_START_AUTO || (chained && guide->sort_batches);
-    return chosen && guide->start == MW_START_CHAINS ? guide : NULL;
+    return cursor->index ? cursor->index == guide
+                         : cursor->start == MW_START_AUTO || (chained && guide->sort_batches);
 }
 
-/* End a walk that became long: go on from the tile that the chains name. If that tile is at the
+/* The locator's chains, which end long walks if the start was left to choose; else NULL. */
+static const mw_index *query_chains(const mw_locator *locator, const mw_cursor *cursor)
+{
+    const mw_index *guide = &locator->guide,
+                   *chains = guide->start == MW_START_CHAINS ? guide : &locator->fallback;
+    return chains->start == MW_START_CHAINS && query_is_guided(locator, cursor) ? chains : NULL;
+}
+
+/* In exact arithmetic. */
+static bool tile_has(const mw_tiling *tiling, uint32_t t, mw_point q)
+{
+    const uint32_t *v = tiling->tri[t].v;
+    const mw_point a = tiling->point[v[0]], b = tiling->point[v[1]], c = tiling->point[v[2]];
+    return mw__orient2d(a, b, q) >= 0 && mw__orient2d(b, c, q) >= 0 && mw__orient2d(c, a, q) >= 0;
+}
+
+/* End a walk that became long: go on from the tile that the chains name. Chains of few tiles may
+ * not have the tile of q: then the walk goes on. If that tile is at the
  * hull and q outside, q lies beyond one of its edges. */
 static mw_verdict query_end_by_chains(const mw_locator *locator, const mw_cursor *cursor,
                                       const mw_index *chains, mw_walk *walk)
@@ -251,6 +266,7 @@ static mw_verdict query_end_by_chains(const mw_locator *locator, const mw_cursor
     mw_walk_kind kind = (mw_walk_kind)cursor->walk;
     uint32_t t = mw__index_tile(tiling, chains, walk->q);
     if (cursor->count) mw__chains_count(&chains->chains, walk->q, walk->work);
+    if (chains == &locator->fallback && !tile_has(tiling, t, walk->q)) t = walk->t;
     *walk = mw__walk_begin(tiling, walk->q, t,
                            mw__walk_fuel(kind, (mw_arithmetic)cursor->arithmetic, tiling),
                            walk->random, cursor->count ? walk->work : NULL);
@@ -381,7 +397,9 @@ mw_walk mw__query_begin(const mw_locator *locator, const mw_cursor *cursor, uint
     uint32_t t = mw__query_first_tile(locator, cursor, last, q, random, work);
     if (MW_UNLIKELY(cursor->count) && t != last) {
         /* the search in chains did not count: search once more, and count */
-        const mw_index *index = cursor->index ? cursor->index : query_chains(locator, cursor);
+        const mw_index *index = cursor->index                      ? cursor->index
+                                : query_is_guided(locator, cursor) ? &locator->guide
+                                                                   : NULL;
         if (index && index->start == MW_START_CHAINS) mw__chains_count(&index->chains, q, work);
     }
     return query_begin_at(locator, cursor, t, q, random, work);

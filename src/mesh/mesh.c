@@ -53,6 +53,29 @@ void mw_mesh_triangle(const mw_mesh *mesh, uint32_t triangle, uint32_t vertices[
         vertices[mw__user_local_vertex(t->user, k)] = mw__vertex_number(mesh, t->v[k]);
 }
 
+void mw_mesh_stored_triangles(const mw_mesh *mesh, uint32_t first, uint32_t count,
+                              uint32_t *corners, uint32_t *numbers)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        const mw_triangle *t = &mesh->tri[first + i];
+        const bool reversed = (t->user & MW_REVERSED) != 0;
+        corners[3 * (size_t)i] = t->v[0];
+        corners[3 * (size_t)i + 1] = t->v[reversed ? 2 : 1];
+        corners[3 * (size_t)i + 2] = t->v[reversed ? 1 : 2];
+        if (numbers) numbers[i] = t->user & MW_USER_MASK;
+    }
+}
+
+void mw_mesh_stored_vertices(const mw_mesh *mesh, uint32_t first, uint32_t count, double *points,
+                             uint32_t *numbers)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        points[2 * (size_t)i] = mesh->point[first + i].x;
+        points[2 * (size_t)i + 1] = mesh->point[first + i].y;
+        if (numbers) numbers[i] = mw__vertex_number(mesh, first + i);
+    }
+}
+
 uint32_t mw_mesh_neighbour(const mw_mesh *mesh, uint32_t triangle, unsigned local_edge,
                            unsigned *edge)
 {

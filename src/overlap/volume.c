@@ -186,7 +186,8 @@ static void volume_collect(const volume_work *w, uint64_t chunks, mw_volume_info
         }
         all.parts += w->chunk[c].parts;
     }
-    for (int k = 0; k < VOLUME_SUMS; k++) sum[k] = all.sum[k] + all.rest[k];
+    for (int k = 0; k < VOLUME_SUMS; k++) /* what is lost of a sum that overflows is no number */
+        sum[k] = isfinite(all.sum[k]) ? all.sum[k] + all.rest[k] : all.sum[k];
     double area = sum[VOLUME_CUT_AREA] + sum[VOLUME_FILL_AREA] + sum[VOLUME_LEVEL_AREA];
     *info =
         (mw_volume_info){.cut = sum[VOLUME_CUT],

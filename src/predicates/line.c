@@ -140,22 +140,34 @@ typedef struct estimate {
     sign_range n, m;
 } estimate;
 
-/* N, rounded: (a - q) . ((a - b) x (a - c)). */
-static double rounded_n(const mw_line *line, const mw_corners s, double *bound)
+static void line_plane(const mw_line *line, const mw_corners s, mw_line_plane *e)
 {
-    return mw__orient3d_rounded(line->q, s[1], s[2], s[0], bound);
-}
-
-static double rounded_m(const mw_line *line, const mw_corners s, double *bound)
-{
-    mw_line through = {{s[0][0], s[0][1], s[0][2]}, {line->m[0], line->m[1], line->m[2]}, {0}};
-    return mw__side_rounded(&through, s[1], s[2], bound);
+    double u[3], v[3], from[3], normal[3], size[3];
+    for (int k = 0; k < 3; k++) {
+        u[k] = s[1][k] - s[0][k];
+        v[k] = s[2][k] - s[0][k];
+        from[k] = s[0][k] - line->q[k];
+    }
+    for (int k = 0; k < 3; k++) {
+        int i = (k + 1) % 3, j = (k + 2) % 3;
+        double left = u[i] * v[j], right = u[j] * v[i];
+        normal[k] = left - right;
+        size[k] = fabs(left) + fabs(right);
+    }
+    const double *m = line->m;
+    e->n = from[0] * normal[0] + from[1] * normal[1] + from[2] * normal[2];
+    e->m = m[0] * normal[0] + m[1] * normal[1] + m[2] * normal[2];
+    double n = fabs(from[0]) * size[0] + fabs(from[1]) * size[1] + fabs(from[2]) * size[2],
+           along = fabs(m[0]) * size[0] + fabs(m[1]) * size[1] + fabs(m[2]) * size[2];
+    e->n_bound = MW_SIDE_ERROR * n + mw__side_underflow(from);
+    e->m_bound = MW_SIDE_ERROR * along + mw__side_underflow(m);
 }
 
 static estimate line_estimated(const mw_line *line, const mw_corners s)
 {
-    double n_bound, m_bound, n = rounded_n(line, s, &n_bound), m = rounded_m(line, s, &m_bound);
-    return (estimate){range_of(n, n_bound), range_of(m, m_bound)};
+    mw_line_plane plane;
+    line_plane(line, s, &plane);
+    return (estimate){range_of(plane.n, plane.n_bound), range_of(plane.m, plane.m_bound)};
 }
 
 /* Is a * b surely less than c * d? A product that underflows is off by 2^-1075. */
@@ -273,10 +285,6 @@ int mw__compare_hit_to(const mw_line *line, const mw_corners s, double d)
 
 /* --- what is told of a hit --- */
 
-/* An estimate is good enough for a distance where its bound is no more than this part of it: N, M
- * and |m| are then off by less than 2^-43 together. */
-#define FINE 0x1p-45
-
 /* x * 2^exponent, not 0 unless x is, and then without a sign. */
 static double line_scaled(double x, int exponent)
 {
@@ -306,21 +314,14 @@ static void exact_quotient(const mw_line *line, const mw_corners s, double fract
     exponent[1] += motion;
 }
 
-/* Products and quotients of a few such magnitudes, and squares of the largest of a vector, are
- * normal doubles. */
-static bool is_ordinary(double x)
-{
-    return fabs(x) > 0x1p-200 && fabs(x) < 0x1p200;
-}
-
-static double distance_by_fractions(const mw_line *line, const mw_corners s, double n, double m,
-                                    bool fine)
+double mw__hit_distance_slow(const mw_line *line, const mw_corners s, const mw_line_plane *plane,
+                             bool fine)
 {
     double fraction[2];
     int exponent[3] = {0};
     if (fine) {
-        fraction[0] = frexp(n, &exponent[0]);
-        fraction[1] = frexp(m, &exponent[1]);
+        fraction[0] = frexp(plane->n, &exponent[0]);
+        fraction[1] = frexp(plane->m, &exponent[1]);
     } else {
         exact_quotient(line, s, fraction, exponent);
     }
@@ -328,18 +329,11 @@ static double distance_by_fractions(const mw_line *line, const mw_corners s, dou
     return line_scaled(fraction[0] * length / fraction[1], exponent[0] - exponent[1] + exponent[2]);
 }
 
-/* Powers of two change no digit: ordinary numbers need none. */
 double mw__hit_distance_noted(const mw_line *line, const mw_corners s, mw_line_estimate *e)
 {
-    double n_bound, m_bound, n = rounded_n(line, s, &n_bound), m = rounded_m(line, s, &m_bound);
-    e->n = n;
-    e->m = m;
-    bool fine = FINE * fabs(n) > n_bound && FINE * fabs(m) > m_bound;
-    const double *v = line->m;
-    double square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
-    if (MW_LIKELY(fine && is_ordinary(n) && is_ordinary(m) && is_ordinary(square)))
-        return n * sqrt(square) / m;
-    return distance_by_fractions(line, s, n, m, fine);
+    mw_line_plane plane;
+    line_plane(line, s, &plane);
+    return mw__hit_distance_by(line, s, &plane, e);
 }
 
 double mw__hit_distance(const mw_line *line, const mw_corners s)
@@ -362,14 +356,9 @@ static void exact_sides(const mw_line *line, const mw_corners s, double side[3])
     for (int k = 0; k < 3; k++) side[k] = line_scaled(side[k], exponent[k] - largest);
 }
 
-/* A side whose sign is sure is good enough for weights where its bound is no more than this part of
- * their sum. */
-#define WEIGHT_FINE 0x1p-44
+/* A sum of sides that are computed from q is good from here to there. */
 #define LEAST_SUM 0x1p-900
 #define MOST_SUM 0x1p900
-/* For these no product of two coordinates of interest over- or underflows. */
-#define LEAST_NEAR_SUM 0x1p-200
-#define MOST_NEAR_SUM 0x1p200
 
 /* A vector to each corner from the point p of the line near the triangle. From q they would be much
  * longer than the triangle, and the sides small differences of large products. p = q + t (m + tail)
@@ -395,8 +384,7 @@ static MW_INLINE double larger_of(double a, double b)
 }
 
 /* Magnitudes of the sides from there, with a bound of their errors: that of mw__side_rounded is
- * about doubled by 2u for each coordinate, and q adds FAR_ERROR of the coordinates. */
-#define FAR_ERROR 0x1p-96
+ * about doubled by 2u for each coordinate, and q adds MW_SIDE_FAR_ERROR of the coordinates. */
 static double near_sides(const mw_line *line, const mw_corners s, double t, double side[3])
 {
     double from[3][3], most = 0, length = 0, extent = 0, farthest = 0;
@@ -413,16 +401,17 @@ static double near_sides(const mw_line *line, const mw_corners s, double t, doub
             farthest = larger_of(farthest, fabs(s[i][k]));
         }
     }
-    return 2 * most + length * extent * farthest * FAR_ERROR;
+    return 2 * most + length * extent * farthest * MW_SIDE_FAR_ERROR;
 }
 
 void mw__hit_sides(const mw_line *line, const mw_corners s, double side[3])
 {
     mw_line_estimate e;
-    double bound;
+    mw_line_plane plane;
     mw__estimate_sides(line, s, &e);
-    e.n = rounded_n(line, s, &bound);
-    e.m = rounded_m(line, s, &bound);
+    line_plane(line, s, &plane);
+    e.n = plane.n;
+    e.m = plane.m;
     mw__hit_sides_noted(line, s, &e, side);
 }
 
@@ -442,11 +431,11 @@ void mw__hit_sides_noted(const mw_line *line, const mw_corners s, const mw_line_
         sum += side[k];
     }
     double most = larger_of(larger_of(bound[0], bound[1]), bound[2]);
-    if (most <= WEIGHT_FINE * sum && sum >= LEAST_SUM && sum <= MOST_SUM) return;
+    if (most <= MW_WEIGHT_FINE * sum && sum >= LEAST_SUM && sum <= MOST_SUM) return;
     most = near_sides(line, s, e->n / e->m, near);
     sum = 0;
     for (int k = 0; k < 3; k++) sum += near[k] = exact[k] ? side[k] : near[k];
-    if (most <= WEIGHT_FINE * sum && sum >= LEAST_NEAR_SUM && sum <= MOST_NEAR_SUM)
+    if (most <= MW_WEIGHT_FINE * sum && sum >= MW_WEIGHT_NEAR_LEAST && sum <= MW_WEIGHT_NEAR_MOST)
         for (int k = 0; k < 3; k++) side[k] = near[k];
     else
         exact_sides(line, s, side);
@@ -461,5 +450,5 @@ bool mw__hit_inside(const mw_line *line, const mw_corners s, double side[3])
         most = bound > most ? bound : most;
         sum += side[k];
     }
-    return most <= WEIGHT_FINE * sum && sum >= LEAST_SUM && sum <= MOST_SUM;
+    return most <= MW_WEIGHT_FINE * sum && sum >= LEAST_SUM && sum <= MOST_SUM;
 }

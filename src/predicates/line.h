@@ -91,6 +91,56 @@ static MW_INLINE void mw__estimate_sides(const mw_line *line, const mw_corners s
         e->side[k] = mw__side_rounded(line, s[k], s[k == 2 ? 0 : k + 1], &e->bound[k]);
 }
 
+/* The plane of a triangle, with normal n = (b - a) x (c - a): N = (a - q) . n and M = m . n. Each
+ * is as mw__side_rounded of another vector: a - q may be a rounded difference, like m. */
+typedef struct mw_line_plane {
+    double n, m, n_bound, m_bound;
+} mw_line_plane;
+
+/* What MW_SIDE_ERROR leaves out: underflow, and vectors m too large for it. */
+static MW_INLINE double mw__side_underflow(const double m[3])
+{
+    bool small = fabs(m[0]) + fabs(m[1]) + fabs(m[2]) < MW_SIDE_MOTION;
+    return small ? MW_UNDERFLOW_ERROR : INFINITY;
+}
+
+/* An estimate is good enough for a distance where its bound is no more than this part of it: N, M
+ * and |m| are then off by less than 2^-43 together. */
+#define MW_PLANE_FINE 0x1p-45
+/* A side whose sign is sure is good enough for weights where its bound is no more than this part of
+ * their sum. */
+#define MW_WEIGHT_FINE 0x1p-44
+/* From here to there no product of two coordinates of interest over- or underflows. */
+#define MW_WEIGHT_NEAR_LEAST 0x1p-200
+#define MW_WEIGHT_NEAR_MOST 0x1p200
+/* Of a side that is computed from near by, as part of the coordinates (line.c). */
+#define MW_SIDE_FAR_ERROR 0x1p-96
+
+/* Products and quotients of a few such magnitudes, and squares of the largest of a vector, are
+ * normal doubles. */
+static MW_INLINE bool mw__is_ordinary(double x)
+{
+    return fabs(x) > 0x1p-200 && fabs(x) < 0x1p200;
+}
+
+/* mw__hit_distance by the plane, which it notes. Powers of two change no digit: ordinary numbers
+ * need none. */
+double mw__hit_distance_slow(const mw_line *line, const mw_corners s, const mw_line_plane *plane,
+                             bool fine);
+
+static MW_INLINE double mw__hit_distance_by(const mw_line *line, const mw_corners s,
+                                            const mw_line_plane *plane, mw_line_estimate *e)
+{
+    double n = e->n = plane->n, m = e->m = plane->m;
+    bool fine =
+        MW_PLANE_FINE * fabs(n) > plane->n_bound && MW_PLANE_FINE * fabs(m) > plane->m_bound;
+    const double *v = line->m;
+    double square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+    if (MW_LIKELY(fine && mw__is_ordinary(n) && mw__is_ordinary(m) && mw__is_ordinary(square)))
+        return n * sqrt(square) / m;
+    return mw__hit_distance_slow(line, s, plane, fine);
+}
+
 /* mw__hit_distance; notes n and m. */
 double mw__hit_distance_noted(const mw_line *line, const mw_corners s, mw_line_estimate *e);
 

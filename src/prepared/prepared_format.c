@@ -53,14 +53,14 @@ static uint64_t count_if(const mw_prepared_facts *f, uint32_t flag, uint64_t cou
 static uint64_t count_of_guide(const mw_prepared_facts *f, mw_prepared_kind kind)
 {
     const bool grid = f->guide == MW_GUIDE_GRID || f->guide == MW_GUIDE_CURVE,
-               curve = f->guide == MW_GUIDE_CURVE, chains = f->guide == MW_GUIDE_CHAINS;
+               curve = f->guide == MW_GUIDE_CURVE, chains = f->chain_edges > 0;
     switch (kind) {
     case MW_PART_CELLS: return grid ? (uint64_t)f->lattice.columns * f->lattice.rows : 0;
     case MW_PART_SAMPLES: return curve ? f->samples : 0;
     case MW_PART_BUCKETS: return curve ? (UINT64_C(1) << (32 - f->sample_shift)) + 1 : 0;
-    case MW_PART_CHAIN_EDGES: return chains ? f->chain_edges : 0;
-    case MW_PART_CHAIN_STARTS: return chains ? (uint64_t)f->tiles + 3 : 0;
-    default: return chains ? (uint64_t)f->tiles + 2 : 0;
+    case MW_PART_CHAIN_EDGES: return f->chain_edges;
+    case MW_PART_CHAIN_STARTS: return chains ? (uint64_t)f->chain_tiles + 3 : 0;
+    default: return chains ? (uint64_t)f->chain_tiles + 2 : 0;
     }
 }
 
@@ -128,7 +128,7 @@ static bool guide_fits(const mw_prepared_facts *f)
     const mw_lattice *l = &f->lattice;
     switch (f->guide) {
     case MW_GUIDE_NONE: return true;
-    case MW_GUIDE_CHAINS: return f->chain_edges > 0;
+    case MW_GUIDE_CHAINS: return f->chain_edges > 0 && f->chain_tiles == f->tiles;
     case MW_GUIDE_CURVE:
         if (f->samples < 3 || f->sample_shift < 1 || f->sample_shift > 31) return false;
         break;
@@ -150,10 +150,10 @@ static bool tiles_fit(const mw_prepared_facts *f)
 
 bool mw__prepared_facts_fit(const mw_prepared_facts *f)
 {
-    return !(f->flags & ~(uint32_t)MW_PREPARED_FLAGS) && f->unused == 0 && f->points >= 3 &&
-           f->points <= MW_MAX_VERTICES && f->triangles >= 1 && f->triangles <= MW_MAX_TRIANGLES &&
-           f->flat < f->triangles && tiles_fit(f) && guide_fits(f) &&
-           f->fields <= MW_COLUMN_LIMIT && f->triangle_fields <= MW_COLUMN_LIMIT &&
+    return !(f->flags & ~(uint32_t)MW_PREPARED_FLAGS) && f->chain_tiles <= MW_MAX_TRIANGLES &&
+           f->points >= 3 && f->points <= MW_MAX_VERTICES && f->triangles >= 1 &&
+           f->triangles <= MW_MAX_TRIANGLES && f->flat < f->triangles && tiles_fit(f) &&
+           guide_fits(f) && f->fields <= MW_COLUMN_LIMIT && f->triangle_fields <= MW_COLUMN_LIMIT &&
            f->border_edges <= 3 * (uint64_t)MW_MAX_TRIANGLES && f->marks <= f->name_bytes &&
            f->first_number <= 1;
 }

@@ -75,7 +75,7 @@ typedef struct mw_prepared_facts {
     uint32_t chain_points, chain_edges, border_edges;
     /* of what is kept beside the mesh */
     uint32_t fields, triangle_fields, faces, first_number, marked_edges, marks, steps, name_bytes;
-    uint32_t unused; /* 0 */
+    uint32_t chain_tiles; /* of the tiling; or of the few that chains are for, ghosts with them */
     double low[2], high[2];
     mw_lattice lattice;
     mw_chains_edge chain_bottom[2], chain_top[2];

@@ -35,7 +35,9 @@ static bool chains_edge_is_sound(const mw_chains_edge *e, uint32_t tiles)
 /* Chains follow each other, and an edge can be read where each begins, also where it has none. */
 static mw_status check_chains(const mw_prepared *p, mw_error *error)
 {
-    const mw_chains *chains = &p->locator.guide.chains;
+    const mw_index *guide = &p->locator.guide;
+    const mw_chains *chains =
+        guide->start == MW_START_CHAINS ? &guide->chains : &p->locator.fallback.chains;
     const uint32_t edges = p->header.facts.chain_edges, tiles = chains->tiles;
     for (uint32_t i = 0; i < tiles + 2; i++)
         if (chains->from[i] > chains->from[i + 1] || chains->from[i] >= edges)
@@ -103,7 +105,7 @@ mw_status mw__prepared_check_guide(const mw_prepared *p, mw_error *error)
 {
     mw_status status = MW_OK;
     if (p->locator.guide.start == MW_START_CURVE) status = check_curve(p, error);
-    if (p->locator.guide.start == MW_START_CHAINS) status = check_chains(p, error);
+    if (!status && p->header.facts.chain_edges > 0) status = check_chains(p, error);
     if (!status) status = check_border(p, error);
     return status ? status : check_values(p, error);
 }

@@ -97,6 +97,18 @@ static void tiling_attach(mw_prepared *p)
     };
 }
 
+static mw_chains chains_attach(const mw_prepared *p)
+{
+    const mw_prepared_facts *f = &p->header.facts;
+    return (mw_chains){.edge = part_records(p, MW_PART_CHAIN_EDGES),
+                       .from = part_records(p, MW_PART_CHAIN_STARTS),
+                       .tile = part_records(p, MW_PART_CHAIN_TILES),
+                       .bottom = {f->chain_bottom[0], f->chain_bottom[1]},
+                       .top = {f->chain_top[0], f->chain_top[1]},
+                       .tiles = f->chain_tiles,
+                       .points = f->chain_points};
+}
+
 static void guide_attach(mw_prepared *p)
 {
     const mw_prepared_facts *f = &p->header.facts;
@@ -121,17 +133,13 @@ static void guide_attach(mw_prepared *p)
         break;
     case MW_GUIDE_CHAINS:
         guide->start = MW_START_CHAINS;
-        guide->chains = (mw_chains){.edge = part_records(p, MW_PART_CHAIN_EDGES),
-                                    .from = part_records(p, MW_PART_CHAIN_STARTS),
-                                    .tile = part_records(p, MW_PART_CHAIN_TILES),
-                                    .bottom = {f->chain_bottom[0], f->chain_bottom[1]},
-                                    .top = {f->chain_top[0], f->chain_top[1]},
-                                    .tiles = f->tiles,
-                                    .points = f->chain_points};
+        guide->chains = chains_attach(p);
         break;
     case MW_GUIDE_NONE:
     case MW_GUIDE_COUNT: break;
     }
+    if (f->guide == MW_GUIDE_CHAINS || f->chain_edges == 0) return;
+    p->locator.fallback = (mw_index){.start = MW_START_CHAINS, .chains = chains_attach(p)};
 }
 
 static void border_attach(mw_prepared *p)

@@ -185,6 +185,7 @@ static void writer_take_chains(prepared_writer *w, const mw_chains *chains)
 {
     mw_prepared_facts *f = &w->header.facts;
     f->chain_points = chains->points;
+    f->chain_tiles = chains->tiles;
     f->chain_edges = chains->from[chains->tiles + 2];
     for (int k = 0; k < 2; k++) {
         f->chain_bottom[k] = chains->bottom[k];
@@ -197,7 +198,7 @@ static void writer_take_chains(prepared_writer *w, const mw_chains *chains)
 
 static void writer_take_guide(prepared_writer *w)
 {
-    const mw_index *guide = &w->locator->guide;
+    const mw_index *guide = &w->locator->guide, *fallback = &w->locator->fallback;
     mw_prepared_facts *f = &w->header.facts;
     if (guide->sort_batches) f->flags |= MW_PREPARED_SORTED;
     if (guide->start == MW_START_GRID) {
@@ -215,6 +216,8 @@ static void writer_take_guide(prepared_writer *w)
         f->guide = MW_GUIDE_CHAINS;
         writer_take_chains(w, &guide->chains);
     }
+    if (fallback->start == MW_START_CHAINS && fallback->chains.tiles > 0)
+        writer_take_chains(w, &fallback->chains);
 }
 
 static mw_status writer_gather(prepared_writer *w, mw_error *error)

@@ -40,6 +40,11 @@ typedef struct mw_bvh {
     uint32_t first[MW_BVH_BUILT_LEVELS + 1]; /* first node of a level; then node_count */
     double scale, centre[3];                 /* the frame; scale is a power of two */
     bool finite; /* all corners were finite at the last fit, and those put in since */
+    /* Of each node: the lowest of its triangles if all of them are equal, which means that they had
+     * the same corners in the same order at the last fit; else MW_NONE. A search for one triangle
+     * then looks at that one alone, as long as no vertex has moved since. NULL: building met no
+     * crowd of boxes round one centre, so there are hardly any equal triangles. */
+    uint32_t *same;
     /* Of a tree that follows single triangles; else NULL. A place is 8 * node + child. */
     uint32_t *place;  /* of each triangle; MW_NONE: it is not in the tree */
     uint32_t *parent; /* of each node: its place; MW_NONE for the root. Of a free node: the next. */
@@ -73,6 +78,13 @@ bool mw__bvh_fit(mw_bvh *bvh, const mw_surface *surface, mw_job *job);
 bool mw__bvh_fit_node(const mw_bvh *bvh, const mw_surface *surface, mw_bvh_node *node);
 /* The box of all children of a node. */
 mw_bvh_box mw__bvh_box_of_node(const mw_bvh_node *node);
+
+/* The triangle that stands for all in a node, for a search in boxes that are widened by `slack`.
+ * MW_NONE: there is none. */
+static MW_INLINE uint32_t mw__bvh_same(const mw_bvh *bvh, double slack, uint32_t node)
+{
+    return MW_LIKELY(!bvh->same) || slack > 0 ? MW_NONE : bvh->same[node];
+}
 
 /* The size of a common triangle, in units of length: the mean edge of its box, and of that the
  * median of a sample. */

@@ -31,25 +31,28 @@
 #ifndef MW_SRC_PROBE_BVH_BEAM_H
 #define MW_SRC_PROBE_BVH_BEAM_H
 
-#include "predicates/line.h"
+#include "predicates/line_lanes.h"
 #include "probe/bvh.h"
 
 #include <float.h>
 #include <stddef.h>
 #include <string.h>
 
-/* The line in the frame of the BVH, and which part of it is searched. */
+/* The line in the frame of the BVH, and which part of it is searched. Axis by axis; the fourth
+ * number is not used. */
 typedef struct mw_bvh_beam {
     /* The line enters at the low sides, or where m < 0 at the high ones: bytes from the node to the
      * sides where it enters and leaves, and what these are compared with, q + w for low sides and q
      * - w for high ones. */
-    uint32_t enter[3], leave[3];
-    float add_enter[3], add_leave[3];
-    float inverse[3];      /* 1 / m; infinite where m is 0 */
-    float from, to;        /* t is limited to these */
-    float at_low, at_high; /* t of the point that distances count from is between these */
-    float reach;           /* and may be as far from that as this */
-    double at, per_length; /* the same t; t for a unit of length */
+    uint32_t enter[4], leave[4];
+    float add_enter[4], add_leave[4];
+    float inverse[4];          /* 1 / m; infinite where m is 0 */
+    float less[4], greater[4]; /* the same, made smaller and greater by END_ERROR */
+    float from, to;            /* t is limited to these */
+    float at_low, at_high;     /* t of the point that distances count from is between these */
+    float reach;               /* and may be as far from that as this */
+    bool ahead;                /* nothing behind that point counts, and its t is 0 */
+    double at, per_length;     /* the same t; t for a unit of length */
 } mw_bvh_beam;
 
 #define MW_BEAM_END_ERROR 0x1p-21f
@@ -60,9 +63,12 @@ typedef struct mw_bvh_beam {
 #define MW_BEAM_LESS (1 - 0x1p-37) /* less than 1 / MW_BEAM_REACH_ERROR */
 
 /* A double rounded to a float that is not greater, or not less. */
+#define MW_FLOAT_ROUND 0x1p-22
+#define MW_FLOAT_TINY 0x1p-126
+
 static MW_INLINE float mw__float_down(double x)
 {
-    return (float)(x - fabs(x) * 0x1p-22 - 0x1p-126);
+    return (float)(x - (fabs(x) * MW_FLOAT_ROUND + MW_FLOAT_TINY));
 }
 static MW_INLINE float mw__float_up(double x)
 {
@@ -76,6 +82,7 @@ static MW_INLINE void mw__beam_limit(mw_bvh_beam *b, double reach, bool one_side
     double t = (reach + MW_BVH_TINY_LENGTH) * b->per_length * MW_BEAM_REACH_ERROR +
                MW_BVH_LEAST_WIDTH,
            ahead = (one_sided ? least * MW_BEAM_LESS * b->per_length : -t) - MW_BVH_LEAST_WIDTH;
+    b->ahead = one_sided && b->at == 0;
     b->reach = mw__float_up(t);
     b->to = mw__float_up(b->at + t);
     b->from = mw__float_down(b->at + ahead);
@@ -105,16 +112,56 @@ static MW_INLINE void mw__beam_set_axis(mw_bvh_beam *b, int k, double p, double 
     bool small = fabs(m) < MW_BEAM_SMALL_COMPONENT, down = !small && m < 0;
     uint32_t low_side = (uint32_t)(offsetof(mw_bvh_node, low) + (size_t)k * MW_BVH_SIDES),
              high_side = (uint32_t)(offsetof(mw_bvh_node, high) + (size_t)k * MW_BVH_SIDES);
-    b->inverse[k] = small ? INFINITY : (float)(1 / m);
+    double inverse = small ? INFINITY : 1 / m;
+    b->inverse[k] = (float)inverse;
+    b->less[k] = (float)(inverse * (1 - MW_BEAM_END_ERROR));
+    b->greater[k] = (float)(inverse * (1 + MW_BEAM_END_ERROR));
     b->enter[k] = down ? high_side : low_side;
     b->leave[k] = down ? low_side : high_side;
     b->add_enter[k] = down ? high : low;
     b->add_leave[k] = down ? low : high;
 }
 
-/* All but its limits. */
-static inline void mw__beam_aim(mw_bvh_beam *b, const mw_bvh *bvh, const mw_line *line,
-                                double slack)
+typedef float mw_beam_floats __attribute__((vector_size(16)));
+typedef int32_t mw_beam_offsets __attribute__((vector_size(16)));
+
+static MW_INLINE void mw__beam_store(float to[4], const mw_lanes *from)
+{
+    mw_beam_floats rounded = __builtin_convertvector(*from, mw_beam_floats);
+    memcpy(to, &rounded, sizeof rounded);
+}
+
+#define MW_LANES_CHOOSE(mask, a, b)                                                                \
+    ((mw_lanes)(((mw_lanes_mask)(a) & (mask)) | ((mw_lanes_mask)(b) & ~(mask))))
+
+/* The same, all three at once (line_lanes.h). */
+static MW_INLINE void mw__beam_set_axes(mw_bvh_beam *b, const mw_lanes *p, const mw_lanes *m,
+                                        double width)
+{
+    mw_lanes size = MW_LANES_MAGNITUDE(*m), low = *p + width, high = *p - width;
+    mw_lanes infinite = {INFINITY, INFINITY, INFINITY, INFINITY};
+    low = low + (MW_LANES_MAGNITUDE(low) * MW_FLOAT_ROUND + MW_FLOAT_TINY);
+    high = high - (MW_LANES_MAGNITUDE(high) * MW_FLOAT_ROUND + MW_FLOAT_TINY);
+    mw_lanes_mask large = size >= MW_BEAM_SMALL_COMPONENT, down = (*m < 0) & large;
+    mw_lanes inverse = MW_LANES_CHOOSE(large, 1 / *m, infinite);
+    mw_lanes enter = MW_LANES_CHOOSE(down, high, low), leave = MW_LANES_CHOOSE(down, low, high);
+    mw_lanes less = inverse * (1 - MW_BEAM_END_ERROR), greater = inverse * (1 + MW_BEAM_END_ERROR);
+    mw__beam_store(b->add_enter, &enter);
+    mw__beam_store(b->add_leave, &leave);
+    mw__beam_store(b->inverse, &inverse);
+    mw__beam_store(b->less, &less);
+    mw__beam_store(b->greater, &greater);
+    const int32_t side = MW_BVH_SIDES, other = (int32_t)offsetof(mw_bvh_node, high);
+    mw_beam_offsets first = {0, side, 2 * side, 0},
+                    turned = __builtin_convertvector(down, mw_beam_offsets) & other;
+    mw_beam_offsets enters = first + turned, leaves = first + (other - turned);
+    memcpy(b->enter, &enters, sizeof enters);
+    memcpy(b->leave, &leaves, sizeof leaves);
+}
+
+/* All but its limits; in vectors or not. */
+static MW_INLINE void mw__beam_aim(mw_bvh_beam *b, const mw_bvh *bvh, const mw_line *line,
+                                   double slack, bool vectors)
 {
     double q[3], m[3], square = 0, along = 0, shift = 0;
     double width = mw__bvh_aim(bvh, line->q, slack, q);
@@ -124,7 +171,12 @@ static inline void mw__beam_aim(mw_bvh_beam *b, const mw_bvh *bvh, const mw_line
         along += m[k] * q[k];
     }
     if (mw__bvh_largest(q) > MW_BEAM_NEAR) shift = -along / square;
-    for (int k = 0; k < 3; k++) mw__beam_set_axis(b, k, q[k] + shift * m[k], m[k], width);
+    if (vectors) {
+        mw_lanes along_m = MW_LANES_POINT(m), p = MW_LANES_POINT(q) + shift * along_m;
+        mw__beam_set_axes(b, &p, &along_m, width);
+    } else {
+        for (int k = 0; k < 3; k++) mw__beam_set_axis(b, k, q[k] + shift * m[k], m[k], width);
+    }
     b->at = -shift;
     b->at_low = mw__float_down(b->at);
     b->at_high = mw__float_up(b->at);
@@ -172,13 +224,9 @@ static MW_INLINE uint32_t mw__beam_meets_portable(const mw_bvh_beam *beam, const
 
 #ifdef __x86_64__
 
-#include <immintrin.h>
-
 /* The same, eight at a time. Of two operands, max and min give the second one if one is NaN. */
-__attribute__((target("avx2"))) static inline uint32_t mw__beam_meets_avx2(const mw_bvh_beam *beam,
-                                                                           const mw_bvh_node *node,
-                                                                           float near[MW_BVH_WIDTH],
-                                                                           uint32_t *triangles)
+__attribute__((target("avx2"))) static inline __m256
+mw__beam_meets_avx2(const mw_bvh_beam *beam, const mw_bvh_node *node, __m256 *near)
 {
     __m256 low = _mm256_set1_ps(-INFINITY), high = _mm256_set1_ps(INFINITY);
     for (int k = 0; k < 3; k++) {
@@ -196,12 +244,29 @@ __attribute__((target("avx2"))) static inline uint32_t mw__beam_meets_avx2(const
     high = _mm256_max_ps(_mm256_mul_ps(high, less), _mm256_mul_ps(high, more));
     __m256 before = _mm256_sub_ps(low, _mm256_set1_ps(beam->at_high)),
            after = _mm256_sub_ps(_mm256_set1_ps(beam->at_low), high);
-    _mm256_storeu_ps(near, _mm256_max_ps(_mm256_max_ps(before, after), _mm256_setzero_ps()));
-    *triangles = (uint32_t)_mm256_movemask_ps(
-        _mm256_castsi256_ps(_mm256_load_si256((const __m256i *)(const void *)node->child)));
+    *near = _mm256_max_ps(_mm256_max_ps(before, after), _mm256_setzero_ps());
     low = _mm256_max_ps(low, _mm256_set1_ps(beam->from));
     high = _mm256_min_ps(high, _mm256_set1_ps(beam->to));
-    return (uint32_t)_mm256_movemask_ps(_mm256_cmp_ps(low, high, _CMP_LE_OQ));
+    return _mm256_cmp_ps(low, high, _CMP_LE_OQ);
+}
+
+/* The same for a beam that goes ahead. An end that is not negative is moved outwards by the factor
+ * in 1 / m. A negative one stays negative or becomes 0, and no t below 0 counts; the sign of a
+ * difference and of a product is that of the exact one. */
+__attribute__((target("avx2"))) static inline __m256
+mw__beam_meets_ahead(const mw_bvh_beam *beam, const mw_bvh_node *node, __m256 *near)
+{
+    __m256 low = _mm256_set1_ps(beam->from), high = _mm256_set1_ps(beam->to);
+    for (int k = 0; k < 3; k++) {
+        __m256 enter = _mm256_load_ps(mw__beam_sides(node, beam->enter[k])),
+               leave = _mm256_load_ps(mw__beam_sides(node, beam->leave[k]));
+        __m256 from = _mm256_sub_ps(enter, _mm256_set1_ps(beam->add_enter[k])),
+               to = _mm256_sub_ps(leave, _mm256_set1_ps(beam->add_leave[k]));
+        low = _mm256_max_ps(_mm256_mul_ps(from, _mm256_set1_ps(beam->less[k])), low);
+        high = _mm256_min_ps(_mm256_mul_ps(to, _mm256_set1_ps(beam->greater[k])), high);
+    }
+    *near = _mm256_max_ps(low, _mm256_setzero_ps());
+    return _mm256_cmp_ps(low, high, _CMP_LE_OQ);
 }
 
 #endif

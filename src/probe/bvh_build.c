@@ -7,10 +7,16 @@
  * triangles at once; where slots of the node remain, the smallest ranges go into it, triangle by
  * triangle.
  *
+ * Boxes that all have one centre cannot be divided so. They are put in order, the small ones first
+ * and equal triangles side by side, and cut near the middle: so equal triangles get nodes of their
+ * own.
+ *
  * The tree depends on the triangles alone, not on threads. */
+#include "base/random.h"
 #include "probe/bvh.h"
 
 #include <float.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -47,7 +53,7 @@ static MW_INLINE build_vector vector_max(build_vector a, build_vector b)
 }
 
 /* A triangle: the sides of its box on three axes. The fourth number of `low` is the triangle; that
- * of `high` is 0. */
+ * of `high` is 0, or in a range that is in order a number for its corners. */
 typedef struct build_item {
     build_vector low, high;
 } build_item;
@@ -174,6 +180,45 @@ static void bins_look_along(const build_bins *b, int axis, build_split *best)
     }
 }
 
+/* --- items in order --- */
+
+/* A number for the corners of a triangle: equal triangles have one number, others seldom. As a
+ * float it is neither 0 nor infinite. */
+static float corners_number(const mw_surface *surface, uint32_t triangle)
+{
+    uint64_t mixed = 0, bits;
+    for (uint32_t i = 0; i < 9; i++) {
+        double x = mw__surface_corner(surface, triangle, i / 3)[i % 3] + 0.0; /* no -0 */
+        memcpy(&bits, &x, sizeof bits);
+        mixed = mw__mix(mixed + bits);
+    }
+    uint32_t number = NORMAL_FLOAT | (uint32_t)mixed % (NORMAL_FLOAT / 2);
+    float as_float;
+    memcpy(&as_float, &number, sizeof as_float);
+    return as_float;
+}
+
+/* Smaller boxes first, then by corners, then by number. */
+static int compare_items(const void *a, const void *b)
+{
+    build_item x, y;
+    memcpy(&x, a, sizeof x);
+    memcpy(&y, b, sizeof y);
+    float x_area = area_of(x.low, x.high), y_area = area_of(y.low, y.high);
+    if (x_area != y_area) return x_area < y_area ? -1 : 1;
+    if (x.high[3] != y.high[3]) return x.high[3] < y.high[3] ? -1 : 1;
+    return item_triangle(&x) < item_triangle(&y) ? -1 : 1;
+}
+
+/* Put items in order. The ranges that they are divided into are so, too. */
+static void items_order(build_item *item, uint32_t n, const mw_surface *surface)
+{
+    if (item[0].high[3] != 0) return;
+    for (uint32_t i = 0; i < n; i++)
+        item[i].high[3] = corners_number(surface, item_triangle(&item[i]));
+    qsort(item, n, sizeof *item, compare_items);
+}
+
 /* --- ranges --- */
 
 static void range_measure(build_range *r, const build_item *items)
@@ -186,14 +231,27 @@ static void range_measure(build_range *r, const build_item *items)
     }
 }
 
-/* Divide a range in the middle, as it is. */
-static void range_halve(build_range *r, build_range *right, const build_item *items)
+/* Divide a range as it is: `left` items and the others. */
+static void range_cut(build_range *r, build_range *right, const build_item *items, uint32_t left)
 {
-    uint32_t left = r->count / 2;
     *right = (build_range){.first = r->first + left, .count = r->count - left};
     r->count = left;
     range_measure(r, items);
     range_measure(right, items);
+}
+
+/* Where to cut items that are in order: in the middle, or between triangles that differ as near to
+ * it as they are. Two cuts part equal triangles that are more than half of all from others, and any
+ * other cut leaves a quarter on either side: so the tree is at most twice as deep as by halving. */
+static uint32_t items_cut(const build_item *item, uint32_t n)
+{
+    const uint32_t middle = n / 2;
+    for (uint32_t off = 0; off < middle; off++) {
+        const uint32_t before = middle - off, behind = middle + off;
+        if (item[before].high[3] != item[before - 1].high[3]) return before;
+        if (behind < n && item[behind].high[3] != item[behind - 1].high[3]) return behind;
+    }
+    return middle;
 }
 
 /* The items of the left side first. Returns their number. */
@@ -220,17 +278,29 @@ static void bins_box(const build_bins *b, int axis, int from, int to, build_rang
     }
 }
 
+typedef struct bvh_building {
+    mw_bvh *bvh;
+    const mw_surface *surface;
+    build_item *items;
+    build_range *ranges; /* of the nodes of a level */
+    build_node *nodes;
+    uint32_t range_count, level;
+    atomic_bool crowds; /* some range had one centre */
+} bvh_building;
+
 /* Divide a range: *r becomes the left part. */
-static void range_divide(build_range *r, build_range *right, build_item *items)
+static void range_divide(bvh_building *b, build_range *r, build_range *right)
 {
     build_bins bins;
     build_split best = {INFINITY, 0, 0};
-    build_item *item = items + r->first;
+    build_item *item = b->items + r->first;
     bins_begin(&bins, item, r->count);
     bins_fill(&bins, item, r->count);
     for (int axis = 0; axis < 3; axis++) bins_look_along(&bins, axis, &best);
     if (!(best.cost < INFINITY)) { /* all centres are one */
-        range_halve(r, right, items);
+        atomic_store_explicit(&b->crowds, true, memory_order_relaxed);
+        items_order(item, r->count, b->surface);
+        range_cut(r, right, b->items, items_cut(item, r->count));
         return;
     }
     uint32_t left = items_part(item, r->count, &bins, best);
@@ -243,14 +313,16 @@ static void range_divide(build_range *r, build_range *right, build_item *items)
 
 /* --- nodes --- */
 
-/* The range to be divided next: the largest box, or the most items; -1 if all are small. */
+/* The range to be divided next: the largest box, of equal ones the most items, or the most items;
+ * -1 if all are small. */
 static int ranges_largest(const build_range *range, int n, bool halve)
 {
     int largest = -1;
     float most = -1;
     for (int i = 0; i < n; i++) {
         float size = halve ? (float)range[i].count : area_of(range[i].low, range[i].high);
-        if (range[i].count <= MW_BVH_WIDTH || !(size > most)) continue;
+        if (range[i].count <= MW_BVH_WIDTH || size < most) continue;
+        if (size == most && range[i].count <= range[largest].count) continue;
         most = size;
         largest = i;
     }
@@ -274,17 +346,18 @@ static int ranges_open(build_range *range, int n)
     }
 }
 
-static void node_divide(build_node *node, build_range range, build_item *items, uint32_t level)
+static void node_divide(bvh_building *b, build_node *node, build_range range)
 {
+    const bool halve = b->level >= HALVING;
     build_range child[MW_BVH_WIDTH] = {range};
     int n = 1;
     while (n < (int)MW_BVH_WIDTH) {
-        int i = ranges_largest(child, n, level >= HALVING);
+        int i = ranges_largest(child, n, halve);
         if (i < 0) break;
-        if (level >= HALVING)
-            range_halve(&child[i], &child[n], items);
+        if (halve)
+            range_cut(&child[i], &child[n], b->items, child[i].count / 2);
         else
-            range_divide(&child[i], &child[n], items);
+            range_divide(b, &child[i], &child[n]);
         n++;
     }
     n = ranges_open(child, n);
@@ -296,15 +369,6 @@ static void node_divide(build_node *node, build_range range, build_item *items, 
 }
 
 /* --- levels --- */
-
-typedef struct bvh_building {
-    mw_bvh *bvh;
-    const mw_surface *surface;
-    build_item *items;
-    build_range *ranges; /* of the nodes of a level */
-    build_node *nodes;
-    uint32_t range_count, level;
-} bvh_building;
 
 static void building_box_triangles(void *work, uint64_t from, uint64_t to)
 {
@@ -336,11 +400,11 @@ static uint32_t building_drop_freed(const bvh_building *b)
 
 static void building_divide_group(void *work, uint64_t group, uint32_t member)
 {
-    const bvh_building *b = work;
+    bvh_building *b = work;
     uint64_t from = group * b->range_count / GROUPS, to = (group + 1) * b->range_count / GROUPS;
     (void)member;
     for (uint64_t i = from; i < to; i++)
-        node_divide(&b->nodes[b->bvh->first[b->level] + i], b->ranges[i], b->items, b->level);
+        node_divide(b, &b->nodes[b->bvh->first[b->level] + i], b->ranges[i]);
 }
 
 /* The ranges of the next level, in b->ranges. Returns false when out of memory. */
@@ -411,8 +475,11 @@ static bool building_run(bvh_building *b, mw_job *job)
     }
     b->bvh->level_count = b->level;
     b->bvh->node = mw__alloc_lines(b->bvh->node_count, sizeof *b->bvh->node);
-    if (b->bvh->node) building_number(b);
-    return b->bvh->node != NULL;
+    if (!b->bvh->node) return false;
+    building_number(b);
+    if (!atomic_load_explicit(&b->crowds, memory_order_relaxed)) return true;
+    b->bvh->same = mw__alloc(b->bvh->node_count, sizeof *b->bvh->same);
+    return b->bvh->same != NULL;
 }
 
 bool mw__bvh_create(mw_bvh *bvh, const mw_surface *surface, mw_job *job)
@@ -433,12 +500,14 @@ void mw__bvh_release(mw_bvh *bvh)
     free(bvh->node);
     free(bvh->place);
     free(bvh->parent);
+    free(bvh->same);
     *bvh = (mw_bvh){0};
 }
 
 size_t mw__bvh_bytes(const mw_bvh *bvh)
 {
     size_t parents = bvh->parent ? bvh->node_room * sizeof *bvh->parent : 0,
-           places = bvh->place ? bvh->place_room * sizeof *bvh->place : 0;
-    return bvh->node_count * sizeof *bvh->node + parents + places;
+           places = bvh->place ? bvh->place_room * sizeof *bvh->place : 0,
+           same = bvh->same ? bvh->node_count * sizeof *bvh->same : 0;
+    return bvh->node_count * sizeof *bvh->node + parents + places + same;
 }

@@ -221,6 +221,42 @@ bool mw__bvh_fit_node(const mw_bvh *b, const mw_surface *surface, mw_bvh_node *n
     return finite;
 }
 
+/* --- equal triangles --- */
+
+static bool triangles_are_equal(const mw_surface *surface, uint32_t s, uint32_t t)
+{
+    for (uint32_t i = 0; i < 9; i++)
+        if (mw__surface_corner(surface, s, i / 3)[i % 3] !=
+            mw__surface_corner(surface, t, i / 3)[i % 3])
+            return false;
+    return true;
+}
+
+/* The lowest triangle of a node if all are equal, else MW_NONE. That of its children is known. */
+static uint32_t node_same(const mw_bvh *b, const mw_surface *surface, const mw_bvh_node *node)
+{
+    uint32_t lowest = MW_NONE;
+    for (uint32_t i = 0; i < MW_BVH_WIDTH; i++) {
+        uint32_t child = node->child[i], t;
+        if (child == MW_NONE) continue;
+        t = child & MW_BVH_TRIANGLE ? child & ~MW_BVH_TRIANGLE : b->same[child];
+        if (t == MW_NONE) return MW_NONE;
+        if (lowest != MW_NONE && !triangles_are_equal(surface, lowest, t)) return MW_NONE;
+        if (t < lowest) lowest = t;
+    }
+    return lowest;
+}
+
+/* Fit the boxes of node i, and tell whether its triangles are equal. */
+static bool bvh_fit_one(const mw_bvh *b, const mw_surface *surface, uint64_t i)
+{
+    bool finite = mw__bvh_fit_node(b, surface, &b->node[i]);
+    if (MW_UNLIKELY(b->same)) b->same[i] = node_same(b, surface, &b->node[i]);
+    return finite;
+}
+
+/* --- levels --- */
+
 typedef struct level_fitting {
     const mw_bvh *bvh;
     const mw_surface *surface;
@@ -238,7 +274,7 @@ static void level_fit_chunk(void *work, uint64_t chunk, uint32_t member)
     end = end < begin + CHUNK ? end : begin + CHUNK;
     for (uint64_t i = begin; i < end; i++) {
         bvh_prefetch(b, f->surface, i, end);
-        finite = mw__bvh_fit_node(b, f->surface, &b->node[i]) && finite;
+        finite = bvh_fit_one(b, f->surface, i) && finite;
     }
     if (!finite) atomic_store_explicit(&f->gaps, true, memory_order_relaxed);
 }
@@ -247,12 +283,12 @@ static void level_fit_chunk(void *work, uint64_t chunk, uint32_t member)
  * levels. */
 static bool bvh_fit_below(const mw_bvh *bvh, const mw_surface *surface, uint32_t i)
 {
-    mw_bvh_node *node = &bvh->node[i];
+    const mw_bvh_node *node = &bvh->node[i];
     bool finite = true;
     for (uint32_t k = 0; k < MW_BVH_WIDTH; k++)
         if (!(node->child[k] & MW_BVH_TRIANGLE))
             finite = bvh_fit_below(bvh, surface, node->child[k]) && finite;
-    return mw__bvh_fit_node(bvh, surface, node) && finite;
+    return bvh_fit_one(bvh, surface, i) && finite;
 }
 
 bool mw__bvh_fit(mw_bvh *bvh, const mw_surface *surface, mw_job *job)

@@ -41,8 +41,20 @@ static void place_set_box(mw_bvh *b, uint32_t place, mw_bvh_box box)
     }
 }
 
+/* A child of the node becomes another: its triangles do not count as equal any more, and nor do
+ * those of the nodes above it. Where a node does not, those above it do not already. */
+static void node_differs(mw_bvh *b, uint32_t node)
+{
+    while (b->same && b->same[node] != MW_NONE) {
+        b->same[node] = MW_NONE;
+        if (b->parent[node] == MW_NONE) return;
+        node = b->parent[node] / MW_BVH_WIDTH;
+    }
+}
+
 static void place_clear(mw_bvh *b, uint32_t place)
 {
+    node_differs(b, place / MW_BVH_WIDTH);
     b->node[place / MW_BVH_WIDTH].child[place % MW_BVH_WIDTH] = MW_NONE;
     place_set_box(b, place,
                   (mw_bvh_box){{FLT_MAX, FLT_MAX, FLT_MAX}, {-FLT_MAX, -FLT_MAX, -FLT_MAX}});
@@ -67,6 +79,7 @@ static void place_set_child(mw_bvh *b, uint32_t place, const bvh_child *c)
 {
     mw_bvh_node *node = &b->node[place / MW_BVH_WIDTH];
     uint32_t i = place % MW_BVH_WIDTH;
+    node_differs(b, place / MW_BVH_WIDTH);
     node->child[i] = c->child;
     memcpy(node->vertex[i], c->vertex, sizeof c->vertex);
     place_set_box(b, place, c->box);
@@ -96,6 +109,7 @@ static uint32_t node_take(mw_bvh *b)
         b->free_node = b->parent[i];
     else
         i = b->node_count++;
+    if (b->same) b->same[i] = MW_NONE;
     for (uint32_t k = 0; k < MW_BVH_WIDTH; k++) {
         place_clear(b, tree_place(i, k));
         memset(b->node[i].vertex[k], 0, sizeof b->node[i].vertex[k]);
@@ -352,6 +366,9 @@ static bool bvh_nodes_grow(mw_bvh *b, size_t count)
     uint32_t *parent = mw__realloc(b->parent, room, sizeof *parent);
     if (!parent) return false;
     b->parent = parent;
+    uint32_t *same = b->same ? mw__realloc(b->same, room, sizeof *same) : NULL;
+    if (b->same && !same) return false;
+    b->same = same;
     mw_bvh_node *node = mw__alloc_lines(room, sizeof *node); /* realloc keeps no cache lines */
     if (!node) return false;
     memcpy(node, b->node, b->node_count * sizeof *node);

@@ -77,7 +77,7 @@ static bool point_is_on(const mw_prober *prober, const double point[3], int axis
     bool on = false;
     ray.line.m[axis] = 1;
     mw__ray_search_begin(&search, prober, &ray, contact_found, &on);
-    mw__ray_search_run(prober, &search, 1);
+    mw__ray_search_run(&search);
     return on;
 }
 
@@ -91,7 +91,7 @@ static mw_surface_side side_of_point(const mw_prober *prober, const double point
     mw_ray_search search;
     parity_count count = {false, false};
     mw__ray_search_begin(&search, prober, &ray, parity_found, &count);
-    mw__ray_search_run(prober, &search, 1);
+    mw__ray_search_run(&search);
     if (count.on || point_is_on(prober, point, 1) || point_is_on(prober, point, 2))
         return MW_SURFACE_ON;
     return count.odd ? MW_SURFACE_INSIDE : MW_SURFACE_OUTSIDE;

@@ -11,7 +11,8 @@
 enum {
     CHUNK = 1 << 10, /* points that one thread takes at a time */
     BLOCK = 1 << 20, /* points that are sorted at a time */
-    FEWEST = 64      /* fewer are not worth sorting */
+    FEWEST = 64,     /* fewer are not worth sorting */
+    AHEAD = 4        /* searches before a point's own when memory is asked for it */
 };
 
 typedef struct nearest_batch {
@@ -59,11 +60,20 @@ static void points_key(void *work, uint64_t from, uint64_t to)
 
 /* --- the answers --- */
 
+/* Sorted points lie anywhere in memory. */
+static void nearest_prefetch(const nearest_batch *b, size_t item)
+{
+    __builtin_prefetch(b->points + item * b->stride);
+    __builtin_prefetch(&b->nearest[item], 1);
+    __builtin_prefetch((const char *)(&b->nearest[item] + 1) - 1, 1);
+}
+
 static void nearest_chunk_answer(const nearest_batch *b, size_t first, size_t end)
 {
     uint32_t guess = MW_NONE;
     for (size_t i = first; i < end; i++) {
         size_t item = b->keys ? b->keys[i].item : i;
+        if (b->keys && i + AHEAD < end) nearest_prefetch(b, b->keys[i + AHEAD].item);
         mw_nearest_surface_point *nearest = &b->nearest[item];
         mw__nearest_find(b->prober, b->points + item * b->stride, b->max_distance, guess, nearest);
         if (nearest->triangle != MW_NONE) guess = nearest->triangle;

@@ -24,9 +24,9 @@ static mw_probe_counters probe_batch_answer(const probe_batch *b, size_t first)
 {
     mw_probe_cursor cursor = b->cursor;
     size_t end = b->n - first < CHUNK ? b->n : first + CHUNK;
-    for (size_t i = first; cursor.options.certain && i < end; i += MW_RAYS_AT_A_TIME) {
-        uint32_t n = (uint32_t)(end - i < MW_RAYS_AT_A_TIME ? end - i : MW_RAYS_AT_A_TIME);
-        mw__probe_certain_group(b->prober, &cursor, b->queries + i * b->stride, b->stride, n,
+    for (size_t i = first; cursor.options.certain && i < end; i += MW_PROBE_BLOCK) {
+        uint32_t n = (uint32_t)(end - i < MW_PROBE_BLOCK ? end - i : MW_PROBE_BLOCK);
+        mw__probe_certain_block(b->prober, &cursor, b->queries + i * b->stride, b->stride, n,
                                 b->touches + i);
     }
     for (size_t i = first; !cursor.options.certain && i < end; i++) {

@@ -31,31 +31,50 @@ typedef struct probe_lists {
     mw_probe_counters sum; /* of the chunks that are done */
 } probe_lists;
 
-/* Searches of a few probes that take turns. */
+/* Searches of a few probes that take turns. What they find stays in them until all have ended. */
 typedef struct lists_group {
+    const probe_lists *lists;
+    mw_ray_found *found;
+    size_t first;
+    uint32_t n, next, guess;
     mw_ray_query ray[MW_RAYS_AT_A_TIME];
     mw_ray_search search[MW_RAYS_AT_A_TIME];
     mw_hit_list list[MW_RAYS_AT_A_TIME];
     bool good[MW_RAYS_AT_A_TIME]; /* was there a search? */
 } lists_group;
 
+static mw_ray_search *lists_group_next(void *self, mw_ray_search *ended)
+{
+    lists_group *g = self;
+    const probe_lists *b = g->lists;
+    uint32_t i = g->next;
+    (void)ended;
+    if (i == g->n) return NULL;
+    const double *q = b->queries + (g->first + i) * b->stride;
+    mw_ray_search *search = &g->search[g->next++];
+    mw__ray_search_none(search);
+    g->list[i].count = 0;
+    g->good[i] =
+        mw__prober_is_current(b->prober) && mw__probe_ray(&b->cursor.options, q, q + 3, &g->ray[i]);
+    if (!g->good[i]) return search;
+    mw__ray_search_begin(search, b->prober, &g->ray[i], g->found, &g->list[i]);
+    if (g->guess < b->prober->surface->tri_count) mw__ray_search_guess(search, g->guess);
+    return search;
+}
+
 /* Run the searches of the probes `first` .. first + n - 1; any of them begins with triangle
  * `guess`, unless that is MW_NONE. */
 static void lists_group_run(lists_group *g, const probe_lists *b, mw_ray_found *found, size_t first,
                             uint32_t n, uint32_t guess)
 {
-    const mw_prober *prober = b->prober;
-    bool current = mw__prober_is_current(prober);
-    for (uint32_t i = 0; i < n; i++) {
-        const double *q = b->queries + (first + i) * b->stride;
-        mw__ray_search_none(&g->search[i]);
-        g->list[i].count = 0;
-        g->good[i] = current && mw__probe_ray(&b->cursor.options, q, q + 3, &g->ray[i]);
-        if (!g->good[i]) continue;
-        mw__ray_search_begin(&g->search[i], prober, &g->ray[i], found, &g->list[i]);
-        if (guess < prober->surface->tri_count) mw__ray_search_guess(&g->search[i], guess);
-    }
-    mw__ray_search_run(prober, g->search, n);
+    mw_ray_source source = {lists_group_next, g};
+    g->lists = b;
+    g->found = found;
+    g->first = first;
+    g->n = n;
+    g->next = 0;
+    g->guess = guess;
+    mw__ray_searches_run(b->prober, &source);
 }
 
 static void lists_group_count(const lists_group *g, uint32_t n, mw_probe_counters *sum)

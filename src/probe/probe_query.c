@@ -3,7 +3,7 @@
 #include "base/random.h"
 #include "base/options.h"
 #include "probe/plane_walk.h"
-#include "probe/ray.h"
+#include "probe/ray_bundle.h"
 
 enum {
     ITERATIONS = 10, /* as in the thesis */
@@ -234,7 +234,7 @@ static mw_touch probe_answer_certain(const mw_prober *prober, mw_probe_cursor *c
     if (!mw__prober_is_current(prober)) return mw__touch_none(MW_TOUCH_BAD);
     mw__ray_search_begin(&search, prober, ray, mw__ray_found_nearest, NULL);
     probe_guess(&search, cursor, work, trace);
-    mw__ray_search_run(prober, &search, 1);
+    mw__ray_search_run(&search);
     if (work) mw__ray_search_count(&search, work);
     return mw__ray_touch_found(&search);
 }
@@ -290,47 +290,112 @@ static mw_touch probe_answer(const mw_prober *prober, mw_probe_cursor *cursor, c
     return probe_conclude(prober, cursor, touch, &work);
 }
 
-/* --- several at a time --- */
-
-typedef struct probe_group {
-    mw_ray_query ray[MW_RAYS_AT_A_TIME];
-    mw_ray_search search[MW_RAYS_AT_A_TIME];
-    mw_probe_counters work[MW_RAYS_AT_A_TIME];
-} probe_group;
-
-/* Run the searches of those queries that are good. All begin with the triangle touched last. */
-static void probe_group_run(probe_group *g, const mw_prober *prober, mw_probe_cursor *cursor,
-                            const double *queries, size_t stride, uint32_t n)
+uint32_t mw__probe_certain(const mw_prober *prober, const mw_line *line, double max_distance,
+                           uint32_t seed, mw_probe_counters *counters)
 {
-    for (uint32_t i = 0; i < n; i++) {
-        const double *q = queries + i * stride;
-        mw__ray_search_none(&g->search[i]);
-        if (!mw__probe_ray(&cursor->options, q, q + 3, &g->ray[i])) continue;
-        mw__ray_search_begin(&g->search[i], prober, &g->ray[i], mw__ray_found_nearest, NULL);
-        probe_guess(&g->search[i], cursor, cursor->options.counters ? &g->work[i] : NULL, NULL);
-    }
-    mw__ray_search_run(prober, g->search, n);
+    mw_ray_query ray = {.line = *line,
+                        .faces = MW_PROBE_FRONT,
+                        .greatest = max_distance > 0 ? max_distance : INFINITY};
+    mw_ray_search search;
+    mw__ray_search_begin(&search, prober, &ray, mw__ray_found_nearest, NULL);
+    if (seed != MW_NONE) mw__ray_search_guess(&search, seed);
+    mw__ray_search_run(&search);
+    if (counters) mw__ray_search_count(&search, counters);
+    return search.nearest;
 }
 
-void mw__probe_certain_group(const mw_prober *prober, mw_probe_cursor *cursor,
+/* --- several at a time --- */
+
+/* Probes of which some are searched for at a time. */
+typedef struct probe_block {
+    const mw_prober *prober;
+    mw_probe_cursor *cursor;
+    const double *queries;
+    size_t stride;
+    mw_touch *touches;
+    uint32_t waiting[MW_PROBE_BLOCK], n, next, begun; /* those that no bundle answered */
+    uint32_t query[MW_RAYS_AT_A_TIME];                /* of each search */
+    mw_ray_query ray[MW_RAYS_AT_A_TIME];
+    mw_probe_counters work[MW_RAYS_AT_A_TIME];
+    mw_ray_search search[MW_RAYS_AT_A_TIME];
+} probe_block;
+
+static void probe_block_keep(probe_block *b, uint32_t query, const mw_ray_search *search,
+                             mw_probe_counters *work)
+{
+    mw__ray_search_count(search, work);
+    b->touches[query] = probe_conclude(b->prober, b->cursor, mw__ray_touch_found(search), work);
+}
+
+static mw_ray_search *probe_block_next(void *self, mw_ray_search *ended)
+{
+    probe_block *b = self;
+    mw_ray_search *search = ended ? ended : &b->search[b->begun++];
+    size_t i = (size_t)(search - b->search);
+    if (ended) probe_block_keep(b, b->query[i], ended, &b->work[i]);
+    for (; b->next < b->n; b->next++) {
+        const double *q = b->queries + b->waiting[b->next] * b->stride;
+        b->work[i] = (mw_probe_counters){0};
+        if (MW_LIKELY(mw__probe_ray(&b->cursor->options, q, q + 3, &b->ray[i]))) break;
+        b->touches[b->waiting[b->next]] =
+            probe_conclude(b->prober, b->cursor, mw__touch_none(MW_TOUCH_BAD), &b->work[i]);
+    }
+    if (b->next == b->n) return NULL;
+    b->query[i] = b->waiting[b->next++];
+    mw__ray_search_begin(search, b->prober, &b->ray[i], mw__ray_found_nearest, NULL);
+    probe_guess(search, b->cursor, b->cursor->options.counters ? &b->work[i] : NULL, NULL);
+    return search;
+}
+
+/* Answer what lies close together. A bundle that was none makes the next ones wait. */
+static void probe_block_bundle(probe_block *b, uint32_t n)
+{
+    uint32_t pause = 0, left = 0;
+    for (uint32_t first = 0, count; first < n; first += count) {
+        count = n - first < MW_BUNDLE_RAYS ? n - first : MW_BUNDLE_RAYS;
+        bool tried = count == MW_BUNDLE_RAYS && left == 0,
+             bundle = tried && mw__ray_bundle_run(b->prober, &b->cursor->options,
+                                                  b->queries + first * b->stride, b->stride, b->ray,
+                                                  b->search);
+        for (uint32_t i = first; i < first + count; i++) {
+            mw_probe_counters work = {0};
+            if (bundle)
+                probe_block_keep(b, i, &b->search[i - first], &work);
+            else
+                b->waiting[b->n++] = i;
+        }
+        if (tried)
+            pause = left = bundle ? 0 : pause < 3 ? 2 * pause + 1 : 3;
+        else if (left)
+            left--;
+    }
+}
+
+static void probe_block_run(probe_block *b, uint32_t n)
+{
+    mw_ray_source source = {probe_block_next, b};
+    probe_block_bundle(b, n);
+    mw__ray_searches_run(b->prober, &source);
+}
+
+void mw__probe_certain_block(const mw_prober *prober, mw_probe_cursor *cursor,
                              const double *queries, size_t stride, uint32_t n, mw_touch *touches)
 {
-    probe_group g;
-    for (uint32_t i = 0; i < n; i++) {
-        g.work[i] = (mw_probe_counters){0};
-        touches[i] = mw__touch_none(MW_TOUCH_BAD);
-    }
+    probe_block b;
+    b.prober = prober;
+    b.cursor = cursor;
+    b.queries = queries;
+    b.stride = stride;
+    b.touches = touches;
+    b.n = b.next = b.begun = 0;
     mw__surface_read_lock(prober->surface);
-    if (mw__prober_is_current(prober)) {
-        probe_group_run(&g, prober, cursor, queries, stride, n);
-        for (uint32_t i = 0; i < n; i++) {
-            if (!g.search[i].prober) continue;
-            mw__ray_search_count(&g.search[i], &g.work[i]);
-            touches[i] = mw__ray_touch_found(&g.search[i]);
-        }
-    }
+    bool current = mw__prober_is_current(prober);
+    if (current) probe_block_run(&b, n);
     mw__surface_read_unlock(prober->surface);
-    for (uint32_t i = 0; i < n; i++) probe_conclude(prober, cursor, touches[i], &g.work[i]);
+    for (uint32_t i = 0; !current && i < n; i++) {
+        mw_probe_counters none = {0};
+        touches[i] = probe_conclude(prober, cursor, mw__touch_none(MW_TOUCH_BAD), &none);
+    }
 }
 
 /* --- any, and all --- */
@@ -351,7 +416,7 @@ static mw_touch_state probe_search(const mw_prober *prober, mw_probe_cursor *cur
         mw__ray_search_begin(&search, prober, &ray, found, self);
         uint32_t last = finish ? MW_NONE : probe_last(prober, cursor);
         if (last != MW_NONE) mw__ray_search_guess(&search, last);
-        mw__ray_search_run(prober, &search, 1);
+        mw__ray_search_run(&search);
         mw__ray_search_count(&search, &work);
         state = search.hits ? MW_TOUCH_HIT : MW_TOUCH_NONE;
         if (finish) finish(&search);

@@ -222,7 +222,7 @@ uint32_t mw__lowest_touched(const mw_surface *surface, const mw_line *line, uint
 
 /* --- answers --- */
 
-static mw_touch touch_inside(uint32_t triangle, double distance, const double side[3])
+mw_touch mw__touch_inside(uint32_t triangle, double distance, const double side[3])
 {
     double sum = side[0] + side[1] + side[2];
     return (mw_touch){.distance = distance,
@@ -235,7 +235,7 @@ static mw_touch touch_inside(uint32_t triangle, double distance, const double si
 
 static mw_touch touch_make(uint32_t triangle, double distance, const double side[3])
 {
-    mw_touch touch = touch_inside(triangle, distance, side);
+    mw_touch touch = mw__touch_inside(triangle, distance, side);
     uint32_t zeros = 0;
     for (uint32_t k = 0; k < 3; k++) zeros += side[k] == 0;
     /* Corner k is opposite to the next edge, or the only corner on the line. */
@@ -287,7 +287,7 @@ bool mw__touch_surely_inside(const mw_surface *surface, const mw_line *line, uin
     if (!mw__hit_inside(line, c, side)) return false;
     double distance = mw__hit_distance(line, c);
     if (!((fabs(distance) + MW_BVH_TINY_LENGTH) * REACH_ERROR < d)) return false;
-    *touch = touch_inside(triangle, distance, side);
+    *touch = mw__touch_inside(triangle, distance, side);
     return true;
 }
 

@@ -1,7 +1,7 @@
 /* prober.h - the prober, and what the files of this room share. Private.
  *
  * probe_touch.c decides what a line touches. plane_walk.c and probe_race.c walk over the surface
- * [thesis App. G]. probe_certain.c searches the BVH. probe_query.c is the query. */
+ * [thesis App. G]. ray_search.c searches the BVH. probe_query.c is the query. */
 #ifndef MW_SRC_PROBE_PROBER_H
 #define MW_SRC_PROBE_PROBER_H
 
@@ -68,6 +68,8 @@ mw_touch mw__touch_of(const mw_surface *surface, const mw_line *line, uint32_t t
 /* The same with the corners, the full estimate and the mw__hit_distance of the triangle. */
 mw_touch mw__touch_at(const mw_line *line, uint32_t triangle, const mw_corners corners,
                       const mw_line_estimate *e, double distance);
+/* The same with the mw__hit_sides of a triangle, none of which is 0. */
+mw_touch mw__touch_inside(uint32_t triangle, double distance, const double side[3]);
 mw_touch mw__touch_none(mw_touch_state state);
 
 /* The answer for the lowest-numbered of the triangles touched at the point where `triangle` is. */
@@ -78,19 +80,7 @@ mw_touch mw__touch_of_lowest(const mw_surface *surface, const mw_line *line, uin
 bool mw__touch_surely_inside(const mw_surface *surface, const mw_line *line, uint32_t triangle,
                              double d, mw_touch *touch);
 
-/* --- probe_certain.c --- */
-
-/* The best triangle that is touched at most max_distance away (0: no limit), or MW_NONE: exact and
- * complete. `seed`: a triangle, to be looked at first, or MW_NONE. Counts in *counters, unless that
- * is NULL. The BVH must be up to date. */
-uint32_t mw__probe_certain(const mw_prober *prober, const mw_line *line, double max_distance,
-                           uint32_t seed, mw_probe_counters *counters);
-
 /* --- nearest_on_surface.c --- */
-
-/* The distance of q from a triangle that has an area and finite corners, rounded as that of
- * mw_nearest_on_surface. q is finite. */
-double mw__distance_to_triangle(const mw_surface *surface, uint32_t triangle, const double q[3]);
 
 /* The answer of mw_nearest_on_surface, with current boxes. `guess`: a triangle to be looked at
  * first, or MW_NONE; the answer does not depend on it. */
@@ -117,8 +107,15 @@ void mw__probe_count(mw_probe_counters *sum, mw_probe_counters *work, bool hit);
 /* Are there boxes, which are up to date? */
 bool mw__prober_is_current(const mw_prober *prober);
 
-/* Answer n certain probes, at most MW_RAYS_AT_A_TIME, as mw_probe one after the other. */
-void mw__probe_certain_group(const mw_prober *prober, mw_probe_cursor *cursor,
+/* The best triangle that is touched at most max_distance away (0: no limit), or MW_NONE: exact and
+ * complete. `seed`: a triangle, to be looked at first, or MW_NONE. Counts in *counters, unless that
+ * is NULL. The BVH must be up to date. */
+uint32_t mw__probe_certain(const mw_prober *prober, const mw_line *line, double max_distance,
+                           uint32_t seed, mw_probe_counters *counters);
+
+/* Answer n certain probes as mw_probe does, several at a time; at most MW_PROBE_BLOCK. */
+#define MW_PROBE_BLOCK 512
+void mw__probe_certain_block(const mw_prober *prober, mw_probe_cursor *cursor,
                              const double *queries, size_t stride, uint32_t n, mw_touch *touches);
 
 #endif

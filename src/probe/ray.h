@@ -6,7 +6,7 @@
 #ifndef MW_SRC_PROBE_RAY_H
 #define MW_SRC_PROBE_RAY_H
 
-#include "probe/bvh_beam.h"
+#include "probe/ray_stack.h"
 #include "probe/prober.h"
 
 /* The part of a line that counts: at a distance from q of `least` to `greatest`, which may be
@@ -31,9 +31,11 @@ bool mw__probe_ray(const mw_probe_options *options, const double q[3], const dou
 
 /* --- ray_hit.c --- */
 
-/* Does the line of the ray meet the triangle, on a face that counts? Exact. A triangle along the
- * line is not met, nor is one with a vertex that is not finite. Notes the sides. */
-mw_ray_side mw__ray_crosses(const mw_ray_query *ray, const mw_corners corners, mw_line_estimate *e);
+/* Does the line meet the triangle? Exact. A triangle along the line is not met, nor is one with a
+ * vertex that is not finite. */
+mw_ray_side mw__line_meets_exactly(const mw_line *line, const mw_corners corners);
+/* The same, faster. Notes the sides. */
+mw_ray_side mw__ray_line_meets(const mw_line *line, const mw_corners corners, mw_line_estimate *e);
 /* Is that within the extent and the limits of the ray? Exact. */
 bool mw__ray_reaches(const mw_ray_query *ray, const mw_corners corners, mw_ray_side side);
 /* The same, faster, with the mw__hit_distance of the triangle. */
@@ -64,7 +66,8 @@ struct mw_ray_search {
     const mw_prober *prober;
     const mw_ray_query *ray;
     mw_ray_found *found;
-    void *self; /* of `found` */
+    void *self;       /* of `found` */
+    bool one_of_same; /* of equal triangles, one is enough */
     mw_bvh_beam beam;
     mw_corners corners; /* of the triangle that is looked at */
     uint32_t nearest;   /* of mw__ray_found_nearest; or MW_NONE */
@@ -72,28 +75,45 @@ struct mw_ray_search {
     mw_corners nearest_corners;
     double distance;
     mw_line_estimate estimate, nearest_estimate; /* of the one looked at, and of the nearest */
+    double underflow;                            /* mw__side_underflow of the line */
     uint64_t boxes, triangles, hits;
-    /* The node that is visited, MW_NONE at the end: which children the beam meets, nodes and
-     * triangles, as bits, and from where on. */
-    uint32_t at, nodes_met, triangles_met;
+    /* The node that is visited, MW_NONE at the end: the children that are triangles and that the
+     * beam meets, as bits, and from where on it may meet each child. Its children that are nodes
+     * wait from `floor` on. */
+    uint32_t at, triangles_met, floor;
     float near[MW_BVH_WIDTH];
-    mw_bvh_stack stack;
+    mw_ray_stack stack;
 };
 
 /* Begin a search. The prober and the ray must outlive it. The BVH must be up to date. */
 void mw__ray_search_begin(mw_ray_search *search, const mw_prober *prober, const mw_ray_query *ray,
                           mw_ray_found *found, void *self);
 
-/* A search that has ended, without an answer. */
+/* Are there vector instructions for it? */
+bool mw__prober_has_vectors(const mw_prober *prober);
+
+/* A search that has ended, and has found nothing. */
 void mw__ray_search_none(mw_ray_search *search);
 
 /* Look at one triangle first: a good guess narrows the search. */
 void mw__ray_search_guess(mw_ray_search *search, uint32_t triangle);
+/* Look at a triangle with the given vertices, in a search for the nearest, with vectors. */
+void mw__ray_search_look(mw_ray_search *search, uint32_t triangle, const uint32_t vertex[3]);
 
-/* Run `count` searches of one prober to their ends, at most MW_RAYS_AT_A_TIME. Several take turns,
- * so that one goes on while another waits for memory. */
+/* Run a search to its end. */
+void mw__ray_search_run(mw_ray_search *search);
+
+/* Where searches come from, and go to: `next` takes the answer of a search that has ended, or NULL
+ * at first, and begins the next one, which may have ended already. NULL: there is none. */
+typedef struct mw_ray_source {
+    mw_ray_search *(*next)(void *self, mw_ray_search *ended);
+    void *self;
+} mw_ray_source;
+
+/* Run all searches of a source, at most MW_RAYS_AT_A_TIME at a time. They take turns, so that one
+ * goes on while another waits for memory. */
 #define MW_RAYS_AT_A_TIME 16
-void mw__ray_search_run(const mw_prober *prober, mw_ray_search *search, uint32_t count);
+void mw__ray_searches_run(const mw_prober *prober, const mw_ray_source *source);
 
 /* Keeps the triangle nearest to q, of equally near ones the lowest. Instead of calling this, the
  * search does so itself. */

@@ -14,8 +14,8 @@ static void ray_corners_of(const mw_surface *surface, uint32_t triangle, mw_corn
 
 /* --- the line --- */
 
-/* Sides that doubles do not tell. A vertex that is not finite gives sides of 0 at most. */
-static mw_ray_side line_meets_exactly(const mw_line *line, const mw_corners c)
+/* A vertex that is not finite gives sides of 0 at most. */
+mw_ray_side mw__line_meets_exactly(const mw_line *line, const mw_corners c)
 {
     double side[3] = {mw__side(line, c[0], c[1]), mw__side(line, c[1], c[2]),
                       mw__side(line, c[2], c[0])};
@@ -28,8 +28,7 @@ static mw_ray_side line_meets_exactly(const mw_line *line, const mw_corners c)
 
 /* All three sides at once: most triangles in a box are missed, and a branch at each side would be
  * guessed wrong. */
-static MW_INLINE mw_ray_side line_meets(const mw_line *line, const mw_corners c,
-                                        mw_line_estimate *e)
+mw_ray_side mw__ray_line_meets(const mw_line *line, const mw_corners c, mw_line_estimate *e)
 {
     const double *side = e->side, *bound = e->bound;
     mw__estimate_sides(line, c, e);
@@ -38,7 +37,7 @@ static MW_INLINE mw_ray_side line_meets(const mw_line *line, const mw_corners c,
     if (right && left) return MW_RAY_MISSES;
     if (right == 3) return MW_RAY_FRONT;
     if (left == 3) return MW_RAY_BACK;
-    return line_meets_exactly(line, c);
+    return mw__line_meets_exactly(line, c);
 }
 
 /* --- along the line --- */
@@ -65,14 +64,6 @@ bool mw__ray_reaches_at(const mw_ray_query *ray, const mw_corners c, mw_ray_side
     bool limited = ray->least > 0 || !isinf(ray->greatest) || ray->extent == MW_PROBE_SEGMENT;
     if (ray->extent == MW_PROBE_RAY && distance < 0) return false;
     return !limited || mw__ray_reaches(ray, c, side);
-}
-
-mw_ray_side mw__ray_crosses(const mw_ray_query *ray, const mw_corners c, mw_line_estimate *e)
-{
-    mw_ray_side side = line_meets(&ray->line, c, e);
-    bool counts = ray->faces == MW_PROBE_BOTH ||
-                  side == (ray->faces == MW_PROBE_FRONT ? MW_RAY_FRONT : MW_RAY_BACK);
-    return counts ? side : MW_RAY_MISSES;
 }
 
 int mw__ray_place_order(const mw_surface *surface, const mw_ray_query *ray, uint32_t s,

@@ -5,7 +5,7 @@
  * measured first, each once; the other points of the lattice with their triangle. Threads take
  * chunks of triangles, and what they find is joined in the order of the chunks. */
 #include "base/options.h"
-#include "probe/prober.h"
+#include "probe/nearest_in_triangle.h"
 
 #include <math.h>
 #include <meshwalk/remesh.h>

@@ -7,6 +7,7 @@ export ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0"
 
 run bench terrain set; refused 2 'makes its own terrain'
 run bench terrain --engines gmt; refused 2 'makes its own terrain'
+run bench terrain --tasks slopes; refused 2 "unknown task 'slopes'; there are"
 run bench terrain --sizes x; refused 2 "'--sizes'"
 if "$meshwalk" --version | grep -q 'GDAL .*found'; then
     mkdir -p scratch
@@ -16,6 +17,7 @@ if "$meshwalk" --version | grep -q 'GDAL .*found'; then
         $'task\tway\tseconds\tprocessor\tratio\tratio_processor'
     prints_line $'^contours\tmeshwalk contours\t[0-9.e-]+\t[0-9.e-]+\t1\t1$'
     prints_line $'^raster\tmeshwalk raster\t[0-9.e-]+\t[0-9.e-]+\t1\t1$'
+    prints_line $'^raster\tmeshwalk prepared\t[0-9.e-]+\t[0-9.e-]+\t[0-9.e-]+\t[0-9.e-]+$'
     prints_line $'^raster\twrite\t[0-9.e-]+\t[0-9.e-]+\t[0-9.e-]+\t[0-9.e-]+$'
     for peer in gmt gdal_grid gdal_contour; do
         if command -v $peer >peer; then
@@ -32,6 +34,9 @@ if "$meshwalk" --version | grep -q 'GDAL .*found'; then
     exits 0
     says 'gmt is not installed here'
     prints_line '^contours +meshwalk contours'
+    PATH=$PWD/bin run bench terrain -q --sizes 100 --rounds 1 --queries 100 --tasks raster
+    exits 0
+    holds 'one task' test -z "$(grep contours "$logs/out")"
 else
     left_out 'GDAL is not found'
 fi

@@ -234,13 +234,32 @@ run contours nan.off --levels 25; refused 3 'vertex 5'
 sed 's/^3 0 2 5$/3 0 2 2/' fan.off >twice.off
 run contours twice.off --levels 25; refused 3 'twice'
 
+# Heights that no level can be made for, and those that are missing everywhere.
+printf '%s\n' OFF '3 1 0' '0 0 nan' '4 0 nan' '0 4 nan' '3 0 1 2' >missing.off
+printf '%s\n' OFF '0 0 0' >none.off
+for file in missing none; do
+    run contours $file.off --interval 1; exits 0; prints 'line,elevation,closed,x,y'
+    says 'no line of these levels crosses the mesh'
+done
+run contours missing.off --interval 1 --polygons; exits 0; says 'no triangle has a value'
+sed 's/nan/5/' missing.off >level.off
+run contours level.off --interval 5; exits 0; says 'no line of these levels crosses the mesh'
+sed 's/0 4 nan/0 4 inf/; s/nan/5/' missing.off >infinite.off
+run contours infinite.off --interval 1; refused 4 'more than 1000000 levels between 5 and inf'
+for wrong in 1e-320 5e-324 1e-300; do
+    run contours gap.off --interval $wrong; refused 4 "--interval $wrong makes more than 1000000"
+done
+run contours gap.off --interval 1 --base 1e300
+refused 4 "--interval 1 is too small for values between 10 and 50, counted from 1e300"
+run contours -q gap.off --interval 1e300; exits 0; prints 'line,elevation,closed,x,y'
+
 # What is refused.
 run contours gap.off; refused 2 'which levels\?'
 run contours gap.off --interval 1 --levels 2; refused 2 'not both'
 run contours gap.off --levels 1,x; refused 2 "'--levels' must be numbers"
 run contours gap.off --levels ''; refused 2 ''
 for wrong in 0 -1 nan x 1x; do
-    run contours gap.off --interval $wrong; refused 2 "'--interval' must be a (positive )?number"
+    run contours gap.off --interval $wrong; refused 2 "'--interval' must be a positive number"
 done
 run contours gap.off --levels 1 --base 2; refused 2 "'--base' is for --interval"
 run contours gap.off --interval 1e-9; refused 4 'more than 1000000 levels'

@@ -56,6 +56,20 @@ says_nothing
 run convert c.msh c.gr3
 exits 0
 holds "msh keeps depths and faces" diff <(head -7 wanted) <(tail -n +3 c.gr3 | head -7)
+# Heights and a depth, where a format has one place for a number at a vertex.
+printf '%s\n' ply 'format ascii 1.0' 'element vertex 3' 'property double x' 'property double y' \
+    'property double z' 'property double depth' 'element face 1' \
+    'property list uchar int vertex_indices' end_header '0 0 5 7' '1 0 5 8' '0 1 5 9' '3 0 1 2' \
+    >deep.ply
+for to in gr3 14; do
+    run convert deep.ply deep.$to; exits 0
+    says 'has a place for heights or for the depth: the depth is written, the heights are not$'
+    holds "the depth is in deep.$to" grep -q '^2 1 0 8$' deep.$to
+done
+run convert deep.ply deep.2dm; exits 0
+says 'deep.2dm: warning: the format 2dm has no place for fields: depth is not written'
+holds "that is all" test "$(wc -l <"$logs/err")" == 1
+holds "the heights are in deep.2dm" grep -q '^ND 2 1 0 5$' deep.2dm
 run_on 'MESH2D
 ND 1 0 0 0
 ND 2 1 0 0

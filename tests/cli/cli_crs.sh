@@ -188,7 +188,7 @@ run triangulate survey.csv --crs EPSG:4326 --points-crs EPSG:2056 --constraints 
 exits 0; says_nothing
 run info w.ply; prints_line '^crs +EPSG:4326'; prints_line '^high +7\.4399.* 46\.95198'
 run triangulate gps.csv --points-crs EPSG:4326 --crs EPSG:2056 -o x.ply
-refused 3 'gps\.csv: 1 of its points have no position in EPSG:2056'
+refused 3 'gps\.csv: 1 of its points have no position in EPSG:2056.*ogr2ogr -clipsrc'
 run triangulate --constraints brook.geojson --crs EPSG:2056 --keep hull -o x.ply; exits 3
 printf '%s\n' lon,lat,z 7.438,46.951,1 7.439,46.951,2 7.4385,46.952,3 >lonlat.csv
 run triangulate lonlat.csv -o x.ply; exits 0; says_nothing; run info x.ply

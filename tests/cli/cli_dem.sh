@@ -18,6 +18,11 @@ grid() {
         } print "\n" }' -- "$2" >"$1"
 }
 grid full.asc 0
+# A raster is no mesh, and no table of points.
+run info full.asc; refused 3 "'meshwalk triangulate --from full\.asc --tolerance Z -o MESH'"
+printf 'II*\0\1' >dem.TIF
+run triangulate dem.TIF -o out.ply; refused 3 "'meshwalk triangulate --from dem\.TIF --tolerance"
+run info absent.tif; exits 3; holds 'no hint' test -z "$(grep triangulate "$logs/err")"
 run triangulate --from full.asc --tolerance 1 -o out.ply
 if grep -Eq 'built with GDAL|cannot be loaded' "$logs/err"; then
     refused 3 'full\.asc: '

@@ -37,6 +37,9 @@ prints_line '^0,0,0,9.65685424949238,[0-9.]+,4,0,20$'
 run_on $'x,y\n5,0\n5,9\n' drape gap.off -; exits 0; prints_line ',5,[0-9.]+,[0-9.]+$'
 run_on $'x,y\n-5,0\n-5,9\n' drape gap.off -; exits 0; prints "$header"
 says 'standard input: warning: lines outside the mesh, which are left out: 1'
+run_on $'x,y\n1,1\n1,1\n' drape gap.off - --strict; exits 0; prints "$header"
+says '^meshwalk: standard input: remark: lines whose points are all equal, which are left out: 1$'
+holds 'and no warning' test -z "$(grep warning "$logs/err")"
 # A vertex without a height.
 sed 's/^0 4 20/0 4 nan/' gap.off >missing.off
 run_on $'x,y\n0.5,2\n3,2\n' drape missing.off -; exits 0

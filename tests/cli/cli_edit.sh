@@ -311,20 +311,19 @@ for signal in INT TERM; do
     holds "the older file is as it was" test "$(<old.ply)" == precious
 done
 rm pipe old.ply
-# a sanitizer takes more address space
-if (ulimit -v 250000; "$meshwalk" --version) >/dev/null 2>&1; then
-    for kilobytes in 7000 8000 10000 12000 14000 17000 20000; do
-        last="meshwalk edit, with $kilobytes kB of memory"
-        (
-            ulimit -v $kilobytes
-            exec "$meshwalk" edit m.off long.txt --skip -q -o o.ply --threads 1 --log l
-        ) >/dev/null 2>"$logs/err"
-        code=$?
-        [[ $code == 127 || $(<"$logs/err") == *'shared libraries'* ]] && continue # not even loaded
-        [[ $code == 0 ]] && rm o.ply l && continue
-        exits 4; says '^meshwalk: .*out of memory'; only_files m.off ring.off e.txt long.txt
-    done
-fi
+too_little=0 limits=$(little_memory)
+for kilobytes in $limits; do
+    last="meshwalk edit, with $kilobytes kB of memory"
+    (
+        ulimit -v "$kilobytes"
+        exec "$meshwalk" edit m.off long.txt --skip -q -o o.ply --threads 1 --log l
+    ) >/dev/null 2>"$logs/err"
+    code=$?
+    [[ $code == 0 ]] && rm o.ply l && continue
+    exits 4; says '^meshwalk: .*out of memory'; only_files m.off ring.off e.txt long.txt
+    too_little=$((too_little + 1))
+done
+holds 'the least memory is too little' test -z "$limits" -o "$too_little" -gt 0
 
 # --- real meshes ---
 shared=${MW_SHARED:-}

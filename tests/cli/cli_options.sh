@@ -19,7 +19,15 @@ prints_line '^  view     (built in|not built in): '
 for library in zlib Jansson Cairo GDAL LAZ; do
     prints_line "^  $library +([0-9.]+,? (built in|found)|built in, but |not built in): ?"
 done
+run help; exits 0; prints_line '^usage: meshwalk COMMAND'
+run help raster; exits 0; cp "$logs/out" "$logs/first"
+run raster --help; exits 0; holds "help raster is raster --help" cmp -s "$logs/out" "$logs/first"
+run help raster all; exits 0; cp "$logs/out" "$logs/first"
+run raster --help all; holds "help raster all is that with all" cmp -s "$logs/out" "$logs/first"
+run help rastre; refused 2 "unknown command 'rastre'; did you mean 'raster'"
 run --help; exits 0; says_nothing
+all_commands=$(<"$logs/out")
+run -h; exits 0; says_nothing; prints "$all_commands"
 for c in "${commands[@]}"; do prints_line "^  $c "; done
 for c in "${commands[@]}"; do
     for option in --help -h '--help all' '-h all' --help=all; do
@@ -224,7 +232,7 @@ else
 fi
 run info --layer a fields.ply; refused 2 "'--layer' is for vector files"
 row() { # row OPTION: the names that the help lists below an option in a row
-    sed -nE "/ --$1 NAME/,/^ {0,6}--/p" "$logs/out" | sed -n '/:$/,$p' | grep -E '^ {26}' |
+    sed -nE "/ --$1 NAME/,/^ {0,6}--/p" "$logs/out" | sed -n '/:$/,$p' | grep -E '^ {26}[^ ]' |
         tr -s "', " '\n' | grep . | sort
 }
 listed() { # listed OPTION: the names that the help lists below an option

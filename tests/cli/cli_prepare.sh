@@ -42,6 +42,21 @@ for m in m.mwm b.mwm; do
     run convert -q m.ply there.ply; exits 0
     holds "the mesh comes back" cmp -s back.ply there.ply
 done
+# Rasters, too, where the program was built with GDAL.
+for c in '--type float64' '--field depth' '--derive slope,triangle' '--outside nearest' \
+    '--max-edge 3.5' '--mean'; do
+    # shellcheck disable=SC2086 # words
+    run raster -q m.ply --resolution 0.4 $c --driver ENVI -o wanted.img
+    grep -Eq 'built with GDAL|cannot be loaded' "$logs/err" && break
+    exits 0
+    for m in m.mwm b.mwm; do
+        # shellcheck disable=SC2086 # words
+        run raster "$m" --resolution 0.4 $c --driver ENVI -o out.img; exits 0; says_nothing
+        holds "raster $c of $m is that of the mesh" cmp -s out.img wanted.img
+        holds "its coordinate system is that of the mesh" cmp -s <(sed '/^desc/,/}/d' out.hdr) \
+            <(sed '/^desc/,/}/d' wanted.hdr)
+    done
+done
 cp m.mwm hidden
 run locate -q hidden q.csv; exits 0
 gzip -kf m.mwm
@@ -111,6 +126,28 @@ if [[ -w /dev/full ]]; then
     run prepare m.ply -o /dev/full; exits 4; says 'No space left'
 fi
 holds "nothing is written" test ! -e x.mwm
+
+# Interrupted: there is the whole output, or nothing.
+awk 'BEGIN { srand(2); for (i = 0; i < 20000; i++) print rand(), rand() }' >many.txt
+run triangulate -q many.txt -o many.ply; exits 0
+for signal in INT TERM HUP; do
+    mkdir half
+    last="prepare --tiles and SIG$signal"
+    # a shell gives its children in the background no SIGINT: perl does
+    perl -e '$SIG{INT} = "DEFAULT"; exec @ARGV' \
+        "$meshwalk" prepare -q many.ply --tiles 50 -o half/t.tiles 2>"$logs/err" &
+    program=$!
+    until compgen -G 'half/*tiles*' >/dev/null || compgen -G 'half/.tiles*' >/dev/null; do
+        kill -0 $program 2>/dev/null || break
+    done
+    kill -$signal $program 2>/dev/null
+    wait $program 2>/dev/null
+    code=$?
+    holds "nothing is left, or all is there: $(ls -A half)" test \
+        "$(ls -A half)" = "" -o -e half/t.tiles/tiles.json
+    rm -r half
+done
+rm many.ply
 
 # Damaged files.
 head -c 1000 m.mwm >short.mwm

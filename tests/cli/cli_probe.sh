@@ -249,8 +249,56 @@ run probe --only-answers --inside cube.off points.csv; exits 0
 holds "inside" test "$(cut -d, -f4 "$logs/out" | tr '\n' ' ')" = "status inside on on outside bad "
 head -n 16 cube.off | sed '2s/12/6/' >sheet.off
 run probe --inside sheet.off points.csv; exits 3
+
+# All triangles in their order, on either side; of those at one place the lowest only.
+printf '%s\n' .75,.25,.5,0,0,1 .5,.5,2,0,0,-1 2,2,2,0,0,1 0,0,0,0,0,0 nan,0,0,0,0,1 >rays.csv
+run probe --only-answers --certain --all --faces both cube.off rays.csv; exits 0; says_nothing
+prints "$header,back
+0.75,0.25,0.5,hit,0,-0.5,0.25,0.25,0.5,0
+0.75,0.25,0.5,hit,2,0.5,0.25,0.5,0.25,1
+0.5,0.5,2,hit,2,1,0.5,0,0.5,0
+0.5,0.5,2,hit,3,1,0.5,0.5,0,0
+0.5,0.5,2,hit,0,2,0.5,0.5,0,1
+0.5,0.5,2,hit,1,2,0.5,0,0.5,1
+2,2,2,none,-1,,,,,
+0,0,0,bad,-1,,,,,
+nan,0,0,bad,-1,,,,,"
+run probe --only-answers --certain --all --one-per-place --faces both --strict cube.off rays.csv
+exits 1
+holds "one for each place" test "$(cut -d, -f5 "$logs/out" | tr '\n' ' ')" = \
+    "triangle 0 2 2 0 -1 -1 -1 "
+run probe --only-answers --certain --all --extent segment --faces back --max-distance 1 \
+    cube.off rays.csv
+exits 0
+holds "what counts, counts" test "$(cut -d, -f4,5 "$logs/out" | tr '\n' ' ')" = \
+    "status,triangle hit,2 hit,3 hit,5 hit,10 hit,11 none,-1 none,-1 bad,-1 bad,-1 "
+run_on $'name;x;y;z;mx;my;mz\na;,5;,25;3;0;0;-1\n' probe --certain --all --faces both cube.off -
+exits 0; says_nothing
+prints 'name;x;y;z;mx;my;mz;status;triangle;distance;w0;w1;w2;back
+a;,5;,25;3;0;0;-1;hit;2;2;0,5;0,25;0,25;0
+a;,5;,25;3;0;0;-1;hit;0;3;0,5;0,25;0,25;1'
+for threads in 1 2; do
+    run probe --only-answers --certain --all --threads $threads cube.off many.csv -o $threads.csv
+    exits 0
+done
+holds "one thread and two print the same" same_text 1.csv 2.csv
+run probe --only-answers --certain cube.off many.csv -o nearest.csv; exits 0
+cut -d, -f1-3 1.csv | uniq >1.points; cut -d, -f1-3 nearest.csv | uniq >2.points
+holds "every probe has rows, in order" same_text 1.points 2.points
+
+# The nearest point.
+printf '%s\n' .5,.25,3 .25,.5,.5 9,0,0 nan,0,0 >points.csv
+run probe --only-answers --nearest cube.off points.csv; exits 0; says_nothing
+prints "x,y,z,status,triangle,distance,px,py,pz,w0,w1,w2
+0.5,0.25,3,hit,2,2,0.5,0.25,1,0.5,0.25,0.25
+0.25,0.5,0.5,hit,10,0.25,0,0.5,0.5,0.5,0,0.5
+9,0,0,hit,0,8,1,0,0,0,0,1
+nan,0,0,bad,-1,,,,,,,"
+run probe --only-answers --nearest --max-distance .25 --strict cube.off points.csv; exits 1
+holds "no farther" test "$(cut -d, -f4 "$logs/out" | tr '\n' ' ')" = "status none hit none bad "
 for wrong in '--extent ray' '--faces both' '--min-distance 1' '--inside --certain' \
-    '--certain --min-distance 2 --max-distance 1'; do
+    '--certain --min-distance 2 --max-distance 1' --all '--certain --one-per-place' \
+    '--nearest --certain' '--nearest --inside' '--nearest --all' '--nearest --extent ray'; do
     # shellcheck disable=SC2086
     run probe $wrong cube.off rays.csv; exits 2
 done

@@ -36,6 +36,12 @@ prints "$(<expected)"
 run_on $'east;north\n1;2\n7;2\n7;2\n9;3\n' profile --columns east,north gap.off -; exits 0
 prints "$(<expected)"
 
+# A mesh that is no embedding is refused; no option of this command accepts it.
+printf '%s\n' "$overlap" >overlap.off
+run_on $'x,y\n1,2\n7,2\n' profile overlap.off -; refused 3 'overlap\.off: '
+says "'meshwalk check overlap\.off' .*--fix mends some"
+holds "--any is not offered" test -z "$(grep -e --any "$logs/err")"
+
 # What else a table tells of its points is not kept, and that is said.
 run_on $'name,x,y,m\na,1,2,0\nb,7,2,1\nc,9,3,2\n' profile gap.off -; exits 0
 prints "$(<expected)"
@@ -128,7 +134,8 @@ printf '3 2 0 0\n1 1 2\n2 3 2\n3 9 9\n2 0\n1 1 2\n2 2 3\n0\n' >lines.poly
 run profile -q gap.off lines.poly; exits 0; prints_line '^[0-9]+,0,1,2,2,20,0,edge$'
 
 # What is refused.
-run_on $'x,y\n1,1\n,2\n' profile gap.off -; refused 3 'a point of the line has no finite x and y'
+run_on $'x,y\n1,1\n,2\n' profile gap.off -
+refused 3 'standard input: point 2 of the line has no finite x and y'
 run_on $'x,y\n' profile gap.off -; refused 3 'standard input: there are no lines in it'
 run_on $'x,y\n1,1\n2,2\n' profile --field depth gap.off -; refused 3 "has no field 'depth'"
 run_on $'x,y\n1,1\n2,2\n' profile --attribute name gap.off -

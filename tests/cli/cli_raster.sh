@@ -89,6 +89,17 @@ run raster -q random.ply -o one.img --driver ENVI --resolution 0.05 --threads 1;
 run raster -q random.ply -o many.img --driver ENVI --resolution 0.05 --threads 7; exits 0
 holds "one thread or seven" cmp -s one.img many.img
 
+# Neither on triangles beyond the rows, nor on those that reach into many strips of rows.
+run raster -q random.ply -o all.img --driver ENVI --resolution 0.125 --extent 0,0,100,100; exits 0
+run raster -q random.ply -o part.img --driver ENVI --resolution 0.125 \
+    --extent 20,30,60,50 --threads 3
+exits 0
+holds "a part of the raster" cmp -s part.img <(
+    perl -e 'local $/; open my $h, "<:raw", "all.img" or die; my $p = <$h>;
+        print substr $p, 4 * (800 * $_ + 160), 1280 for 400 .. 559')
+run raster -q square.off -o tall.img --driver ENVI --resolution 0.001 --threads 3; exits 0
+holds "triangles that are in all strips" test "$(raw f tall.img | sort -u | grep -c empty)" == 0
+
 # The grid.
 run raster random.ply -o out.tif
 exits 0
@@ -97,6 +108,13 @@ prints_line '^extent +0 0 100 100$'
 run raster square.off -o out.tif --json; exits 0; holds "the report is JSON" is_json "$logs/out"
 run raster square.off -o out.tif --extent 0,0,1 ; refused 2 "'--extent' must be XMIN,YMIN,XMAX,YMAX"
 run raster square.off -o out.tif --extent 0,0,0,1; refused 2 "'--extent' must be"
+# A raster that nothing can hold.
+echo '<VRTDataset rasterXSize="2000000000" rasterYSize="2000000000"><GeoTransform>0,1e-9,0,4,0,-1e-9
+</GeoTransform><VRTRasterBand dataType="Float32" band="1"/></VRTDataset>' >endless.vrt
+run raster square.off -o out.tif --like endless.vrt
+refused 4 'a raster of 2000000000 times 2000000000 pixels is too large'
+run triangulate --from endless.vrt --tolerance 1 -o out.ply
+refused 4 'a raster of 2000000000 times 2000000000 pixels is too large'
 run raster square.off -o out.tif --resolution 1e-12
 refused 4 'a raster with pixels of 1e-12 has too many'
 run raster square.off -o out.tif --resolution 1e-7; refused 4 'a raster with pixels of 1e-07? has too many'
@@ -108,14 +126,14 @@ run raster square.off -o out.tif --like like.tif
 exits 0
 prints_line '^columns +13$'
 prints_line '^extent +10 19.199999999999996 58.1 71$'
-prints_line '^nodata +-9999$'; says 'out\.tif: warning: no pixel has a value'
+prints_line '^nodata +-9999$'; says 'warning: no pixel has a value: none of their centres lies in a triangle whose vertices have'
 run raster square.off -o out.tif --like like.tif --resolution 1
 refused 2 'with --like, which sets the pixels'
 run raster square.off -o like.tif --like like.tif; refused 2 'like\.tif'
 run raster square.off -o out.tif --like square.off; refused 3 'square\.off: GDAL says: '
 run raster square.off -o a.tif --resolution 0.25 --crs EPSG:2056; exits 0
 run raster square.off -o b.tif --like a.tif --crs EPSG:21781
-refused 3 'square\.off is in EPSG:21781 .*, a\.tif in EPSG:2056 .*: transform one of them first'
+refused 3 'square\.off is in EPSG:21781 .*, a\.tif in EPSG:2056 .*: transform one of them first; .*gdalwarp -t_srs'
 run raster square.off -o b.tif --like a.tif
 exits 0
 says 'square\.off: warning: its coordinate system is not known, and a\.tif is in EPSG:2056'
@@ -172,6 +190,15 @@ for output in out.asc out.png out.bil; do
     run raster square.off -o $output --resolution 0.25 --derive hillshade; exits 0; says_nothing
 done
 holds "text" grep -q '^ncols *4' out.asc
+# Rows that are blocks of the file, and a format that is copied from such a file.
+wide=(random.ply -q --resolution 0.04 --extent 0,40,100,42 --nodata -9999)
+run raster "${wide[@]}" -o wide.asc; exits 0
+run raster "${wide[@]}" -o wide.img --driver ENVI; exits 0
+tail -n +7 wide.asc | tr -s ' ' '\n' | grep . >wide.txt
+holds "a wide raster as text" same_text <(as_floats <wide.txt) <(raw f wide.img)
+run raster "${wide[@]}" -o wide.tif; exits 0
+holds "the rows of a GeoTIFF" perl -e 'local $/; open my $t, "<:raw", "wide.tif";
+    open my $i, "<:raw", "wide.img"; exit(index(<$t>, <$i>) < 0)'
 run raster square.off -o out.tif --creation COMPRESS=DEFLATE,TILED=YES; exits 0
 run raster square.off -o bad.tif --creation COMPRESS=NO_SUCH; refused 4 'bad\.tif: GDAL says: '
 absent bad.tif

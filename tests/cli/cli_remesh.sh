@@ -98,6 +98,31 @@ run star cube.off --remesh 2 -o none.off; refused 3 'cube.off: triangle .* centr
 says "'meshwalk check --as star cube.off' lists every defect"
 absent none.off
 
+# An octahedron of a few roundings: it is star-shaped, but facets of a sixteenth of it fold.
+sed 's/+/1.0000000000000018/; s/-/0.99999999999999822/' >tiny.off <<'END'
+OFF
+6 8 0
++ 1 1
+- 1 1
+1 + 1
+1 - 1
+1 1 +
+1 1 -
+3 0 2 4
+3 2 1 4
+3 1 3 4
+3 3 0 4
+3 2 0 5
+3 1 2 5
+3 3 1 5
+3 0 3 5
+END
+run star tiny.off --remesh 4 --centre 1,1,1 -o folded.off; exits 0
+says 'folded.off: warning: rounding folds it, so that it is not star-shaped: triangle '
+run check --as star --centre 1,1,1 folded.off; exits 3
+run star tiny.off --remesh 4 --centre 1,1,1 -o folded.off -q; exits 0; says_nothing
+rm folded.off tiny.off
+
 # --- onto another mesh: its triangles, the vertices on the cube; onto itself nothing moves
 run star cube.off --centre 1001,2004,2 --onto cube_out.off -o again.off; exits 0; says_nothing
 holds "the same triangles" same_text <(tail -n 320 cube_out.off) <(tail -n 320 again.off)
@@ -201,7 +226,7 @@ refused 3 "no field 'h'; --field may be one of: z f g"
 run sample octahedron.ply rays.csv --as star --field f --outside nearest
 refused 2 "'--outside' is not for --as star"
 run sample octahedron.ply rays.csv --as star --field f --time all
-refused 2 "'--time' is not for --as star"
+refused 2 'values over time on --as star need --lonlat'
 run sample octahedron.ply rays.csv --field f --lonlat; refused 2 "'--lonlat' needs --as star"
 run sample octahedron.ply rays.csv --field f --centre 1,2,3; refused 2 "'--centre' needs --as star"
 run sample cube.off rays.csv --as star --field z; refused 3 'cube.off: triangle .* centre'

@@ -129,6 +129,37 @@ else
     run raster flow.nc -o one.tif --time 1 --derive slope; refused 2 'are not for --time'
 fi
 
+# On the globe: an octahedron of longitudes and latitudes, which the plane folds; and without two
+# of its facets.
+nodes=$'1 0 0 1\n2 90 0 1\n3 180 0 1\n4 -90 0 1\n5 0 90 1\n6 0 -90 1'
+facets=$'1 3 1 2 5\n2 3 2 3 5\n3 3 3 4 5\n4 3 4 1 5\n5 3 2 1 6\n6 3 3 2 6\n7 3 4 3 6\n8 3 1 4 6'
+borders=$'0\n0\n0\n0'
+printf '%s\n' globe '8 6' "$nodes" "$facets" "$borders" >fort.14
+printf '%s\n' ocean '6 6' "$nodes" "$(head -n 6 <<<"$facets")" "$borders" >ocean.14
+printf '%s\n' globe '2 6 3600 1 1' '0 0' '1 1' '2 3' '3 5' '4 7' '5 9' '6 0' \
+    '3600 1' '1 11' '2 13' '3 15' '4 17' '5 19' '6 10' >fort.63
+printf '%s\n' lon,lat 0,0 90,0 45,0 180,90 -135,-10 720,0 1,91 >places.csv
+run sample --as star --lonlat fort.14 places.csv --values fort.63 --time all --status -q
+exits 0; says_nothing
+prints_line '^0,0,0,1,vertex$'; prints_line '^90,0,0,3,vertex$'; prints_line '^180,90,0,9,vertex$'
+prints_line '^45,0,0,(2|1\.9999[0-9]*|2\.0000[0-9]*),edge$'
+prints_line '^45,0,3600,(12|11\.9999[0-9]*|12\.0000[0-9]*),edge$'
+prints_line '^-135,-10,3600,[0-9.]+,inside$'
+prints_line '^720,0,0,1,vertex$'; prints_line '^1,91,0,,bad$'
+sed -E '/^-135,-10/s/,[0-9.]+,inside$/,,outside/' "$logs/out" >wanted.csv
+run sample --as star --lonlat --open ocean.14 places.csv --values fort.63 --time all --status -q
+exits 0; says_nothing; prints "$(<wanted.csv)"
+run sample --as star --lonlat ocean.14 places.csv --values fort.63 --time all -q
+refused 3 'ocean.14: triangle .: edge . has no neighbour'
+run sample fort.14 places.csv --values fort.63 --time all; refused 3 'fort.14: triangle '
+run sample --as star fort.14 places.csv --values fort.63 --time all; refused 2 'need --lonlat'
+run sample --as star --lonlat --centre 0,0,0.1 fort.14 places.csv --values fort.63 --time all
+refused 2 'leave out --centre'
+run sample --as star --lonlat --walk straight fort.14 places.csv --values fort.63 --time all
+refused 2 "'--walk' is not for --as star"
+run sample --as star --lonlat --wide --field depth fort.14 places.csv
+refused 2 "'--wide' is for values over time"
+
 # What is refused.
 run sample flow.nc points.csv --time 7; refused 3 'flow.nc: has 3 steps, from 0: there is no step 7'
 for time in x 2..1 1.. nearest: nearest:nan -1; do

@@ -235,6 +235,14 @@ says "'meshwalk check --as star moved\.off' lists every defect, 'meshwalk view' 
 run_on $'1 2 3\n' star --centre 9,0,0.5 octahedron.off -
 refused 3 'octahedron\.off: triangle [0-7]: '
 says "'meshwalk check --as star --centre 9,0,0.5 octahedron\.off'"
+# Beyond an edge of a tetrahedron two facets face the centre and two face away: these are named.
+printf '%s\n' OFF '4 4 0' '0 0 0' '4 0 0' '0 4 0' '0 0 4' '3 0 2 1' '3 0 1 3' '3 0 3 2' '3 1 2 3' \
+    >four.off
+run check --as star --centre=-1,-1,1 four.off; exits 3
+prints 'triangle 1: faces away from the centre, unlike triangle 0 at edge 0
+triangle 2: faces away from the centre, unlike triangle 3 at edge 1
+four.off: not star-shaped about the centre: 2 defects'
+rm four.off
 run_on $'1 2 3\n' star --centre 1,0,0 octahedron.off -; refused 3 'triangle [0-7]: .*centre'
 sed 's/^6 8 0/6 7 0/; $d' octahedron.off >open.off
 run_on $'1 2 3\n' star open.off -; refused 3 'open\.off: triangle [0-7]: .*not closed'
@@ -318,6 +326,38 @@ final_tests forgetful; forgetful=$tests
 holds "auto makes $automatic tests, stochastic $stochastic" test "$automatic" == "$stochastic"
 holds "forgetful makes $forgetful tests, stochastic $stochastic" \
     awk "BEGIN { exit !($forgetful > 1.01 * $stochastic) }"
+
+# --open: what is in the facets that are left is as on the whole; the others are outside.
+printf '%s\n' "$octahedron" | sed -e '2s/ 8 / 6 /' -e '$d' | sed '$d' >open.off
+run star --lonlat octahedron.off many.csv -o whole.csv; exits 0
+run star --lonlat --open open.off many.csv -o open.csv --stats; exits 0
+holds 'open facets are outside' awk -F, '
+    NR == FNR { row[FNR] = $0; triangle[FNR] = $4; next }
+    FNR > 1 && triangle[FNR] < 6 && $0 != row[FNR] { wrong++ }
+    FNR > 1 && triangle[FNR] >= 6 && ($3 != "outside" || $4 != -1 || $5 != "") { wrong++ }
+    FNR > 1 { kept += triangle[FNR] < 6; open += triangle[FNR] >= 6 }
+    END { exit !(wrong == 0 && kept > 1000 && open > 1000) }' whole.csv open.csv
+says '^outside +[1-9]'
+run_on $'0 0 0\n1 nan 0\n' star --open open.off -; exits 0; prints_line '^0,0,0,bad,-1,,,$'
+run star --lonlat open.off many.csv; refused 3 'edge . has no neighbour: the polyhedron is not closed'
+says 'with --open'
+for option in '--walk barycentric' '--start grid' '--borrow'; do
+    run star --open $option open.off many.csv; refused 2 'is for walks, and --open finds facets'
+done
+run star --open --centre 0,0,0.1 open.off many.csv; refused 2 'leave out --centre'
+printf '%s\n' OFF '3 0 0' '0 0 1' '1 0 1' '0 1 1' >empty.off
+run_on $'1 2 3\n' star --open empty.off -; refused 3 'empty\.off: the surface has no triangle'
+holds "--open has no check to offer" test -z "$(grep 'check --as star' "$logs/err")"
+run star --open --remesh 2 open.off -o none.off; refused 2 "'--open' is for DIRECTIONS"
+run sample --open --field z open.off many.csv; refused 2 "option '--open' needs --as star"
+run sample --as star --lonlat --field z --status octahedron.off many.csv -o whole.csv; exits 0
+run sample --as star --lonlat --open --field z --status open.off many.csv -o open.csv; exits 0
+holds 'values are the same' awk -F, '
+    NR == FNR { row[FNR] = $0; next }
+    $4 != "outside" && $0 != row[FNR] { wrong++ }
+    $4 == "outside" && $3 != "" { wrong++ }
+    $4 == "outside" { open++ }
+    END { exit !(wrong == 0 && open > 1000) }' whole.csv open.csv
 
 # Real polyhedra, where they are at hand: every walk and start agrees, nothing is lost.
 data=${MW_SHARED:-}/star

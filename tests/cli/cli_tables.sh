@@ -69,6 +69,10 @@ run_on $' id x   y "a note"\n\n1 0.5 0.25 "b c"\n 2\t0.25 0.5 a,b \n# no row\n3 
 exits 0
 prints $'id,x,y,"a note",z\n1,0.5,0.25,"b c",0.75\n2,0.25,0.5,"a,b",0.75\n3,NA,-,"5""",'
 
+# The shortest row.
+run_on $'x,y\n,\n0.75,0.25\n' sample --status square.off -; exits 0
+prints $'x,y,z,status\n,,,bad\n0.75,0.25,1,inside'
+
 # Names: letters of any case, other signs, units.
 for pair in x,y X,Y lon,lat LONG,LAT lng,lat Longitude,Latitude decimalLongitude,decimalLatitude \
     Easting,Northing \

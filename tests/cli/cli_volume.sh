@@ -39,6 +39,8 @@ cut area              16
 fill area             0
 level area            0'
 # Above 3 there is a pyramid of half the size.
+run volume pyramid.off --base 1e308; exits 0
+prints_line '^fill +inf$'; prints_line '^net +-inf$'; prints_line '^cut +0$'
 run volume pyramid.off --base 3; exits 0
 prints_line '^cut +4$'; prints_line '^fill +20$'; prints_line '^net +-16$'
 prints_line '^cut area +4$'; prints_line '^fill area +12$'

@@ -22,6 +22,17 @@ run apply w.npz w.npz; refused 2 'apply needs an output'
 run apply w.npz w.npz -o w.npz; refused 2 'w.npz'
 holds "nothing else was written" test "$(echo *)" == 'square.off w.npz'
 
+# A full disk is told as such, also by netCDF: here by a limit of 40 KiB.
+if "$meshwalk" --version | grep -q 'netCDF .*found'; then
+    awk 'BEGIN { for (i = 0; i < 9000; i++) print 0.25, i / 9000 }' >many.txt
+    last='weights, with no room for a file of 40 KiB'
+    (trap '' XFSZ; ulimit -f 40; exec "$meshwalk" weights square.off many.txt -o w3.nc) \
+        >"$logs/out" 2>"$logs/err"
+    code=$?; refused 4 'w3.nc: File too large$'
+    rm many.txt
+    only_files square.off w.npz
+fi
+
 # To cells: two triangles, a mesh of the same square moved by half, and no points' options.
 sed 's/^\(0\|1\) \(0\|1\) /\1.5 \2 /' square.off >moved.off
 conservative="--method conservative"
@@ -114,4 +125,27 @@ run apply w.nc w.nc -o none/o2.nc; refused 4 'none/o2.nc: '
 head -c 3000 w.nc >cut.nc
 run apply cut.nc w.nc -o o2.nc; refused 3 'cut.nc: '
 holds "no output of a failure" test ! -e o2.nc
+
+# On the globe: an octahedron of longitudes and latitudes, whole and without two facets.
+nodes=$'1 0 0 1\n2 90 0 1\n3 180 0 1\n4 -90 0 1\n5 0 90 1\n6 0 -90 1'
+facets=$'1 3 1 2 5\n2 3 2 3 5\n3 3 3 4 5\n4 3 4 1 5\n5 3 2 1 6\n6 3 3 2 6\n7 3 4 3 6\n8 3 1 4 6'
+printf '%s\n' globe '8 6' "$nodes" "$facets" 0 0 0 0 >globe.14
+printf '%s\n' ocean '6 6' "$nodes" "$(head -n 6 <<<"$facets")" 0 0 0 0 >ocean.14
+printf '%s\n' lon,lat 0,0 45,0 170,30 180,30 -170,30 0,90 >places.csv
+run weights --lonlat globe.14 places.csv -o w.nc --stats; exits 0
+says '^vertex +2$'; says '^edge +2$'; says '^inside +2$'; says '^weights +12$'
+mv w.nc whole.nc
+run weights --lonlat --open ocean.14 places.csv -o w.nc --stats; exits 0; says '^weights +12$'
+holds "weights are those of the whole globe" cmp w.nc whole.nc
+printf '%s\n' lon,lat -135,-10 0,0 >places.csv
+run weights --lonlat --open ocean.14 places.csv -o w.nc --strict; exits 1
+rm w.nc
+run weights --lonlat ocean.14 places.csv -o w.nc; refused 3 'edge . has no neighbour'
+run weights globe.14 places.csv -o w.nc; refused 3 'globe.14: triangle '
+run weights --open globe.14 places.csv -o w.nc; refused 2 "'--open' needs --lonlat"
+run weights --lonlat --start grid globe.14 places.csv -o w.nc
+refused 2 "'--start' is for points in the plane, not for --lonlat"
+run weights --lonlat --method conservative globe.14 globe.14 -o w.nc
+refused 2 "'--lonlat' is for points, not for --method conservative"
+absent w.nc
 finish

@@ -38,6 +38,7 @@ fail() {
         echo "  exit code $code; standard error:"
         head -n 5 "$logs/err" | sed 's/^/    /'
     } >&2
+    [[ ! ${MW_TEST_FIRST-} ]] || exit 1 # for tools/mutate, which asks for no more
 }
 
 exits() {
@@ -103,6 +104,22 @@ holds() {
 
 is_json() { perl -MJSON::PP -e 'local $/; JSON::PP->new->decode(<STDIN>)' <"$1"; }
 same_text() { cmp -s "$1" "$2"; }
+
+# Amounts of memory, in kB, that are little: from what the program takes to start. None where a
+# sanitizer takes much more.
+little_memory() {
+    local low=1000 high=250000 middle more
+    (ulimit -v $high; "$meshwalk" --version) >/dev/null 2>&1 || return
+    while ((high - low > 100)); do
+        middle=$(((low + high) / 2))
+        if (ulimit -v $middle; "$meshwalk" --version) >/dev/null 2>&1; then
+            high=$middle
+        else
+            low=$middle
+        fi
+    done
+    for more in 0 400 800 1500 2500 4000 9000 25000; do echo $((high + more)); done
+}
 
 # left_out REASON: a part is not tested here. ./test lists these in the end.
 left_out_count=0

@@ -520,6 +520,33 @@ static void test_refused(void **state)
     }
 }
 
+/* Nothing has changed, either, where nobody asks for a report and nothing is kept for undo. */
+static void test_refused_plain(void **state)
+{
+    (void)state;
+    enum { MANY = 150 };
+    static const double bad[][2] = {{6.5, 6.5}, {17, 3}, {NAN, 1}};
+    const points_session s = {"refused plainly", lattice, MW_DELAUNAY_MAKE, false, true};
+    const mw_editor_options nothing = {.delaunay = s.delaunay};
+    uint64_t random = mw__random_seed(environment_seed(1), 6);
+    twin t;
+    edit_case.name = s.name;
+    edit_case.seed = environment_seed(1);
+    twin_open(&t, first_mesh(&s, &random), &nothing);
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        points p = make_points(&s, &t, MANY, false, &random);
+        double *q = p.at + (MANY / 2 + i) * (p.stride ? p.stride : 2);
+        mw_error error;
+        q[0] = bad[i][0];
+        q[1] = bad[i][1];
+        REQUIRE(mw_edit_insert_points(t.editor, p.at, MANY, p.stride, NULL, NULL, &error) ==
+                MW_ERROR_INPUT);
+        twin_check_same(&t);
+        free(p.at);
+    }
+    twin_close(&t);
+}
+
 static void test_arguments(void **state)
 {
     (void)state;
@@ -729,9 +756,10 @@ static void test_memory_plain(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_arguments), cmocka_unit_test(test_bytes),
-        cmocka_unit_test(test_sessions),  cmocka_unit_test(test_refused),
-        cmocka_unit_test(test_memory),    cmocka_unit_test(test_memory_plain),
+        cmocka_unit_test(test_arguments),     cmocka_unit_test(test_bytes),
+        cmocka_unit_test(test_sessions),      cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_memory),        cmocka_unit_test(test_memory_plain),
+        cmocka_unit_test(test_refused_plain),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

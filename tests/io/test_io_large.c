@@ -238,24 +238,27 @@ static uint64_t bits_of_double(double value)
     return bits;
 }
 
-/* PLY with numbers of several types, in which every `part`-th square is a quadrilateral and the
- * others are two triangles: those are read in runs. */
-static growing make_ply(const large_mesh *m, uint32_t part, bool big)
+/* PLY with numbers of several types, or with three doubles, in which every `part`-th square is a
+ * quadrilateral and the others are two triangles: those are read in runs. */
+static growing make_ply(const large_mesh *m, uint32_t part, bool big, bool plain)
 {
     char header[500];
     growing g = {0};
     uint32_t faces = 2 * SQUARES - (SQUARES + part - 1) / part;
     int length =
         snprintf(header, sizeof header,
-                 "ply\nformat binary_%s_endian 1.0\nelement vertex %d\nproperty short s\n"
-                 "property double x\nproperty double y\nproperty uint64 u\nproperty char c\n"
-                 "element other 3\nproperty int i\nelement face %u\n"
+                 "ply\nformat binary_%s_endian 1.0\nelement vertex %d\n%sproperty double x\n"
+                 "property double y\n%selement other 3\nproperty int i\nelement face %u\n"
                  "property list uchar %s vertex_indices\nend_header\n",
-                 big ? "big" : "little", POINTS, faces, big ? "int" : "uint");
+                 big ? "big" : "little", POINTS, plain ? "" : "property short s\n",
+                 plain ? "property double z\n" : "property uint64 u\nproperty char c\n", faces,
+                 big ? "int" : "uint");
     for (int i = 0; i < length; i++) grow(&g, (uint8_t)header[i], 1, big);
     for (uint32_t v = 0; v < POINTS; v++) {
-        grow(&g, (uint16_t)(v % 7 - 3), 2, big);
-        for (int k = 0; k < 2; k++) grow(&g, bits_of_double(m->points[3 * v + (size_t)k]), 8, big);
+        const double *p = m->points + (size_t)3 * v;
+        if (!plain) grow(&g, (uint16_t)(v % 7 - 3), 2, big);
+        for (int k = 0; k < (plain ? 3 : 2); k++) grow(&g, bits_of_double(p[k]), 8, big);
+        if (plain) continue;
         grow(&g, (uint64_t)v << 20, 8, big);
         grow(&g, (uint8_t)(v % 100 - 50), 1, big);
     }
@@ -272,12 +275,14 @@ static growing make_ply(const large_mesh *m, uint32_t part, bool big)
     return g;
 }
 
-static void expect_ply(const large_mesh *m, uint32_t part, const mw_mesh_file *file)
+static void expect_ply(const large_mesh *m, uint32_t part, bool plain, const mw_mesh_file *file)
 {
     assert_int_equal(file->point_count, POINTS);
     assert_int_equal(file->triangle_count, 2 * SQUARES);
-    assert_int_equal(file->field_count, 3);
-    for (uint32_t v = 0; v < POINTS; v++) {
+    assert_int_equal(file->field_count, plain ? 0 : 3);
+    assert_int_equal(file->has_z, plain);
+    if (plain) assert_memory_equal(file->points, m->points, sizeof m->points);
+    for (uint32_t v = 0; v < POINTS && !plain; v++) {
         const double is[] = {file->points[3 * v], file->points[3 * v + 1], file->fields[0][v],
                              file->fields[1][v], file->fields[2][v]},
                      was[] = {m->points[3 * v], m->points[3 * v + 1], (double)(v % 7) - 3,
@@ -297,13 +302,18 @@ static void expect_ply(const large_mesh *m, uint32_t part, const mw_mesh_file *f
 static void test_ply_in_either_order(void **state)
 {
     (void)state;
-    large_mesh *m = make_large_mesh(environment_print_seed("test_ply_in_either_order", 78), 0);
-    for (int i = 0; i < 4; i++) {
-        const uint32_t part = i < 2 ? 3 : 7001;
-        growing g = make_ply(m, part, i % 2);
+    large_mesh *m = make_large_mesh(environment_print_seed("test_ply_in_either_order", 78), 1);
+    for (int i = 0; i < 8; i++) {
+        const uint32_t part = i % 4 < 2 ? 3 : 7001;
+        const bool plain = i >= 4;
+        growing g = make_ply(m, part, i % 2, plain);
         mw_mesh_file file = mesh_file_read_bytes("a.ply", (bytes){g.bytes, g.size});
         mw_error error;
-        expect_ply(m, part, &file);
+        expect_ply(m, part, plain, &file);
+        mw_mesh_file_release(&file);
+        files_write_gzip("a.ply.gz", (bytes){g.bytes, g.size}); /* its size tells nothing */
+        file = mesh_file_read("a.ply.gz");
+        expect_ply(m, part, plain, &file);
         mw_mesh_file_release(&file);
         /* A vertex that is not there, in the middle of a run; and an end there. */
         const size_t at = g.size - 13 * 500 + 1;

@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* wrap: malloc calloc realloc strdup strndup free */
+/* wrap: malloc calloc realloc aligned_alloc strdup strndup free */
 #include "support/grid_bytes.h"
 #include "support/write_mesh_file.h"
 
@@ -34,12 +34,14 @@ static void *counted(void *block)
 void *__real_malloc(size_t size);
 void *__real_calloc(size_t count, size_t size);
 void *__real_realloc(void *old, size_t size);
+void *__real_aligned_alloc(size_t alignment, size_t size);
 char *__real_strdup(const char *text);
 char *__real_strndup(const char *text, size_t size);
 void __real_free(void *block);
 void *__wrap_malloc(size_t size);
 void *__wrap_calloc(size_t count, size_t size);
 void *__wrap_realloc(void *old, size_t size);
+void *__wrap_aligned_alloc(size_t alignment, size_t size);
 char *__wrap_strdup(const char *text);
 char *__wrap_strndup(const char *text, size_t size);
 void __wrap_free(void *block);
@@ -59,6 +61,11 @@ void *__wrap_realloc(void *old, size_t size)
     if (fails()) return NULL;
     void *block = __real_realloc(old, size);
     return old ? block : counted(block);
+}
+
+void *__wrap_aligned_alloc(size_t alignment, size_t size)
+{
+    return fails() ? NULL : counted(__real_aligned_alloc(alignment, size));
 }
 
 char *__wrap_strdup(const char *text)
@@ -168,6 +175,21 @@ static mw_status write_mesh(const char *path, mw_error *error)
     return mw_write_mesh(path, &file, NULL, NULL, error);
 }
 
+/* Arrays for all that a file has are made at once. */
+static void fail_binary_ply(void)
+{
+    static const char head[] =
+        "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty char x\nproperty char "
+        "y\nproperty char q\nelement face 2\nproperty list uchar int vertex_indices\nend_header\n";
+    static const unsigned char data[] = {0, 0, 1, 1, 0, 1, 0, 1, 1, 3, 0, 0, 0, 0, 1, 0, 0, 0,
+                                         2, 0, 0, 0, 3, 0, 0, 0, 0, 2, 0, 0, 0, 1, 0, 0, 0};
+    char file[sizeof head - 1 + sizeof data];
+    memcpy(file, head, sizeof head - 1);
+    memcpy(file + sizeof head - 1, data, sizeof data);
+    files_write("b.ply", (bytes){file, sizeof file});
+    fail_each(read_mesh, "b.ply");
+}
+
 static void test_read_meshes(void **state)
 {
     (void)state;
@@ -188,6 +210,7 @@ static void test_read_meshes(void **state)
     files_write_text("a.prj", "EPSG:2056");
     static const char *const paths[] = {"a.off", "a.obj", "a.stl", "b.stl", "a.ply", "a.node", "a"};
     for (size_t i = 0; i < sizeof paths / sizeof *paths; i++) fail_each(read_mesh, paths[i]);
+    fail_binary_ply();
     files_clear();
     /* enough vertices that the table of the welding grows */
     FILE *out = fopen("large.stl", "w");

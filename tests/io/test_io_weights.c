@@ -119,8 +119,9 @@ static void test_npz(void **state)
 
 /* --- application ------------------------------------------------------------------------------ */
 
-/* zeta(time, node) as floats with a missing value, temp(time, layer, node) packed, node's own h. */
-static void write_fields(const char *path)
+/* zeta(time, node) as floats with a missing value, temp(time, layer, node) packed, node's own h;
+ * time, the depths of layers, and days that no field has. */
+static void write_fields(const char *path, size_t steps)
 {
     mw_netcdf_output *out;
     mw_error error;
@@ -133,14 +134,17 @@ static void write_fields(const char *path)
                   mw__netcdf_output_variable(out, "zeta", MW_NETCDF_FLOAT, 2, (int[]){time, node}),
               temp = mw__netcdf_output_variable(out, "temp", MW_NETCDF_SHORT, 3,
                                                 (int[]){time, layer, node}),
-              h = mw__netcdf_output_variable(out, "h", MW_NETCDF_DOUBLE, 1, &node);
+              h = mw__netcdf_output_variable(out, "h", MW_NETCDF_DOUBLE, 1, &node),
+              day = mw__netcdf_output_dimension(out, "day", 3);
+    mw__netcdf_output_variable(out, "depths", MW_NETCDF_DOUBLE, 1, &layer);
+    mw__netcdf_output_variable(out, "day", MW_NETCDF_DOUBLE, 1, &day);
     mw__netcdf_output_text(out, hours, "units", "hours since 2000-01-01");
     mw__netcdf_output_text(out, zeta, "units", "m");
     mw__netcdf_output_number(out, zeta, "_FillValue", MW_NETCDF_FLOAT, -999);
     mw__netcdf_output_number(out, temp, "scale_factor", MW_NETCDF_DOUBLE, 0.5);
     mw__netcdf_output_number(out, temp, "add_offset", MW_NETCDF_DOUBLE, 10);
     mw__netcdf_output_defined(out);
-    for (size_t t = 0; t < 10; t++) {
+    for (size_t t = 0; t < steps; t++) {
         const double at = (double)t, z[4] = {at, at + 4, t == 9 ? -999 : 2 * at, t == 8 ? -999 : 0},
                      p[8] = {4 * at, 0, 6, 0, 0, 0, -2, 8};
         mw__netcdf_output_doubles(out, hours, &t, (size_t[]){1}, &at);
@@ -182,6 +186,17 @@ static void fields_expect(const char *path, bool left_out)
     assert_true(h[0] == 5 && h[1] == 7 && isnan(h[2]));
 }
 
+/* Of the variables of one dimension the file holds these alone. */
+static void expect_axes(const char *path, bool time, bool depths)
+{
+    mw_netcdf *file;
+    assert_int_equal(mw__netcdf_open(path, &file, NULL), MW_OK);
+    assert_true((mw__netcdf_find(file, "time") != NULL) == time);
+    assert_true((mw__netcdf_find(file, "depths") != NULL) == depths);
+    assert_null(mw__netcdf_find(file, "day"));
+    mw__netcdf_close(file);
+}
+
 static void test_apply(void **state)
 {
     (void)state;
@@ -189,7 +204,7 @@ static void test_apply(void **state)
     mw_error error;
     mw_apply_weights_info info;
     write_example("w.nc", true);
-    write_fields("f.nc");
+    write_fields("f.nc", 10);
     if (mw_apply_weights("w.nc", "f.nc", "o.nc", NULL, &info, &error))
         fail_msg("%s", error.message);
     assert_int_equal(info.fields, 3);
@@ -197,13 +212,23 @@ static void test_apply(void **state)
     assert_int_equal(info.points, 3);
     assert_int_equal(info.unmapped, 1);
     fields_expect("o.nc", false);
+    expect_axes("o.nc", true, true);
     const mw_apply_weights_options leave = {.missing = MW_MISSING_LEFT_OUT, .threads = 2};
     assert_int_equal(mw_apply_weights("w.nc", "f.nc", "o.nc", &leave, NULL, &error), MW_OK);
     fields_expect("o.nc", true);
-    const char *const names[] = {"zeta"};
-    const mw_apply_weights_options one = {.fields = names, .field_count = 1};
+    const char *const names[] = {"h", "zeta"};
+    const mw_apply_weights_options one = {.fields = names + 1, .field_count = 1},
+                                   still = {.fields = names, .field_count = 1};
+    assert_int_equal(mw_apply_weights("w.nc", "f.nc", "o.nc", &still, NULL, &error), MW_OK);
+    expect_axes("o.nc", false, false);
     assert_int_equal(mw_apply_weights("w.nc", "f.nc", "o.nc", &one, &info, &error), MW_OK);
     assert_int_equal(info.fields, 1);
+    expect_axes("o.nc", true, false);
+    write_fields("empty.nc", 0); /* no time yet */
+    if (mw_apply_weights("w.nc", "empty.nc", "p.nc", NULL, &info, &error))
+        fail_msg("%s", error.message);
+    assert_int_equal(info.fields, 3);
+    assert_int_equal(info.slabs, 1);
     double positions[3];
     numbers_read("o.nc", "point_y", 3, positions);
     assert_true(positions[0] == 10 && positions[2] == 12);
@@ -286,7 +311,7 @@ static void test_wrong_fields(void **state)
                                    rule = {.missing = (mw_missing_rule)7},
                                    reserved = {.reserved = {1}};
     write_example("w.nc", false);
-    write_fields("f.nc");
+    write_fields("f.nc", 10);
     assert_int_equal(mw_apply_weights("w.nc", "f.nc", "o.nc", &two, NULL, &error), MW_ERROR_INPUT);
     assert_non_null(strstr(error.message, "salt"));
     assert_int_equal(mw_apply_weights("w.nc", "f.nc", "o.nc", &axis, NULL, &error), MW_ERROR_INPUT);

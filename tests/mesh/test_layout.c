@@ -106,6 +106,38 @@ static void expect_same(const mw_mesh *a, const mw_mesh *b)
     assert_int_equal(a->reversed_count, b->reversed_count);
 }
 
+/* Triangles and vertices at their places: each once, as by number. */
+static void expect_stored(const mw_mesh *mesh)
+{
+    const uint32_t n = mw_mesh_vertex_count(mesh), count = mw_mesh_triangle_count(mesh);
+    uint32_t *vertices = malloc(n * sizeof *vertices), *seen = calloc(n + count, sizeof *seen);
+    double *points = malloc(2 * (size_t)n * sizeof *points), p[2];
+    mw_mesh_stored_vertices(mesh, 0, n / 2, points, vertices);
+    mw_mesh_stored_vertices(mesh, n / 2, n - n / 2, points + 2 * (size_t)(n / 2), vertices + n / 2);
+    for (uint32_t i = 0; i < n; i++) {
+        mw_mesh_vertex(mesh, vertices[i], p);
+        assert_memory_equal(p, points + 2 * (size_t)i, sizeof p);
+        assert_int_equal(seen[vertices[i]]++, 0);
+    }
+    for (uint32_t t = 0; t < count; t++) {
+        uint32_t corner[3], number, v[3];
+        mw_mesh_stored_triangles(mesh, t, 1, corner, &number);
+        mw_mesh_triangle(mesh, number, v);
+        for (int k = 0; k < 3; k++) assert_int_equal(vertices[corner[k]], v[k]);
+        assert_int_equal(seen[n + number]++, 0);
+    }
+    mw_mesh_stored_vertices(mesh, 0, n, points, NULL);
+    mw_mesh_stored_triangles(mesh, 0, count / 3, seen, NULL);
+    for (uint32_t t = 0; t < count / 3; t++) {
+        uint32_t corner[3];
+        mw_mesh_stored_triangles(mesh, t, 1, corner, NULL);
+        assert_memory_equal(corner, seen + 3 * (size_t)t, sizeof corner);
+    }
+    free(vertices);
+    free(points);
+    free(seen);
+}
+
 /* What the mesh tells of its edges is so. */
 static void expect_true_count(const mw_mesh *mesh)
 {
@@ -147,6 +179,7 @@ static void test_same_mesh_threads(void **state)
             assert_int_equal(create(&s, layout, threads, &laid, NULL), MW_OK);
             assert_true((laid->vertex_slot != NULL) == (layout != MW_LAYOUT_AS_GIVEN));
             expect_same(kept, laid);
+            if (threads == 1) expect_stored(laid);
             if (layout != MW_LAYOUT_AS_GIVEN) expect_local(laid);
             assert_true(laid->opposite);
             expect_true_count(laid);

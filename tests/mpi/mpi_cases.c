@@ -1,6 +1,7 @@
 /* mpi_cases.c - meshes and cuts. */
 #include "mpi_cases.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -135,14 +136,38 @@ static int stripe(const arrays *a, extent e, uint32_t t, int stripes)
     return s < stripes ? s : stripes - 1;
 }
 
+/* The vertex of most triangles. */
+static uint32_t busiest_vertex(const arrays *a)
+{
+    uint32_t *count = calloc(a->point_count, sizeof *count), best = 0;
+    for (size_t k = 0; k < 3 * (size_t)a->triangle_count; k++) count[a->triangles[k]]++;
+    for (uint32_t v = 0; v < a->point_count; v++)
+        if (count[v] > count[best]) best = v;
+    free(count);
+    return best;
+}
+
+/* All ranks meet at one vertex. */
+static int sector(const arrays *a, uint32_t hub, uint32_t t, int sectors)
+{
+    const double *p = a->points + 2 * (size_t)hub;
+    double y = 0;
+    for (int k = 0; k < 3; k++)
+        y += (a->points[2 * (size_t)a->triangles[3 * (size_t)t + (size_t)k] + 1] - p[1]) / 3;
+    const double turn = atan2(y, middle_x(a, t) - p[0]) / 6.2831853071795862 + 0.5;
+    const int s = (int)(turn * sectors);
+    return s < sectors ? s : sectors - 1;
+}
+
 int *mpi_cut(int i, const arrays *a, int ranks, uint64_t seed, const char **name)
 {
     static const char *const names[MPI_CUTS] = {"stripes",        "random",       "by number",
                                                 "narrow stripes", "last has all", "one each",
-                                                "second half"};
+                                                "sectors",        "second half"};
     int *rank_of = malloc((a->triangle_count + 1) * sizeof *rank_of);
     uint64_t random = seed;
     const extent e = extent_of(a);
+    const uint32_t hub = busiest_vertex(a);
     *name = names[i];
     for (uint32_t t = 0; t < a->triangle_count; t++) {
         const int drawn = (int)(mw__random(&random) % (uint64_t)ranks);
@@ -153,6 +178,7 @@ int *mpi_cut(int i, const arrays *a, int ranks, uint64_t seed, const char **name
         case 3: rank_of[t] = stripe(a, e, t, 3 * ranks) % ranks; break;
         case 4: rank_of[t] = ranks - 1; break;
         case 5: rank_of[t] = t < (uint32_t)ranks ? (int)t : 0; break;
+        case 6: rank_of[t] = sector(a, hub, t, ranks); break;
         default: rank_of[t] = ranks / 2 + drawn / 2 < ranks ? ranks / 2 + drawn / 2 : 0; break;
         }
     }

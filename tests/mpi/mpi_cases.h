@@ -23,7 +23,7 @@ void mpi_tear(arrays *a, double share, uint64_t *random);
 
 /* --- cuts ------------------------------------------------------------------------------------- */
 
-enum { MPI_CUTS = 7 };
+enum { MPI_CUTS = 8 };
 
 /* The rank of each triangle under cut `i`, for the caller to free. */
 int *mpi_cut(int i, const arrays *a, int ranks, uint64_t seed, const char **name);

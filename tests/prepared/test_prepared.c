@@ -6,7 +6,6 @@
 #include <setjmp.h>
 #include <cmocka.h>
 
-#include "base/checksum.h"
 #include "support/allocations.h"
 #include "support/files.h"
 #include "support/meshes.h"
@@ -618,28 +617,6 @@ static void test_memory(void **state)
     files_clear();
 }
 
-/* --- checksums -------------------------------------------------------------------------------- */
-
-/* Values of the specification, and pieces of any lengths. */
-static void test_checksums(void **state)
-{
-    static const char text[] = "Nobody inspects the spammish repetition";
-    char long_text[500];
-    (void)state;
-    assert_true(mw__checksum_of("", 0) == UINT64_C(0xEF46DB3751D8E999));
-    assert_true(mw__checksum_of("a", 1) == UINT64_C(0xD24EC4F1A98C6E5B));
-    assert_true(mw__checksum_of("abc", 3) == UINT64_C(0x44BC2CF5AD770999));
-    assert_true(mw__checksum_of(text, sizeof text - 1) == UINT64_C(0xFBCEA83C8A378BF1));
-    for (size_t i = 0; i < sizeof long_text; i++) long_text[i] = (char)(i * i);
-    for (size_t piece = 1; piece < 100; piece++) {
-        mw_checksum sum = {0};
-        for (size_t i = 0; i < sizeof long_text; i += piece)
-            mw__checksum_add(&sum, long_text + i,
-                             sizeof long_text - i < piece ? sizeof long_text - i : piece);
-        assert_true(mw__checksum_end(&sum) == mw__checksum_of(long_text, sizeof long_text));
-    }
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -647,7 +624,7 @@ int main(void)
         cmocka_unit_test(test_values),      cmocka_unit_test(test_refused_locators),
         cmocka_unit_test(test_other_files), cmocka_unit_test(test_damage),
         cmocka_unit_test(test_malice),      cmocka_unit_test(test_version_1),
-        cmocka_unit_test(test_memory),      cmocka_unit_test(test_checksums),
+        cmocka_unit_test(test_memory),
     };
     return cmocka_run_group_tests(tests, files_enter, files_leave);
 }

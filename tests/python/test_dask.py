@@ -266,6 +266,9 @@ def test_workers_give_tiles_up(
     hit = meshwalk.dask.locate(tiles, da.from_array(xy, chunks=(1000, 2)), 0.01)
     _same(hit.compute(), locator.locate(xy, 0.01))
     assert all(count <= 1 for count in client.run(_tiles_mapped, str(path)).values())
+    hit = meshwalk.dask.locate(meshwalk.Tiles(path), da.from_array(xy, chunks=(1000, 2)), 0.01)
+    _same(hit.compute(), locator.locate(xy, 0.01))
+    assert max(client.run(_tiles_mapped, str(path)).values()) > 1  # with room for them they stay
 
 
 def _tiles_mapped(path: str) -> int:

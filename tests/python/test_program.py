@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -38,6 +39,28 @@ def test_the_terrain(data: Path, program: str, tmp_path: Path, random: np.random
     column = answers[0].split(",").index("triangle")
     triangles = [int(line.split(",")[column] or -1) for line in answers[1:]]
     np.testing.assert_array_equal(hit.triangle, triangles)
+
+
+def test_weights_tell_the_places(program: str, tmp_path: Path) -> None:
+    """The middles of pixels, the centroids of cells, the vertices: all linear in the weights."""
+    netcdf = pytest.importorskip("netCDF4")
+    if len(re.findall("^  (?:GDAL|netCDF) .* found:", _program(program, "--version"), re.M)) < 2:
+        pytest.skip("there is no GDAL, or no netCDF")
+    (tmp_path / "grid.asc").write_text(
+        "ncols 3\nnrows 2\nxllcorner 10\nyllcorner 20\ncellsize 2\n1 2 3\n4 5 6\n"
+    )
+    corners = [(10, 20), (16, 20), (16, 24), (10, 24)]
+    rows = "".join(f"{x} {y} 0\n" for x, y in corners)
+    (tmp_path / "mesh.off").write_text(f"OFF\n4 2 0\n{rows}3 0 1 2\n3 0 2 3\n")
+    middles = [(x, y) for y in (23, 21) for x in (11, 13, 15)]
+    centroids = np.array([corners[:3], [corners[i] for i in (0, 2, 3)]], float).mean(1)
+    for of, values in ("faces", centroids), ("vertices", corners):
+        options = ("--method", "conservative", "--values", of, "-q", "-o", tmp_path / "w.nc")
+        _program(program, "weights", tmp_path / "mesh.off", tmp_path / "grid.asc", *options)
+        with netcdf.Dataset(tmp_path / "w.nc") as file:
+            for end, expected in ("a", values), ("b", middles):
+                places = np.stack([file[f"{axis}c_{end}"][:] for axis in "xy"], 1)
+                np.testing.assert_allclose(places, expected, rtol=0, atol=1e-14)
 
 
 @pytest.mark.parametrize("page", ["README.md", "python/README.md"])

@@ -182,7 +182,7 @@ def test_answers_are_those_of_the_program(
         np.testing.assert_allclose(sorted(ours[~np.isnan(ours)]), by_time, rtol=1e-6)
 
 
-def test_globe() -> None:
+def eight_facets() -> xarray.Dataset:
     """Eight facets of the sphere, which overlap in the plane."""
     lon, lat = [0.0, 90, 180, 270, 0, 0], [0.0, 0, 0, 0, 90, -90]
     faces = [[k, (k + 1) % 4, 4] for k in range(4)] + [[(k + 1) % 4, k, 5] for k in range(4)]
@@ -193,20 +193,45 @@ def test_globe() -> None:
         "node_coordinates": "lon lat",
         "face_node_connectivity": "corners",
     }
-    ds = xarray.Dataset(
+    return xarray.Dataset(
         {
             "mesh": ((), np.int32(0), topology),
             "corners": (("cell", "three"), np.array(faces, np.int32)),
             "t": ("node", [1.0, 1, 1, 1, 5, 5]),
+            "of_cells": ("cell", np.arange(8.0)),
         },
         coords={
             name: ("node", values, {"units": about[name], "standard_name": NODES[name][1]})
             for name, values in (("lon", lon), ("lat", lat))
         },
     )
+
+
+def test_globe() -> None:
+    ds = eight_facets()
     out = ds.meshwalk.sample([[300, 45], [-60, -45], [10, 90]])
     assert out.face.to_numpy().tolist() == [3, 7, 0]
     assert float(out.t[2]) == 5
+
+
+def test_an_ocean_across_180_degrees() -> None:
+    """Two facets are land: what is in the others is as on the whole globe."""
+    ds = eight_facets()
+    ocean = ds.isel(cell=[1, 2, 3, 5, 6, 7])
+    random = np.random.default_rng(4)
+    points = np.column_stack([random.uniform(-180, 180, 500), random.uniform(-90, 90, 500)])
+    whole, part = (d.meshwalk.sample(points) for d in (ds, ocean))
+    kept = np.array([-1, 0, 1, 2, -1, 3, 4, 5])[whole.face.to_numpy()]
+    assert set(kept) == {-1, 0, 1, 2, 3, 4, 5}
+    np.testing.assert_array_equal(part.face, kept)
+    np.testing.assert_array_equal(np.isnan(part.t), kept < 0)
+    np.testing.assert_allclose(part.t[kept >= 0], whole.t[kept >= 0], rtol=1e-14)
+    np.testing.assert_array_equal(part.of_cells[kept >= 0], whole.of_cells[kept >= 0])
+    shared = ocean.meshwalk.sample([[180, 0], [45, 45], [0, 90]])
+    assert shared.face.to_numpy().tolist() == [0, -1, 0]
+    overlapping = ocean.assign_coords(lon=("node", [0.0, 60, 120, 170, 0, 0], ocean.lon.attrs))
+    with pytest.raises(meshwalk.InputError, match="in the plane of longitudes"):
+        overlapping.meshwalk.sample(points)
 
 
 def test_the_page(data: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

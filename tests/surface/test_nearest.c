@@ -23,12 +23,21 @@ static uint64_t new_seed(const char *name)
     return environment_print_seed(name, 19990712);
 }
 
+/* By vector instructions and without: the same bits. */
 static mw_nearest_surface_point nearest(const mw_prober *prober, const double q[3],
                                         double max_distance)
 {
-    mw_nearest_surface_point hit;
+    mw_nearest_surface_point hit, portable_hit;
+    mw_prober portable = *prober;
     mw_error error;
+    portable.portable = true;
     expect_ok(mw_nearest_on_surface(prober, q, max_distance, &hit, &error), "nearest", &error);
+    expect_ok(mw_nearest_on_surface(&portable, q, max_distance, &portable_hit, &error), "portable",
+              &error);
+    assert_int_equal(hit.triangle, portable_hit.triangle);
+    assert_memory_equal(&hit.distance, &portable_hit.distance, sizeof hit.distance);
+    assert_memory_equal(hit.point, portable_hit.point, sizeof hit.point);
+    assert_memory_equal(hit.weight, portable_hit.weight, sizeof hit.weight);
     return hit;
 }
 

@@ -332,6 +332,102 @@ static void test_batches(void **state)
     shape_free(&s);
 }
 
+/* --- rays that lie close together ------------------------------------------------------------- */
+
+enum { SIDE = 40, PICTURE = SIDE * SIDE };
+
+/* Rays from one point, or from a plane if `parallel`, line by line to and fro over a picture whose
+ * points are `step` apart; along z they go from above down. Coordinates are whole numbers, so rays
+ * pass through vertices and edges. */
+static void picture_draw(double *rays, size_t stride, const double eye[3], double step,
+                         bool parallel)
+{
+    for (size_t i = 0; i < PICTURE; i++) {
+        size_t row = i / SIDE, column = row % 2 ? SIDE - 1 - i % SIDE : i % SIDE;
+        double x = step * (double)column, y = step * (double)row, *ray = rays + i * stride;
+        for (int k = 0; k < 3; k++) ray[k] = eye[k];
+        if (parallel) {
+            ray[0] += x;
+            ray[1] += y;
+        }
+        ray[3] = (parallel ? 0 : x) - 7 - eye[0] / 4;
+        ray[4] = (parallel ? 0 : y) - 3 - eye[1] / 4;
+        ray[5] = -eye[2] - 200;
+    }
+}
+
+/* Batches find bundles of rays; without vectors there are none, and the answers are the same. */
+static void check_picture(mw_prober *prober, const double *rays, size_t stride,
+                          mw_probe_options options, mw_probe_counters counters[2])
+{
+    static mw_touch touches[2][PICTURE];
+    for (int portable = 0; portable < 2; portable++) {
+        prober->portable = portable;
+        memset(touches[portable], 0, sizeof touches[portable]);
+        assert_int_equal(mw_probe_batch(prober, rays, PICTURE, stride, &options, touches[portable],
+                                        &counters[portable], NULL),
+                         MW_OK);
+    }
+    prober->portable = false;
+    assert_int_equal(counters[0].queries, PICTURE);
+    assert_int_equal(counters[0].hits, counters[1].hits);
+    assert_memory_equal(touches[0], touches[1], sizeof touches[0]);
+}
+
+static void check_pictures_of(const shape *s, bool bundles, uint64_t *random)
+{
+    enum { STRIDE = 7 };
+    static double rays[STRIDE * PICTURE];
+    mw_surface *surface = shape_surface(s, (mw_surface_options){.tolerant = 1});
+    mw_prober *prober = prober_with_boxes(surface);
+    uint64_t boxes[2] = {0, 0}, hits = 0;
+    for (int i = 0; i < 60; i++) {
+        double eye[3] = {(double)(mw__random(random) % 64) - 90, -60,
+                         1 + 400 * (double)(mw__random(random) % 2)};
+        mw_probe_options options = {.certain = 1,
+                                    .extent = i % 10 == 9 ? MW_PROBE_LINE : MW_PROBE_RAY,
+                                    .faces = (mw_probe_faces)(i % 3),
+                                    .max_distance = i % 4 == 3 ? 500 : 0,
+                                    .min_distance = i % 5 == 4 ? 3 : 0,
+                                    .counters = 1,
+                                    .threads = 1};
+        mw_probe_counters counters[2];
+        picture_draw(rays, STRIDE, eye, i % 2 ? 1 : 0.25, i % 7 == 6);
+        if (i % 6 == 5) rays[STRIDE * (mw__random(random) % PICTURE)] = NAN;
+        if (i % 6 == 4) rays[STRIDE * (mw__random(random) % PICTURE) + 5] = INFINITY;
+        check_picture(prober, rays, STRIDE, options, counters);
+        hits += counters[0].hits;
+        for (int k = 0; k < 2; k++) boxes[k] += counters[k].boxes;
+    }
+    print_message("%u triangles: %llu of %d rays hit; boxes in bundles %.2f of all\n",
+                  s->triangle_count, (unsigned long long)hits, 60 * PICTURE,
+                  (double)boxes[0] / (double)boxes[1]);
+    assert_true(hits > 60);
+#ifdef __x86_64__
+    /* of large triangles in disorder, few help */
+    if (bundles && __builtin_cpu_supports("avx2")) assert_true(boxes[0] < boxes[1] / 2);
+#else
+    (void)bundles;
+#endif
+    mw_prober_destroy(prober);
+    mw_surface_destroy(surface);
+}
+
+static void test_pictures(void **state)
+{
+    (void)state;
+    uint64_t random = new_seed("pictures");
+    shape patch = shape_patch(8, 9, &random), soup = shape_soup(30, 60, &random);
+    shape shapes[] = {shape_ball(6, 60, 0.2, &random), shape_torus(12, 9, 20),
+                      shape_scaled(&patch, 9, -40), shape_scaled(&soup, 9, -40)};
+    shape_free(&patch);
+    shape_free(&soup);
+    for (size_t i = 0; i < sizeof shapes / sizeof *shapes; i++) {
+        check_pictures_of(&shapes[i], i < 2, &random);
+        shape_free(&shapes[i]);
+    }
+}
+
 /* Each allocation of a batch fails once. */
 static void test_batch_memory(void **state)
 {
@@ -570,7 +666,7 @@ int main(void)
         cmocka_unit_test(test_shapes),     cmocka_unit_test(test_long_segments),
         cmocka_unit_test(test_batches),    cmocka_unit_test(test_batch_memory),
         cmocka_unit_test(test_arguments),  cmocka_unit_test(test_inside),
-        cmocka_unit_test(test_not_closed),
+        cmocka_unit_test(test_not_closed), cmocka_unit_test(test_pictures),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -346,6 +346,25 @@ static void test_small(void **state)
     assert_true(tried > 500 && optimal == tried && remaining < 0.75 * all);
 }
 
+/* Small faces are filled, larger ones keep their triangles, whose edges are then exchanged. */
+static void test_limited(void **state)
+{
+    (void)state;
+    enum { SEEDS = 20, CORNERS = 5 };
+    uint32_t both = 0;
+    for (uint64_t seed = 1; seed <= SEEDS; seed++)
+        for (int kind = 0; kind < KINDS; kind++) {
+            double *points = make_points(kind, 60, seed);
+            mw_kind_report report;
+            mw_mesh *mesh = triangulate(points, 60, CORNERS, &report);
+            if (mesh) both += report.local_faces > 0 && report.local_faces < report.faces;
+            mw_mesh_destroy(mesh);
+            free(points);
+        }
+    print_message("%u triangulations with faces of both kinds\n", both);
+    assert_true(both > 20);
+}
+
 /* --- convex polygons --- */
 
 /* The least weight of a triangulation of a convex polygon, its border included. */
@@ -589,11 +608,11 @@ static void test_memory(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_small),    cmocka_unit_test(test_convex),
-        cmocka_unit_test(test_large),    cmocka_unit_test(test_point_in_face),
-        cmocka_unit_test(test_too_many), cmocka_unit_test(test_scales),
-        cmocka_unit_test(test_span),     cmocka_unit_test(test_candidates),
-        cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_small),         cmocka_unit_test(test_limited),
+        cmocka_unit_test(test_convex),        cmocka_unit_test(test_large),
+        cmocka_unit_test(test_point_in_face), cmocka_unit_test(test_too_many),
+        cmocka_unit_test(test_scales),        cmocka_unit_test(test_span),
+        cmocka_unit_test(test_candidates),    cmocka_unit_test(test_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,4 @@
-/* test_base.c - the Hilbert curve and its sort; random numbers; checked allocation. */
+/* test_base.c - the Hilbert curve and its sort; random numbers; checked allocation; checksums. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -6,6 +6,7 @@
 #include <cmocka.h>
 
 #include "base/base.h"
+#include "base/checksum.h"
 #include "base/hilbert.h"
 #include "base/team_sort.h"
 #include "base/job.h"
@@ -187,6 +188,26 @@ static void test_counters(void **state)
     }
 }
 
+/* Checksums: values of the specification, and pieces of any lengths. */
+static void test_checksums(void **state)
+{
+    static const char text[] = "Nobody inspects the spammish repetition";
+    char long_text[500];
+    (void)state;
+    assert_true(mw__checksum_of("", 0) == UINT64_C(0xEF46DB3751D8E999));
+    assert_true(mw__checksum_of("a", 1) == UINT64_C(0xD24EC4F1A98C6E5B));
+    assert_true(mw__checksum_of("abc", 3) == UINT64_C(0x44BC2CF5AD770999));
+    assert_true(mw__checksum_of(text, sizeof text - 1) == UINT64_C(0xFBCEA83C8A378BF1));
+    for (size_t i = 0; i < sizeof long_text; i++) long_text[i] = (char)(i * i);
+    for (size_t piece = 1; piece < 100; piece++) {
+        mw_checksum sum = {0};
+        for (size_t i = 0; i < sizeof long_text; i += piece)
+            mw__checksum_add(&sum, long_text + i,
+                             sizeof long_text - i < piece ? sizeof long_text - i : piece);
+        assert_true(mw__checksum_end(&sum) == mw__checksum_of(long_text, sizeof long_text));
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -194,6 +215,7 @@ int main(void)
         cmocka_unit_test(test_sort),       cmocka_unit_test(test_random_below),
         cmocka_unit_test(test_allocation), cmocka_unit_test(test_errors),
         cmocka_unit_test(test_ranges),     cmocka_unit_test(test_counters),
+        cmocka_unit_test(test_checksums),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -19,6 +19,7 @@ typedef struct gzFile_s {
     unsigned waiting; /* how many of them, at the end, a reader of a pipe has not got yet */
     Bytef *bytes;
     size_t size;
+    z_off_t position; /* in what is unpacked */
     z_stream stream;
     uint32_t crc, made;
 } gzip_file;
@@ -186,14 +187,21 @@ int gzread(gzFile file, void *bytes, unsigned count)
     int result = file->error;
     while (result == Z_OK && file->stream.avail_out > 0) result = member_unpack(file);
     if (result != Z_OK && result != Z_STREAM_END) file->error = result;
+    file->position += (z_off_t)(count - file->stream.avail_out);
     if (file->error && file->error != Z_BUF_ERROR) return -1;
     return (int)(count - file->stream.avail_out);
 }
 
-/* Only in files that are not packed: what stands behind the points of packed LAS is not read. */
+/* In packed files only onward, from their begin: what is passed over is unpacked, too. */
 z_off_t gzseek(gzFile file, z_off_t offset, int whence)
 {
-    return file->packed ? -1 : (z_off_t)lseek(file->descriptor, offset, whence);
+    Bytef passed[4096];
+    if (!file->packed) return (z_off_t)lseek(file->descriptor, offset, whence);
+    while (file->position < offset) {
+        z_off_t left = offset - file->position, room = sizeof passed;
+        if (gzread(file, passed, (unsigned)(left < room ? left : room)) <= 0) return -1;
+    }
+    return file->position == offset ? offset : -1;
 }
 
 z_off_t gzoffset(gzFile file)

@@ -10,6 +10,7 @@ import numpy as np
 from meshwalk._errors import InputError
 from meshwalk._locator import Locator
 from meshwalk._mesh import Mesh
+from meshwalk._space.prober import Prober, TouchState
 from meshwalk._space.star import Star
 from meshwalk._space.surface import Surface
 from meshwalk._where import Where
@@ -43,9 +44,11 @@ class Directions(NamedTuple):
 class SphereLocator:
     """Finds triangles between great circles that contain directions, exactly.
 
-    Triangles that cover the sphere are searched by `Star`. Others have to lie within a hemisphere:
+    Triangles that cover the sphere are searched by `Star`. Others may lie within a hemisphere:
     there, straight lines of a plane are great circles seen from the centre. The plane tells the
-    triangle, and near its sides the vectors themselves decide, in fractions if need be.
+    triangle, and near its sides the vectors themselves decide, in fractions if need be. Small
+    triangles on more than a hemisphere, as those of an ocean, are searched by rays (`Prober`), once
+    such planes have shown in parts that none overlap.
 
     Parameters
     ----------
@@ -57,32 +60,28 @@ class SphereLocator:
     Raises
     ------
     InputError
-        The triangles overlap; or they leave a part of the sphere open, and are larger than a
-        hemisphere.
+        The triangles overlap; or they leave a part of the sphere open, reach beyond a hemisphere,
+        and one has a side of more than 30 degrees.
     """
 
     def __init__(self, nodes: NDArray[np.float64], triangles: NDArray[np.intp]) -> None:
         self._nodes, self._triangles = nodes, triangles
         self._star: Star | None = None
+        self._prober: Prober | None = None
         self._fans: tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.intp]] | None = None
+        surface = Surface(nodes, triangles, weld=True, tolerant=True)
         try:
-            self._star = Star(Surface(nodes, triangles, weld=True, tolerant=True))
+            self._star = Star(surface)
             return
         except InputError as error:
             centre = _pole_of(nodes[np.unique(triangles)])
             if centre is None:
-                raise InputError(f"{error}; and it does not fit in a hemisphere") from None
-            self._centre = centre
-        across = np.cross(self._centre, np.eye(3)[np.abs(self._centre).argmin()])
-        across /= np.linalg.norm(across)
-        self._axes = np.stack([across, np.cross(self._centre, across)], axis=1)
-        self._locator = Locator(Mesh(self._project(nodes), triangles, tolerant=True), border=True)
-
-    def _project(self, directions: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Onto the plane that touches the sphere at the centre; NaN from the other side."""
-        height = directions @ self._centre
-        height = np.where(height > 0, height, np.nan)
-        return np.asarray((directions @ self._axes) / height[:, None])
+                _check_parts(nodes, triangles, error)
+                self._prober = Prober(surface, boxes=True)
+                return
+            self._plane = _Plane(centre)
+        flat = Mesh(self._plane.project(nodes), triangles, tolerant=True)
+        self._locator = Locator(flat, border=True)
 
     def locate(self, directions: NDArray[np.float64]) -> Directions:
         """Find the triangles of directions, shape (n, 3)."""
@@ -91,7 +90,13 @@ class SphereLocator:
             return Directions(
                 hit.triangle.astype(np.intp), hit.where, hit.local.astype(np.intp), hit.weights
             )
-        near = self._locator.locate(self._project(directions), tolerance=_NEAR)
+        if self._prober is not None:
+            centre = np.zeros_like(directions)
+            met = self._prober.probe(centre, directions, certain=True, extent="ray", faces="both")
+            where = np.where(met.state == TouchState.NONE, np.uint8(Where.OUTSIDE), met.where)
+            local = met.records["local"].astype(np.intp)
+            return Directions(met.triangle.astype(np.intp), where, local, met.weights)
+        near = self._locator.locate(self._plane.project(directions), tolerance=_NEAR)
         triangle = near.triangle.astype(np.intp)
         where = np.array(near.where)
         local = np.full(len(triangle), 255, np.intp)
@@ -146,6 +151,43 @@ class SphereLocator:
         if self._fans is None:
             self._fans = fans_of_places(self._nodes, self._triangles)
         return self._fans
+
+
+class _Plane:
+    """The plane that touches the sphere at a direction, the centre."""
+
+    def __init__(self, centre: NDArray[np.float64]) -> None:
+        across = np.cross(centre, np.eye(3)[np.abs(centre).argmin()])
+        across /= np.linalg.norm(across)
+        self._centre = centre
+        self._axes = np.stack([across, np.cross(centre, across)], axis=1)
+
+    def project(self, directions: NDArray[np.float64]) -> NDArray[np.float64]:
+        """From the centre of the sphere onto the plane; NaN from the other side."""
+        height = directions @ self._centre
+        height = np.where(height > 0, height, np.nan)
+        return np.asarray((directions @ self._axes) / height[:, None])
+
+
+def _check_parts(
+    nodes: NDArray[np.float64], triangles: NDArray[np.intp], error: InputError
+) -> None:
+    """Refuse triangles that overlap, on more than a hemisphere.
+
+    Where two overlap, an axis is at most 55 degrees away. With sides of at most 30 degrees both lie
+    within 85 degrees of that axis, and so in one of six planes.
+    """
+    sides = nodes[triangles] * nodes[np.roll(triangles, 1, axis=1)]
+    if sides.sum(axis=2).min() < np.cos(np.radians(30)):
+        raise InputError(
+            f"{error}; and it does not fit in a hemisphere, and has sides of more than 30 degrees"
+        )
+    for centre in np.concatenate([np.eye(3), -np.eye(3)]):
+        near = (nodes @ centre > _LEAST_HEIGHT)[triangles].all(axis=1)
+        if near.any():
+            part, corners = np.unique(triangles[near], return_inverse=True)
+            flat = _Plane(centre).project(nodes[part])
+            Locator(Mesh(flat, corners.reshape(-1, 3), tolerant=True))
 
 
 def _pole_of(nodes: NDArray[np.float64]) -> NDArray[np.float64] | None:

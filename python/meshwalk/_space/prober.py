@@ -187,6 +187,30 @@ class Found:
             values = _arrays.named(self.surface.fields, values)
         return Operator(self, threads, progress=progress).apply(values, threads, progress=progress)
 
+    def of_triangles(self, values: ArrayLike, missing: Any = np.nan) -> NDArray[Any]:
+        """Take the values of the triangles found, without interpolation.
+
+        Parameters
+        ----------
+        values : array_like, shape (n_triangles, ...)
+            Values of the triangles, of any type. Masked values count as `missing`.
+        missing : scalar, optional
+            The value where nothing was found. Integers stay integers if it is one, too.
+
+        Returns
+        -------
+        ndarray, shape ``hit.shape + values.shape[1:]``
+
+        Examples
+        --------
+        >>> import meshwalk
+        >>> floor = meshwalk.Surface([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]])
+        >>> touches = meshwalk.Prober(floor).probe([[1, 1, 5], [9, 9, 5]], [0, 0, -1])
+        >>> touches.of_triangles([0.5])
+        array([0.5, nan])
+        """
+        return _arrays.of_triangles(values, self.surface.triangle_count, self.triangle, missing)
+
     def _core_operator(self, threads: int, progress: Progress | None) -> _core.Operator:
         """The weights, for an `Operator`."""
         records = np.ascontiguousarray(self.records).reshape(-1)

@@ -197,6 +197,7 @@ class Surface(_core.Surface):
         fields: Mapping[str, ArrayLike] | None = None,
         *,
         weld: bool = True,
+        tolerant: bool = False,
     ) -> Self:
         """Make a surface of vertices on the unit sphere, by longitude and latitude in degrees.
 
@@ -204,7 +205,7 @@ class Surface(_core.Surface):
         ----------
         lonlat : array_like, shape (n, 2)
             Longitude and latitude of each vertex.
-        triangles, fields, weld
+        triangles, fields, weld, tolerant
             As of `Surface`; welding closes the seam where longitudes meet, and the poles.
 
         Returns
@@ -226,7 +227,7 @@ class Surface(_core.Surface):
             raise ValueError(
                 f"lonlat[{first}] is not a longitude and latitude: {longitude}, {latitude}"
             )
-        return cls(points, triangles, fields, weld=weld)
+        return cls(points, triangles, fields, weld=weld, tolerant=tolerant)
 
     @property
     def points(self) -> NDArray[np.float64]:

@@ -7,6 +7,7 @@
 
 from __future__ import annotations
 
+import warnings
 from bisect import bisect_right
 from typing import TYPE_CHECKING, Any
 
@@ -16,6 +17,7 @@ from opendrift.readers.basereader.unstructured import UnstructuredReader
 
 import meshwalk.xarray
 from meshwalk._locator import Locator
+from meshwalk.opendrift import _layers
 
 if TYPE_CHECKING:
     import os
@@ -44,8 +46,7 @@ class Reader(UnstructuredReader):  # type: ignore[misc] # OpenDrift is not typed
     Parameters
     ----------
     dataset : xarray.Dataset, str or path-like
-        A dataset, or its file, in any layout that `meshwalk.xarray` knows. Of layers choose one
-        first, such as ``dataset.isel(siglay=0)``.
+        A dataset, or its file, in any layout that `meshwalk.xarray` knows.
     name : str, optional
         What OpenDrift calls the reader.
     proj4 : str, optional
@@ -70,6 +71,14 @@ class Reader(UnstructuredReader):  # type: ignore[misc] # OpenDrift is not typed
     Values at vertices are interpolated in the triangle, those of faces taken as they are, and both
     are interpolated between two times. Elements outside of the mesh, in its bays and holes too, are
     not covered, so that OpenDrift asks the next reader.
+
+    Values in layers are interpolated linearly between the two layers at the depth of the element;
+    above the first and below the last layer they are that layer's. Known are sigma layers (a CF
+    standard name, and the depth of the bottom), SCHISM's heights of layers, and layers with one
+    depth or height in metres and the attribute ``positive``. As in OpenDrift's own readers, depths
+    of sigma layers do not follow the tide. Variables with a standard name whose layers are not
+    known are left out, with a warning that names them: choose a layer first, such as
+    ``dataset.isel(layer=0)``.
     """
 
     def __init__(
@@ -93,12 +102,10 @@ class Reader(UnstructuredReader):  # type: ignore[misc] # OpenDrift is not typed
         used = mesh.points[np.unique(mesh.triangles)]
         (self.xmin, self.ymin), (self.xmax, self.ymax) = used.min(axis=0), used.max(axis=0)
         self._set_times()
+        self._layers: dict[Hashable, _layers.Layers] = {}
         self.variable_mapping = self._names()
         if not self.variable_mapping:
-            raise ValueError(
-                "no variable along the mesh and time alone has a CF standard name; of layers choose"
-                " one with isel"
-            )
+            raise ValueError("no variable along the mesh has a CF standard name")
         self.variables = list(self.variable_mapping)
         self._step: dict[tuple[Hashable, int], NDArray[np.float64]] = {}
         super().__init__()
@@ -120,12 +127,38 @@ class Reader(UnstructuredReader):  # type: ignore[misc] # OpenDrift is not typed
 
     def _names(self) -> dict[str, Hashable]:
         names: dict[str, Hashable] = {}
+        left_out: list[str] = []
         for name, variable in self.dataset.data_vars.items():
             along = set(variable.dims) & {self._access.vertex_dim, self._access.face_dim}
-            standard = variable.attrs.get("standard_name")
-            if standard and along and set(variable.dims) <= along | {self._time_axis}:
-                names[_ALIASES.get(standard.lower(), standard)] = name
-        return names
+            standard = str(variable.attrs.get("standard_name", "")).lower().replace(" ", "_")
+            others = set(variable.dims) - along - {self._time_axis}
+            if not standard or not along:
+                continue
+            if others and not self._find_layers(others):
+                left_out.append(f"{name} (along {', '.join(sorted(map(str, others)))})")
+            else:
+                names[_ALIASES.get(standard, standard)] = name
+        if left_out:
+            warnings.warn(
+                f"left out, for nothing tells where its layers are: {'; '.join(left_out)}. Choose"
+                " a layer first, with dataset.isel",
+                stacklevel=3,
+            )
+        coordinates = {layers.coordinate for layers in self._layers.values()}
+        return {known: name for known, name in names.items() if name not in coordinates}
+
+    def _find_layers(self, dims: set[Hashable]) -> bool:
+        """Find whether the dimensions are one of layers whose heights are known."""
+        if len(dims) != 1:
+            return False
+        (dim,) = dims
+        if dim not in self._layers:
+            vertex_dim, axis = self._access.vertex_dim, self._time_axis
+            found = _layers.find_layers(self.dataset, dim, vertex_dim, axis)
+            if found is None:
+                return False
+            self._layers[dim] = found
+        return True
 
     def covers_positions(self, x: ArrayLike, y: ArrayLike, z: Any = 0) -> NDArray[np.bool_]:
         """Tell which positions are in a triangle."""
@@ -148,16 +181,18 @@ class Reader(UnstructuredReader):  # type: ignore[misc] # OpenDrift is not typed
         Returns
         -------
         dict
-            A masked array for each variable: masked where a position is in no triangle.
+            A masked array for each variable: masked where a position is in no triangle, and where
+            there is no value.
         """
         names, time, x, y, z, _ = self.check_arguments(requested_variables, time, x, y, z)
         hit = self._locate(x, y)
+        depth = np.broadcast_to(np.asarray(0 if z is None else z, np.float64), hit.shape)
         before, part = self._between(time)
         result: dict[str, Any] = {}
         for name in names:
-            values = self._at(name, before, hit)
+            values = self._at(name, before, hit, depth)
             if part > 0:
-                values = (1 - part) * values + part * self._at(name, before + 1, hit)
+                values = (1 - part) * values + part * self._at(name, before + 1, hit, depth)
             result[name] = np.ma.masked_invalid(values)
         return result
 
@@ -171,8 +206,26 @@ class Reader(UnstructuredReader):  # type: ignore[misc] # OpenDrift is not typed
         passed = (time - self.times[before]).total_seconds()
         return before, passed / (self.times[before + 1] - self.times[before]).total_seconds()
 
-    def _at(self, name: str, step: int, hit: Locations) -> NDArray[np.float64]:
+    def _at(
+        self, name: str, step: int, hit: Locations, z: NDArray[np.float64]
+    ) -> NDArray[np.float64]:
         known = self.variable_mapping[name]
+        dims = self.dataset[known].dims
+        at_vertices = self._access.vertex_dim in dims
+        values = self._load(known, step)
+        if at_vertices:
+            found = np.asarray(hit.interpolate(values))
+        else:
+            face = self._access._found[3]
+            found = np.asarray(hit.of_triangles(values if face is None else values[face]))
+        if found.ndim == 1:
+            return found
+        layers = next(self._layers[dim] for dim in dims if dim in self._layers)
+        axes = self._time_axis, self._access.vertex_dim
+        return _layers.between(found, _layers.heights(layers, self.dataset, axes, step, hit), z)
+
+    def _load(self, known: Hashable, step: int) -> NDArray[np.float64]:
+        """The values of a step: along the mesh, then along layers if there are some."""
         variable = self.dataset[known]
         steady = self._time_axis not in variable.dims
         key = known, 0 if steady else step
@@ -180,9 +233,6 @@ class Reader(UnstructuredReader):  # type: ignore[misc] # OpenDrift is not typed
             # Two steps are in use at a time.
             self._step = {k: v for k, v in self._step.items() if k[1] >= step - 1 or k[0] != known}
             chosen = variable if steady else variable.isel({self._time_axis: step})
-            self._step[key] = np.asarray(chosen.to_numpy(), np.float64)
-        values = self._step[key]
-        if self._access.vertex_dim in variable.dims:
-            return np.asarray(hit.interpolate(values))
-        face = self._access._found[3]
-        return np.asarray(hit.of_triangles(values if face is None else values[face]))
+            along = {self._access.vertex_dim, self._access.face_dim} & set(chosen.dims)
+            self._step[key] = np.asarray(chosen.transpose(*along, ...).to_numpy(), np.float64)
+        return self._step[key]

@@ -47,8 +47,8 @@ class SpatialHash:
     Raises
     ------
     InputError
-        Cells overlap; or, on the sphere, the grid is open and larger than a hemisphere. The
-        exception names the first place.
+        Cells overlap; or, on the sphere, the grid is open and larger than a hemisphere, and has
+        sides of more than 30 degrees. The exception names the first place.
 
     Notes
     -----

@@ -40,14 +40,14 @@ class FaceFinder:
     Parameters
     ----------
     grid : uxarray.Grid
-        Its faces cover the whole sphere, or lie within a hemisphere. They may have any number of
-        corners; their sides are arcs of great circles.
+        Its faces cover the whole sphere, or lie within a hemisphere, or have sides of at most 30
+        degrees. They may have any number of corners; their sides are arcs of great circles.
 
     Raises
     ------
     InputError
-        The faces overlap, or leave a part of the sphere open and reach beyond a hemisphere; the
-        exception names the first place.
+        The faces overlap, or leave a part of the sphere open, reach beyond a hemisphere and have
+        longer sides; the exception names the first place.
 
     Notes
     -----

@@ -31,7 +31,8 @@ import xarray
 from meshwalk._errors import InputError
 from meshwalk._files import read
 from meshwalk._locator import Locator
-from meshwalk._space.star import Star
+from meshwalk._space.prober import Prober, Touches
+from meshwalk._space.star import Star, lonlat_to_direction
 from meshwalk._space.surface import Surface
 
 if TYPE_CHECKING:
@@ -110,21 +111,23 @@ class MeshAccessor:
         return self._found[2]
 
     @cached_property
-    def _locate(self) -> Callable[[NDArray[np.float64]], Locations]:
-        """Finds triangles of `mesh`: in the plane, or on the globe where it covers all of it."""
+    def _locate(self) -> Callable[[NDArray[np.float64]], Locations | Touches]:
+        """Finds triangles of `mesh`: in the plane, or on the globe if it goes round it."""
         mesh = self.mesh
         try:
             return Locator(mesh).locate
         except InputError as error:
             if mesh.crs != "EPSG:4326":
                 raise
+            globe = Surface.from_lonlat(mesh.points, mesh.triangles, weld=True, tolerant=True)
             try:
-                globe = Star(Surface.from_lonlat(mesh.points, mesh.triangles, weld=True))
+                return partial(Star(globe).locate, lonlat=True)
             except InputError as other:
-                raise InputError(
-                    f"in the plane of longitudes and latitudes {error}; on the globe {other}"
-                ) from None
-            return partial(globe.locate, lonlat=True)
+                if not _crosses_180(mesh):
+                    raise InputError(
+                        f"in the plane of longitudes and latitudes {error}; on the globe {other}"
+                    ) from None
+            return partial(_rays_locate, Prober(globe, boxes=True))
 
     def sample(
         self,
@@ -164,7 +167,8 @@ class MeshAccessor:
 
         Notes
         -----
-        Points are located once: in the plane, or on the sphere where the mesh covers all of it.
+        Points are located once: in the plane, or on the sphere where the mesh goes round it. There,
+        of triangles that overlap, the one nearest to the centre of the sphere counts.
         Fields that are Dask arrays stay lazy. Fields in a file are read block by block, so that one
         need not fit in memory.
         """
@@ -235,7 +239,7 @@ class MeshAccessor:
         return chosen
 
     def _sample(
-        self, field: xarray.DataArray, hit: Locations, dims: tuple[Hashable, ...]
+        self, field: xarray.DataArray, hit: Locations | Touches, dims: tuple[Hashable, ...]
     ) -> xarray.DataArray:
         """One field at the points, which are its last dimensions."""
         at_vertices = self.vertex_dim in field.dims
@@ -268,6 +272,18 @@ class MeshAccessor:
         if field.chunks is not None:
             return apply(field.chunk({dim: -1}))
         return _by_blocks(field, dim, apply)
+
+
+def _crosses_180(mesh: Mesh) -> bool:
+    """Tell whether triangles are wider than half of the globe: longitudes jump there."""
+    lon = mesh.points[:, 0][mesh.triangles]
+    return bool(len(lon) and np.ptp(lon, axis=1).max() > 180)
+
+
+def _rays_locate(prober: Prober, place: NDArray[np.float64]) -> Touches:
+    """What rays from the centre meet first, in a globe that may be open."""
+    rays = lonlat_to_direction(place)
+    return prober.probe(np.zeros_like(rays), rays, certain=True, extent="ray", faces="both")
 
 
 def _bare(given: ArrayLike) -> xarray.DataArray:

@@ -44,6 +44,32 @@ mw_status mw__build_field(mw_mesh_builder *builder, const char *name, mw_error *
     return names_add(&file->field_names, &file->fields, &file->field_count, name, error);
 }
 
+/* Arrays of so many elements are made at once, for large pages; they grow like others. */
+mw_status mw__build_expect_points(mw_mesh_builder *builder, size_t n, mw_error *error)
+{
+    mw_mesh_file *file = builder->file;
+    if (builder->point_room > 0 || n == 0 || n > MW_MAX_VERTICES) return MW_OK;
+    file->points = mw__alloc_lines(n, 3 * sizeof *file->points);
+    bool made = file->points;
+    for (size_t f = 0; made && f < file->field_count; f++) {
+        file->fields[f] = mw__alloc_lines(n, sizeof *file->fields[f]);
+        made = file->fields[f];
+    }
+    if (!made) return mw__fail_memory(error);
+    builder->point_room = n;
+    return MW_OK;
+}
+
+mw_status mw__build_expect_triangles(mw_mesh_builder *builder, size_t n, mw_error *error)
+{
+    mw_mesh_file *file = builder->file;
+    if (builder->triangle_room > 0 || n == 0 || n > MW_MAX_TRIANGLES) return MW_OK;
+    file->triangles = mw__alloc_lines(n, 3 * sizeof *file->triangles);
+    if (!file->triangles) return mw__fail_memory(error);
+    builder->triangle_room = n;
+    return MW_OK;
+}
+
 /* Half as much again, at least 16. */
 static size_t room_after(size_t room)
 {
@@ -65,21 +91,37 @@ static bool points_resize(mw_mesh_builder *builder, size_t room)
     return true;
 }
 
+/* Room for n more points. */
+static mw_status points_grow(mw_mesh_builder *builder, size_t n, mw_error *error)
+{
+    const size_t count = builder->file->point_count;
+    if (MW_LIKELY(n <= builder->point_room - count)) return MW_OK;
+    if (n > MW_MAX_VERTICES - count)
+        return mw__fail(error, MW_ERROR_LIMIT, "%.240s: more than %" PRIu32 " vertices",
+                        mw__source_name(builder->source), MW_MAX_VERTICES);
+    size_t room = room_after(count) < count + n ? count + n : room_after(count);
+    return points_resize(builder, room < MW_MAX_VERTICES ? room : MW_MAX_VERTICES)
+               ? MW_OK
+               : mw__fail_memory(error);
+}
+
 mw_status mw__build_point(mw_mesh_builder *builder, double x, double y, double z, mw_error *error)
 {
-    mw_mesh_file *file = builder->file;
-    if (file->point_count == builder->point_room) {
-        if (file->point_count >= MW_MAX_VERTICES)
-            return mw__fail(error, MW_ERROR_LIMIT, "%.240s: more than %" PRIu32 " vertices",
-                            mw__source_name(builder->source), MW_MAX_VERTICES);
-        size_t room = room_after(file->point_count);
-        if (!points_resize(builder, room < MW_MAX_VERTICES ? room : MW_MAX_VERTICES))
-            return mw__fail_memory(error);
-    }
-    double *point = file->points + 3 * file->point_count++;
+    mw_status status = points_grow(builder, 1, error);
+    if (status) return status;
+    double *point = builder->file->points + 3 * builder->file->point_count++;
     point[0] = x;
     point[1] = y;
     point[2] = z;
+    return MW_OK;
+}
+
+mw_status mw__build_points(mw_mesh_builder *builder, size_t n, double **points, mw_error *error)
+{
+    mw_status status = points_grow(builder, n, error);
+    if (status) return status;
+    *points = builder->file->points + 3 * builder->file->point_count;
+    builder->file->point_count += n;
     return MW_OK;
 }
 
@@ -109,15 +151,16 @@ void mw__build_value(mw_mesh_builder *builder, size_t field, double value)
     builder->file->fields[field][builder->file->point_count - 1] = value;
 }
 
-/* Room for one more triangle, and for its face where faces are noted. */
-static mw_status triangles_grow(mw_mesh_builder *builder, mw_error *error)
+/* Room for n more triangles, and for their faces where faces are noted. */
+static mw_status triangles_grow(mw_mesh_builder *builder, size_t n, mw_error *error)
 {
     mw_mesh_file *file = builder->file;
-    if (file->triangle_count < builder->triangle_room) return MW_OK;
-    if (file->triangle_count >= MW_MAX_TRIANGLES)
+    const size_t count = file->triangle_count;
+    if (MW_LIKELY(n <= builder->triangle_room - count)) return MW_OK;
+    if (n > MW_MAX_TRIANGLES - count)
         return mw__fail(error, MW_ERROR_LIMIT, "%.240s: more than %" PRIu32 " triangles",
                         mw__source_name(builder->source), MW_MAX_TRIANGLES);
-    size_t room = room_after(file->triangle_count);
+    size_t room = room_after(count) < count + n ? count + n : room_after(count);
     uint32_t *triangles = mw__realloc(file->triangles, room, 3 * sizeof *triangles);
     if (!triangles) return mw__fail_memory(error);
     file->triangles = triangles;
@@ -135,7 +178,7 @@ static mw_status triangles_add(mw_mesh_builder *builder, uint32_t a, uint32_t b,
                                mw_error *error)
 {
     mw_mesh_file *file = builder->file;
-    mw_status status = triangles_grow(builder, error);
+    mw_status status = triangles_grow(builder, 1, error);
     if (status) return status;
     if (file->faces) file->faces[file->triangle_count] = (uint32_t)file->face_count;
     uint32_t *triangle = file->triangles + 3 * file->triangle_count++;
@@ -184,6 +227,25 @@ mw_status mw__build_triangle(mw_mesh_builder *builder, uint32_t a, uint32_t b, u
     if (!status) status = triangles_add(builder, a, b, c, error);
     builder->file->face_count += !status;
     return status;
+}
+
+mw_status mw__build_triangle_room(mw_mesh_builder *builder, uint32_t **triangles, size_t *room,
+                                  mw_error *error)
+{
+    mw_status status = triangles_grow(builder, 1, error);
+    if (status) return status;
+    *triangles = builder->file->triangles + 3 * builder->file->triangle_count;
+    *room = builder->triangle_room - builder->file->triangle_count;
+    return MW_OK;
+}
+
+void mw__build_triangles(mw_mesh_builder *builder, size_t n)
+{
+    mw_mesh_file *file = builder->file;
+    for (size_t i = 0; file->faces && i < n; i++)
+        file->faces[file->triangle_count + i] = (uint32_t)(file->face_count + i);
+    file->triangle_count += n;
+    file->face_count += n;
 }
 
 /* From the first face of more than one triangle on, the face of each triangle is noted. */
@@ -292,7 +354,7 @@ static mw_status polygon_add(mw_mesh_builder *builder, mw_error *error)
     build_polygon polygon = {.triangle = file->triangle_count,
                              .position = mw__source_position(builder->source)};
     uint32_t highest = 0;
-    mw_status status = triangles_grow(builder, error);
+    mw_status status = triangles_grow(builder, 1, error);
     if (!status) status = faces_begin(builder, error);
     for (size_t i = 1; !status && i + 1 < builder->corner_count; i++)
         status = triangles_add(builder, corners[0], corners[i], corners[i + 1], error);
@@ -403,10 +465,14 @@ mw_status mw__build_finish(mw_mesh_builder *builder, mw_error *error)
     file->first_number = (int)builder->first_number;
     if (file->point_count < builder->point_room && !points_resize(builder, file->point_count))
         return mw__fail_memory(error);
-    uint32_t *triangles = mw__realloc(file->triangles, file->triangle_count, 3 * sizeof *triangles);
-    if (!triangles) return mw__fail_memory(error);
-    file->triangles = triangles;
-    if (file->faces) {
+    const bool exact = file->triangles && file->triangle_count == builder->triangle_room;
+    if (!exact) {
+        const size_t size = 3 * sizeof *file->triangles;
+        uint32_t *triangles = mw__realloc(file->triangles, file->triangle_count, size);
+        if (!triangles) return mw__fail_memory(error);
+        file->triangles = triangles;
+    }
+    if (file->faces && !exact) {
         uint32_t *faces = mw__realloc(file->faces, file->triangle_count, sizeof *faces);
         if (!faces) return mw__fail_memory(error);
         file->faces = faces;

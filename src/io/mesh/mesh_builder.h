@@ -1,6 +1,7 @@
 /* mesh_builder.h - a mesh_file that grows while a reader reads. Private.
  *
- * Memory is allocated for the contents of a file, not for the counts in its header. A reader adds
+ * Memory is allocated for the contents of a file, not for the counts in its header; for all of them
+ * at once if the size of the file shows that they are there. A reader adds
  * points, values of fields for the point added last, and faces, corner by corner. Vertex numbers
  * are checked at once if all points are known, else at the end, with the position of the face.
  * Faces with more than three corners are cut into triangles (face_cut.h) as soon as all their
@@ -41,7 +42,12 @@ void mw__build_release(mw_mesh_builder *builder);
 /* Add a field; before the first point. Its value for the point added last is set with
  * mw__build_value. */
 mw_status mw__build_field(mw_mesh_builder *builder, const char *name, mw_error *error);
+/* So many points or triangles will probably come: their bytes are there. After the fields. */
+mw_status mw__build_expect_points(mw_mesh_builder *builder, size_t n, mw_error *error);
+mw_status mw__build_expect_triangles(mw_mesh_builder *builder, size_t n, mw_error *error);
 mw_status mw__build_point(mw_mesh_builder *builder, double x, double y, double z, mw_error *error);
+/* n points at once, if no fields were added: the caller fills in 3 n numbers. */
+mw_status mw__build_points(mw_mesh_builder *builder, size_t n, double **points, mw_error *error);
 /* A point from the three numbers that a text begins with; reading them alone. */
 mw_status mw__build_point_text(mw_mesh_builder *builder, const char *text, mw_error *error);
 mw_status mw__read_xyz(const mw_source *source, const char *text, double xyz[3], mw_error *error);
@@ -59,6 +65,12 @@ mw_status mw__build_vertex(mw_mesh_builder *builder, int64_t number, uint32_t *v
 /* One face that is a triangle of vertices counted from 0 that exist. */
 mw_status mw__build_triangle(mw_mesh_builder *builder, uint32_t a, uint32_t b, uint32_t c,
                              mw_error *error);
+
+/* Many such triangles: room for at least one, which the caller fills from its beginning; then how
+ * many it filled. */
+mw_status mw__build_triangle_room(mw_mesh_builder *builder, uint32_t **triangles, size_t *room,
+                                  mw_error *error);
+void mw__build_triangles(mw_mesh_builder *builder, size_t n);
 
 /* After the last point: a field with a value for each vertex, to be filled in; they are NaN. */
 mw_status mw__build_late_field(mw_mesh_builder *builder, const char *name, double **values,

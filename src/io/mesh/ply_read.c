@@ -212,16 +212,56 @@ static mw_status ply_take_instance(ply_reader *r, const mw_ply_element *element,
     return status;
 }
 
+/* Are instances the three coordinates, as doubles? */
+static bool ply_has_plain_points(const ply_reader *r, const mw_ply_element *element,
+                                 const ply_plan *plans)
+{
+    bool plain = element->property_count == 3 && r->builder->file->field_count == 0;
+    for (size_t i = 0; plain && i < 3; i++)
+        plain = plans[i].use == COORDINATE && plans[i].index == i &&
+                element->properties[i].number.size == 8 &&
+                element->properties[i].number.type == MW_PLY_FLOAT;
+    return plain;
+}
+
+static mw_status ply_take_points(ply_reader *r, const unsigned char *bytes, size_t n,
+                                 mw_error *error)
+{
+    double *to;
+    mw_status status = mw__build_points(r->builder, n, &to, error);
+    if (status) return status;
+    const bool big = r->kind == MW_PLY_BIG;
+    for (size_t i = 0; i < 3 * n && !big; i++) to[i] = mw__get_f64(bytes + 8 * i);
+    for (size_t i = 0; i < 3 * n && big; i++)
+        to[i] = mw__double_of_bits(mw__get_bytes(bytes + 8 * i, 8, true));
+    return MW_OK;
+}
+
+/* Make room for all instances, if there are bytes for them: `size` each, or more. */
+static mw_status ply_expect(ply_reader *r, const mw_ply_element *element, bool vertices,
+                            size_t size, mw_error *error)
+{
+    if (element->count > mw__source_left(r->source) / size) return MW_OK;
+    return vertices ? mw__build_expect_points(r->builder, (size_t)element->count, error)
+                    : mw__build_expect_triangles(r->builder, (size_t)element->count, error);
+}
+
 /* All instances of an element without lists, `size` bytes each. */
 static mw_status ply_read_blocks(ply_reader *r, const mw_ply_element *element,
                                  const ply_plan *plans, bool vertices, size_t size, mw_error *error)
 {
     const uint64_t most = MW_BYTES_LIMIT / size;
+    const bool points = vertices && ply_has_plain_points(r, element, plans);
+    if (vertices) {
+        mw_status status = ply_expect(r, element, true, size, error);
+        if (status) return status;
+    }
     for (uint64_t i = 0; i < element->count;) {
         const uint64_t left = element->count - i, n = left < most ? left : most;
         const unsigned char *bytes;
         mw_status status = mw__source_bytes(r->source, n * size, &bytes, error);
-        for (uint64_t k = 0; k < n && !status; k++)
+        if (!status && points) status = ply_take_points(r, bytes, n, error);
+        for (uint64_t k = 0; k < n && !status && !points; k++)
             status = ply_take_instance(r, element, plans, vertices, bytes + k * size, error);
         if (status) return status;
         i += n;
@@ -239,30 +279,34 @@ static bool ply_has_plain_faces(const ply_reader *r, const mw_ply_element *eleme
            property->number.size == 4 && r->builder->points_complete;
 }
 
+enum { PLAIN_FACE = 13 }; /* bytes */
+
 /* Up to `most` triangles that follow each other, whose vertices exist and differ. *count: how many;
  * what follows them is left to ply_read_instance. */
 static mw_status ply_read_triangles(ply_reader *r, uint64_t most, uint64_t *count, mw_error *error)
 {
-    enum { SIZE = 13 };
     const size_t points = r->builder->file->point_count,
                  limit = points < INT32_MAX ? points : INT32_MAX;
     const bool big = r->kind == MW_PLY_BIG;
     const char *peeked;
     const unsigned char *bytes;
-    size_t have;
+    uint32_t *v;
+    size_t have, n = 0, room;
     mw_status status = mw__source_peek(r->source, MW_BYTES_LIMIT, &peeked, &have, error);
     *count = 0;
+    if (!status) status = mw__build_triangle_room(r->builder, &v, &room, error);
     if (status) return status;
-    for (bytes = (const unsigned char *)peeked; *count < most && have >= SIZE && bytes[0] == 3;
-         bytes += SIZE, have -= SIZE, ++*count) {
-        uint32_t v[3];
+    if (have / PLAIN_FACE < room) room = have / PLAIN_FACE;
+    if (most < room) room = (size_t)most;
+    for (bytes = (const unsigned char *)peeked; n < room && bytes[0] == 3;
+         bytes += PLAIN_FACE, n++, v += 3) {
         for (int k = 0; k < 3; k++) v[k] = (uint32_t)mw__get_bytes(bytes + 1 + 4 * k, 4, big);
         if (v[0] >= limit || v[1] >= limit || v[2] >= limit) break;
         if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) break;
-        status = mw__build_triangle(r->builder, v[0], v[1], v[2], error);
-        if (status) return status;
     }
-    return mw__source_bytes(r->source, *count * SIZE, &bytes, error);
+    mw__build_triangles(r->builder, n);
+    *count = n;
+    return mw__source_bytes(r->source, n * PLAIN_FACE, &bytes, error);
 }
 
 /* All instances of one element. One without properties has no data, whatever its count. */
@@ -273,9 +317,11 @@ static mw_status ply_read_element(ply_reader *r, const mw_ply_element *element,
     const size_t size = r->kind == MW_PLY_ASCII ? 0 : ply_instance_bytes(element);
     if (size > 0) return ply_read_blocks(r, element, plans, vertices, size, error);
     const bool plain = r->kind != MW_PLY_ASCII && ply_has_plain_faces(r, element, plans);
+    mw_status status = plain ? ply_expect(r, element, false, PLAIN_FACE, error) : MW_OK;
+    if (status) return status;
     for (uint64_t i = 0; i < element->count; i++) {
         uint64_t count = 0;
-        mw_status status = r->kind == MW_PLY_ASCII ? ply_next_line(r, element, i, error) : MW_OK;
+        if (r->kind == MW_PLY_ASCII) status = ply_next_line(r, element, i, error);
         if (plain) status = ply_read_triangles(r, element->count - i, &count, error);
         i += count;
         if (!status && i == element->count) return MW_OK;

@@ -22,6 +22,7 @@ enum {
     NETCDF_NO_ATTRIBUTE = -43, /* NC_ENOTATT */
     NETCDF_OUT_OF_RANGE = -60, /* NC_ERANGE */
     NETCDF_NO_MEMORY = -61,    /* NC_ENOMEM */
+    NETCDF_HDF5 = -101,        /* NC_EHDFERR */
     NETCDF_MEMORY = -137       /* NC_EINMEMORY */
 };
 

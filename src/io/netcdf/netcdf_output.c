@@ -1,8 +1,11 @@
 #include "io/netcdf/netcdf_output.h"
 
+#include "base/posix.h"
 #include "io/netcdf/netcdf_library.h"
 #include "io/text/output.h"
+#include "io/text/system_error.h"
 
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,6 +17,7 @@ struct mw_netcdf_output {
     int id;
     bool open;
     int code;       /* the first failure, 0 if none */
+    int system;     /* if the system refuses to write more: its error */
     char what[300]; /* what it befell */
 };
 
@@ -26,6 +30,7 @@ static void netcdf_output_release(mw_netcdf_output *output)
 static mw_status netcdf_output_refuse(const mw_netcdf_output *output, int code, mw_error *error)
 {
     if (code == NETCDF_NO_MEMORY) return mw__fail_memory(error);
+    if (output->system) return mw__fail_system(output->shown, output->system, error);
     return mw__fail(error, MW_ERROR_SYSTEM, "%.160s: %s%s", output->shown, output->what,
                     output->nc.nc_strerror(code));
 }
@@ -71,12 +76,33 @@ mw_status mw__netcdf_output_open(const char *path, mw_netcdf_output **out, mw_er
     return status;
 }
 
+/* HDF5 tells that it could not write, but not why. The system does when more is written to the
+ * file, which is given up in any case. Its error, or 0. */
+static int netcdf_output_try(const mw_netcdf_output *output)
+{
+    static const char zeros[1 << 16];
+    size_t left = sizeof zeros;
+    const int file = open(mw_output_temporary(output->output), O_WRONLY | O_APPEND | O_CLOEXEC);
+    if (file < 0) return errno;
+    int code = 0;
+    while (left > 0 && code == 0) {
+        const ssize_t written = write(file, zeros, left);
+        if (written < 0)
+            code = errno;
+        else
+            left -= (size_t)written;
+    }
+    close(file);
+    return code;
+}
+
 /* Note what a call of libnetcdf said. The first failure stays. */
 static void netcdf_output_note(mw_netcdf_output *output, int code, const char *what,
                                const char *name)
 {
     if (!code || output->code) return;
     output->code = code;
+    if (code == NETCDF_HDF5) output->system = netcdf_output_try(output);
     snprintf(output->what, sizeof output->what, "%s %.200s: ", what, name);
 }
 

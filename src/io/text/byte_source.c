@@ -21,6 +21,13 @@ bool mw__source_is_plain_file(mw_source *source)
            (!source->gz || gzdirect(source->gz) == 1);
 }
 
+size_t mw__source_left(mw_source *source)
+{
+    const bool known = mw__source_is_plain_file(source) && source->offset <= source->size;
+    const uint64_t left = known ? source->size - source->offset : 0;
+    return left <= SIZE_MAX ? (size_t)left : 0;
+}
+
 const char *mw__source_name(const mw_source *source)
 {
     return strcmp(source->path, "-") == 0 ? "standard input" : source->path;

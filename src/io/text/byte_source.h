@@ -60,6 +60,9 @@ void mw__source_close(mw_source *source);
  * the first mw__source_peek. */
 bool mw__source_is_plain_file(mw_source *source);
 
+/* How many bytes are left to read; 0 if that is not known, or more than the memory can address. */
+size_t mw__source_left(mw_source *source);
+
 /* The path for messages. */
 const char *mw__source_name(const mw_source *source);
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from datetime import datetime, timedelta
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -118,6 +119,101 @@ def test_elements_drift(random: np.random.Generator) -> None:
     model.run(duration=timedelta(hours=1), time_step=600)
     moved = (model.elements.lat - lat[model.elements.ID]) * 111_200
     np.testing.assert_allclose(moved, 0.2 * 3600, rtol=0.01)
+
+
+def layered(random: np.random.Generator) -> tuple[xarray.Dataset, meshwalk.Mesh]:
+    """As FVCOM writes it: sigma layers that differ from vertex to vertex."""
+    ds, mesh = bay(random)
+    n, faces = mesh.vertex_count, mesh.triangle_count
+    sigma = -np.sort(random.random((4, n)), axis=0)
+    terms = {
+        "standard_name": "ocean_sigma/general_coordinate",
+        "positive": "up",
+        "formula_terms": "sigma: siglay eta: zeta depth: bottom",
+    }
+    ds["siglay"] = ("siglay", "node"), sigma, terms
+    ds["bottom"] = ("node",), 10 + 20 * random.random(n), {"standard_name": "depth_of_sea"}
+    for name, along, size in (("heat", "node", n), ("upward", "face", faces)):
+        values = random.random((3, 4, size))
+        ds[name] = ("time", "siglay", along), values, {"standard_name": f"sea_water_{name}"}
+    return ds, mesh
+
+
+def test_values_between_sigma_layers(random: np.random.Generator) -> None:
+    ds, mesh = layered(random)
+    reader = Reader(ds)
+    points = inner(mesh, random)
+    z = -35 * random.random(40)
+    when = START + timedelta(minutes=60)
+    names = ["sea_water_heat", "sea_water_upward"]
+    found = reader.get_variables(names, when, x=points[:, 0], y=points[:, 1], z=z)
+    heights = ds.siglay.to_numpy() * 1.0
+    for i, point in enumerate(points):
+        face = oracle(mesh, point)
+        corners = mesh.triangles[face]
+        weights = np.linalg.solve(np.vstack([mesh.points[corners].T, np.ones(3)]), [*point, 1])
+        at = (heights[:, corners] @ weights) * (ds.bottom.to_numpy()[corners] @ weights)
+        for name, layers in (
+            ("sea_water_heat", ds.heat.to_numpy()[1][:, corners] @ weights),
+            ("sea_water_upward", ds.upward.to_numpy()[1][:, face]),
+        ):
+            wanted = np.interp(z[i], at[::-1], layers[::-1])
+            np.testing.assert_allclose(found[name][i], wanted, rtol=1e-9)
+    assert "ocean_sigma/general_coordinate" not in reader.variables
+    surface = reader.get_variables(names[:1], when, x=points[:, 0], y=points[:, 1])
+    top = meshwalk.Locator(mesh).locate(points).interpolate(ds.heat.to_numpy()[1, 0])
+    np.testing.assert_allclose(surface["sea_water_heat"], top)
+
+
+def test_layers_at_depths_and_of_schism(random: np.random.Generator) -> None:
+    ds, mesh = layered(random)
+    points = inner(mesh, random)[:10]
+    x, y = points.T
+    face = np.array([oracle(mesh, p) for p in points])
+    plain = ds.drop_vars(["siglay", "heat"]).assign_coords(
+        siglay=("siglay", [0.0, 5, 10, 20], {"units": "m", "positive": "down"})
+    )
+    found = Reader(plain).get_variables(["sea_water_upward"], START, x=x, y=y, z=np.full(10, -7.5))
+    values = ds.upward.to_numpy()[0][:, face]
+    np.testing.assert_allclose(found["sea_water_upward"], values[1:3].mean(axis=0))
+    # SCHISM's layers are those above the bottom; they move with the water.
+    heights = np.broadcast_to(np.array([np.nan, -30, -10, 0]), (3, mesh.vertex_count, 4))
+    moving = heights + np.arange(3.0)[:, None, None]
+    schism = ds.drop_vars(["siglay", "heat"])
+    schism["zcor"] = ("time", "node", "siglay"), moving
+    later = START + timedelta(hours=2)
+    found = Reader(schism).get_variables(["sea_water_upward"], later, x=x, y=y, z=np.full(10, -18))
+    values = ds.upward.to_numpy()[2][:, face]
+    np.testing.assert_allclose(found["sea_water_upward"], values[1:3].mean(axis=0))
+
+
+def test_layers_that_are_not_known_are_named(random: np.random.Generator) -> None:
+    ds, _ = layered(random)
+    ds = ds.drop_vars("siglay")
+    with pytest.warns(UserWarning, match=r"heat \(along siglay\); upward \(along siglay\)"):
+        reader = Reader(ds)
+    assert "sea_water_heat" not in reader.variables
+    assert "sea_water_heat" in Reader(ds.isel(siglay=0)).variables
+
+
+def test_a_real_model() -> None:
+    """OpenDrift's example of FVCOM, with a real file: elements follow the tide."""
+    from opendrift.models.oceandrift import OceanDrift
+
+    path = Path(os.environ["MW_SOURCE"]).parent / "shared/data/ocean/fvcom_example.nc"
+    if not path.exists():
+        pytest.skip("shared/data is not here")
+    reader = Reader(path)
+    assert {"x_sea_water_velocity", "sea_water_salinity", "x_wind"} <= set(reader.variables)
+    model = OceanDrift(loglevel=50)
+    model.set_config("general:use_auto_landmask", False)
+    model.set_config("environment:constant:land_binary_mask", 0)
+    model.add_reader(reader)
+    model.seed_elements(lon=-122.485, lat=37.878, radius=300, number=50, time=reader.start_time)
+    start = model.elements_scheduled.lon.copy(), model.elements_scheduled.lat.copy()
+    model.run(duration=timedelta(hours=1), time_step=600)
+    moved = np.hypot(model.elements.lon - start[0], model.elements.lat - start[1]) * 100_000
+    assert np.median(moved) > 100
 
 
 def test_refusals(random: np.random.Generator, tmp_path: Path) -> None:

@@ -11,6 +11,7 @@ import pytest
 import scipy.spatial
 from conftest import NOT_HERE, run_page
 
+from meshwalk import InputError
 from meshwalk.uxarray import FaceFinder, use
 
 if TYPE_CHECKING:
@@ -139,6 +140,29 @@ def test_part_of_a_hemisphere(random: np.random.Generator) -> None:
     assert max(map(len, found)) > 2
 
 
+def test_an_ocean(random: np.random.Generator) -> None:
+    """More than a hemisphere, with land; and one that overlaps."""
+    whole = triangles(400, random)
+    nodes, corners = nodes_of(whole), whole.face_node_connectivity.values
+    small = (nodes[corners] * nodes[np.roll(corners, 1, axis=1)]).sum(axis=2).min(axis=1) > 0.87
+    land = (nodes[corners] @ [0.6, 0.0, 0.8] > 0.9).all(axis=1)
+    kept = corners[small & ~land]
+    assert len(corners) - 60 < len(kept) < len(corners) - 10
+    lon, lat = whole.node_lon.values, whole.node_lat.values
+    grid = uxarray.Grid.from_topology(lon, lat, kept)
+    nodes = nodes_of(grid)
+    middles = (nodes[kept] + nodes[np.roll(kept, 1, axis=1)]).reshape(-1, 3)[:100]
+    points = np.concatenate([random.normal(size=(100, 3)), nodes[:60], middles])
+    found = FaceFinder(grid).get_faces_containing_point(points, return_counts=False)
+    assert found == [oracle(grid, p) for p in points]
+    assert [] in found
+    assert max(map(len, found)) > 2
+    folded = np.concatenate([kept, kept[:1, [0, 1, 1]]])
+    folded[-1, 2] = kept[~np.isin(kept, kept[0]).any(axis=1)][0, 0]
+    with pytest.raises(InputError):
+        FaceFinder(uxarray.Grid.from_topology(lon, lat, folded))
+
+
 def test_open_grids_are_left_to_uxarray(random: np.random.Generator) -> None:
     whole = triangles(60, random)
     lon, lat = whole.node_lon.values, whole.node_lat.values
@@ -149,7 +173,9 @@ def test_open_grids_are_left_to_uxarray(random: np.random.Generator) -> None:
         use()
         assert whole.get_faces_containing_point(middle, return_counts=False) == [[5]]
         assert isinstance(whole._meshwalk_finder, FaceFinder)
-        with pytest.warns(UserWarning, match="uxarray searches this grid: .*not closed.*hemi"):
+        with pytest.warns(
+            UserWarning, match="uxarray searches this grid: .*not closed.*hemi.*sides of"
+        ):
             found = part.get_faces_containing_point(middle / np.linalg.norm(middle), False)
         assert found == [[4]]
     finally:
