@@ -24,7 +24,8 @@ BLOCK = 2**18  # queries of a block, and questions that a rank takes in a round
 MESSAGES = 5  # that each two ranks exchange in a round
 BOX, MOST_BOXES, BOXES_OF_A_RANK = 40, 2**20, 64
 RIM = 300  # bytes of a triangle at the border, on each rank
-LOCATION = 48  # bytes of an answer, as the asking rank keeps it
+LOCATION = 48  # bytes of an answer, as it goes and as it comes
+ASKED, SORTED = 64, 25  # bytes of a question of others, and of a query of the rank's own block
 
 
 def spent(work: Any, rounds: int = 1) -> tuple[float, Any]:
@@ -71,7 +72,7 @@ def foretell(row: dict[str, str], cost: dict[str, float], given: argparse.Namesp
     each = given.queries / ranks  # queries of a rank
     boxes = BOX * min(MOST_BOXES, BOXES_OF_A_RANK * ranks)
     memory = given.mesh * cost["bytes a vertex"] / ranks + boxes + RIM * 4 * given.mesh**0.5
-    memory += BLOCK * (2 * LOCATION + 64)
+    memory += BLOCK * (2 * LOCATION + ASKED + SORTED)
     prepare = 1e-6 * cost["prepare, us a vertex"] * given.mesh / ranks
     locate = 1e-9 * cost["query, ns"] * each * work
     traffic = each * (float(row["out_B"]) + float(row["back_B"])) / given.bandwidth

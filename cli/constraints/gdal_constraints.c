@@ -287,19 +287,31 @@ static bool layer_has_points(OGRLayerH layer)
     return type == wkbPoint || type == wkbMultiPoint || type == wkbNone;
 }
 
+/* A file of GPX has a layer for everything that it could hold. */
+static bool layer_has_features(OGRLayerH layer)
+{
+    gdal.OGR_L_ResetReading(layer);
+    OGRFeatureH feature = gdal.OGR_L_GetNextFeature(layer);
+    if (feature) gdal.OGR_F_Destroy(feature);
+    gdal.OGR_L_ResetReading(layer);
+    return feature != NULL;
+}
+
 static bool layer_is_wanted(const gdal_constraints_options *o, OGRLayerH layer)
 {
     if (o->layer) return strcmp(gdal.OGR_L_GetName(layer), o->layer) == 0;
-    if (o->lines) return !layer_has_points(layer);
-    return !o->polygons || layer_may_have_polygons(layer);
+    if (o->lines) return !layer_has_points(layer) && layer_has_features(layer);
+    return !o->polygons || (layer_may_have_polygons(layer) && layer_has_features(layer));
 }
 
 static int layers_fail(const gdal_constraints_options *o, GDALDatasetH set, const char *path)
 {
     text names = {0};
-    for (int i = 0; i < gdal.GDALDatasetGetLayerCount(set); i++)
-        text_printf(&names, "%s%s", i ? ", " : "",
-                    gdal.OGR_L_GetName(gdal.GDALDatasetGetLayer(set, i)));
+    for (int i = 0; i < gdal.GDALDatasetGetLayerCount(set); i++) {
+        OGRLayerH layer = gdal.GDALDatasetGetLayer(set, i);
+        if (o->layer || layer_is_wanted(o, layer))
+            text_printf(&names, "%s%s", names.size ? ", " : "", gdal.OGR_L_GetName(layer));
+    }
     int size = names.size < 1000 ? (int)names.size : 1000;
     if (names.failed || names.size == 0)
         complain("%s: GDAL finds no layer in it", path);

@@ -4,6 +4,18 @@
 
 #include <meshwalk/meshwalk.h>
 
+/* GDAL reads GeoJSON, too, and Jansson nothing else. */
+#ifdef MW_JANSSON_VERSION
+#define WITHOUT_GDAL "no vector files but GeoJSON and .poly, no rasters, no transformations"
+#else
+#define WITHOUT_GDAL "no vector files but .poly, no rasters, no transformations"
+#endif
+#ifdef MW_GDAL
+#define WITHOUT_JANSSON "no constraints from GeoJSON, but by GDAL"
+#else
+#define WITHOUT_JANSSON "no constraints from GeoJSON"
+#endif
+
 void library_version_line(text *t, const char *name, const char *version, const char *without)
 {
     if (version)
@@ -22,9 +34,7 @@ static void version_of_gdal(text *t)
     const gdal_functions *gdal = gdal_library_load();
     int major = 0, minor = 0, patch = 0;
     if (!gdal) {
-        text_string(t, "  GDAL     built in, but " MW_GDAL
-                       " is not found: no vector files but GeoJSON and .poly, no "
-                       "rasters, no transformations\n");
+        text_string(t, "  GDAL     built in, but " MW_GDAL " is not found: " WITHOUT_GDAL "\n");
         return;
     }
     gdal->OSRGetPROJVersion(&major, &minor, &patch);
@@ -45,8 +55,7 @@ static void version_of_gdal(text *t)
 
 static void version_of_gdal(text *t)
 {
-    library_version_line(t, "GDAL", NULL,
-                         "no vector files but GeoJSON and .poly, no rasters, no transformations");
+    library_version_line(t, "GDAL", NULL, WITHOUT_GDAL);
 }
 
 #endif
@@ -76,7 +85,7 @@ void library_versions_write(text *t)
 #endif
     library_version_line(t, "zlib", zlib,
                          "files packed by gzip are read by the library's own code");
-    library_version_line(t, "Jansson", jansson, "no constraints from GeoJSON, but by GDAL");
+    library_version_line(t, "Jansson", jansson, WITHOUT_JANSSON);
     version_of_gdal(t);
     version_of_netcdf(t);
     library_version_line(t, "LAZ", NULL, "LAS only; 'pdal translate' unpacks");

@@ -221,10 +221,10 @@ typedef struct mw_operator_apply_options {
  *         without a step; MW_CANCELLED, after which some results are written.
  *
  * Thread-safe. The result is the same, bit for bit, for any number of threads. Memory is allocated
- * for threads only, with one exception: if four or more fields are stored one after another and
- * rows or columns are scattered, their values are first brought side by side, eight fields at a
- * time, in 64 bytes for each row and column. If that memory is not available, the call takes
- * longer.
+ * for threads, and for fields that are stored one after another: from eight fields on 2.6 MB and a
+ * byte for 256 columns for each thread, in which values are brought side by side; from four fields
+ * on, if rows or columns are scattered, 64 bytes for each row and column instead. If that memory is
+ * not available, the call takes longer.
  */
 MW_API mw_status mw_operator_apply(const mw_operator *weights, const mw_value_table *table,
                                    const mw_operator_apply_options *options, void *result,

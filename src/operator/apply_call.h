@@ -16,6 +16,7 @@ typedef struct mw_apply_call {
     mw_missing_rule missing;
     double empty; /* the result of a row without entries */
     bool narrow, past_caches;
+    struct mw_window *windows; /* of each member of the team; NULL: none */
     size_t ranges, fields; /* a chunk of work is one of these ranges of ranks, of so many fields */
 } mw_apply_call;
 

@@ -1,18 +1,20 @@
 /* operator_apply.c - an operator times a table of values.
  *
  * Values of a column that lie side by side are summed by row_sums.c, fields one after another by
- * field_sums.c; many fields of scattered columns are brought side by side first (field_rows.c). */
+ * field_sums.c, eight or more of them by window_sums.c where it can; many fields of scattered
+ * columns are brought side by side first (field_rows.c). */
 #include "base/job.h"
 #include "base/options.h"
 #include "operator/field_rows.h"
 #include "operator/field_sums.h"
 #include "operator/past_caches.h"
 #include "operator/row_sums.h"
+#include "operator/window_sums.h"
 
 #include <stdlib.h>
 
 enum {
-    RANGE = 1 << 14, /* ranks of a chunk of work */
+    RANGE = MW_WINDOW_RANKS, /* ranks of a chunk of work */
     /* results with more bytes are written past the caches, if a row has at least so many: */
     LARGE = 1 << 24,
     LONG = 128
@@ -38,8 +40,9 @@ static void apply_chunk(void *work, uint64_t chunk, uint32_t member)
 {
     const mw_apply_call *c = work;
     const apply_part part = part_of(c, chunk);
-    (void)member;
-    if (c->step == 1 && c->count > 1)
+    if (c->windows)
+        mw__window_sums(c, member, part.from, part.to);
+    else if (c->step == 1 && c->count > 1)
         mw__row_sums(c, part.from, part.to);
     else
         mw__field_sums(c, part.from, part.to, part.field, part.field_end);
@@ -173,6 +176,15 @@ static bool groups_apply(const mw_apply_call *c, mw_job *job)
     return there;
 }
 
+static void chunks_apply(mw_apply_call *c, mw_job *job)
+{
+    const uint64_t chunks = c->ranges * ((c->count + c->fields - 1) / c->fields);
+    const uint32_t team = mw__job_team(job, chunks);
+    c->windows = mw__windows_create(c, team);
+    mw__job_chunks(job, team, chunks, apply_chunk, c);
+    free(c->windows);
+}
+
 mw_status mw_operator_apply(const mw_operator *weights, const mw_value_table *table,
                             const mw_operator_apply_options *options, void *result, mw_error *error)
 {
@@ -183,8 +195,6 @@ mw_status mw_operator_apply(const mw_operator *weights, const mw_value_table *ta
     mw_apply_call call = apply_begin(weights, table, options, result);
     mw_job job = mw__job(options->threads, options->progress);
     mw__job_stage(&job, "applying weights", 1);
-    const uint64_t chunks = call.ranges * ((call.count + call.fields - 1) / call.fields);
-    if (!groups_repay(&call) || !groups_apply(&call, &job))
-        mw__job_chunks(&job, mw__job_team(&job, chunks), chunks, apply_chunk, &call);
+    if (!groups_repay(&call) || !groups_apply(&call, &job)) chunks_apply(&call, &job);
     return mw__job_end(&job, MW_OK, error);
 }

@@ -6,51 +6,17 @@
  * same: each value is the sum that mw_interpolate makes, in its order. */
 #include "operator/row_sums.h"
 
-#include "operator/past_caches.h"
+#include "operator/four_doubles.h"
 
 enum {
-    FOUR = 4,
     LINES = 32, /* asked for in each column; the processor finds those after them by itself */
     /* Ranks between one whose values are asked for and one that is summed: so many bytes of a
      * column, within these bounds. */
-    AHEAD_BYTES = 1536,
-    AHEAD_LEAST = 3,
-    AHEAD_MOST = 24
+    AHEAD_BYTES = 6144,
+    AHEAD_LEAST = 6,
+    AHEAD_MOST = 64,
+    LINES_AHEAD = 48 /* the same for rows of one cache line */
 };
-
-typedef double four_doubles __attribute__((vector_size(32), aligned(8)));
-typedef float four_floats __attribute__((vector_size(16), aligned(4)));
-
-static MW_INLINE void four_load(four_doubles *out, const void *values, size_t i, bool narrow)
-{
-    if (narrow)
-        *out = __builtin_convertvector(*(const four_floats *)&((const float *)values)[i],
-                                       four_doubles);
-    else
-        *out = *(const four_doubles *)&((const double *)values)[i];
-}
-
-static MW_INLINE void four_store(void *to, size_t i, const four_doubles *value, bool narrow,
-                                 bool pass)
-{
-    if (narrow) {
-        const four_floats v = __builtin_convertvector(*value, four_floats);
-        float *at = (float *)to + i;
-        if (pass)
-            mw__pass_floats(at, v[0], v[1], v[2], v[3]);
-        else
-            *(four_floats *)at = v;
-    } else {
-        const four_doubles v = *value;
-        double *at = (double *)to + i;
-        if (pass) {
-            mw__pass_doubles(at, v[0], v[1]);
-            mw__pass_doubles(at + 2, v[2], v[3]);
-        } else {
-            *(four_doubles *)at = v;
-        }
-    }
-}
 
 static MW_INLINE void values_sum(const double w[3], const void *const from[3], size_t k, size_t end,
                                  void *restrict to, bool narrow)
@@ -67,20 +33,20 @@ static MW_INLINE void values_sum(const double w[3], const void *const from[3], s
 static MW_INLINE void row_sum_plain(const double w[3], const void *const from[3], size_t n,
                                     void *restrict to, bool narrow, bool pass)
 {
-    const four_doubles x = {w[0], w[0], w[0], w[0]}, y = {w[1], w[1], w[1], w[1]},
-                       z = {w[2], w[2], w[2], w[2]}, zero = {0, 0, 0, 0};
+    const mw_four_doubles x = {w[0], w[0], w[0], w[0]}, y = {w[1], w[1], w[1], w[1]},
+                          z = {w[2], w[2], w[2], w[2]}, zero = {0, 0, 0, 0};
     size_t k = pass ? mw__pass_begin(to) / mw__operand_size(narrow) : 0;
     if (k > n) k = n;
     if (pass) values_sum(w, from, 0, k, to, narrow);
-    for (; k + FOUR <= n; k += FOUR) {
-        four_doubles a, b, c;
-        four_load(&a, from[0], k, narrow);
-        four_load(&b, from[1], k, narrow);
-        four_load(&c, from[2], k, narrow);
-        four_doubles sum = zero + x * a;
+    for (; k + MW_FOUR <= n; k += MW_FOUR) {
+        mw_four_doubles a, b, c;
+        mw__four_load(&a, from[0], k, narrow);
+        mw__four_load(&b, from[1], k, narrow);
+        mw__four_load(&c, from[2], k, narrow);
+        mw_four_doubles sum = zero + x * a;
         sum += y * b;
         sum += z * c;
-        four_store(to, k, &sum, narrow, pass);
+        mw__four_store(to, k, &sum, narrow, pass);
     }
     values_sum(w, from, k, n, to, narrow);
 }
@@ -112,8 +78,8 @@ static MW_INLINE void row_ask(const mw_apply_call *c, size_t rank, bool narrow)
     const size_t most = LINES * MW_CACHE_LINE, row = row_bytes(c), bytes = row < most ? row : most;
     for (uint64_t i = 0; i < e.count && i < MW_NARROW_ROW; i++) {
         const char *values = mw__operand_at(c->values, e.column[i] * c->stride, narrow);
-        for (size_t at = 0; at < bytes; at += MW_CACHE_LINE) __builtin_prefetch(values + at);
-        __builtin_prefetch(values + bytes - 1);
+        for (size_t at = 0; at < bytes; at += MW_CACHE_LINE) __builtin_prefetch(values + at, 0, 2);
+        __builtin_prefetch(values + bytes - 1, 0, 2);
     }
 }
 
@@ -134,9 +100,60 @@ static MW_INLINE void ranks_sum(const mw_apply_call *c, size_t from, size_t to, 
     if (pass) mw__past_caches_end();
 }
 
+/* --- rows of one cache line ------------------------------------------------------------------- */
+
+/* Groups of fields, which field_rows.c brings side by side, have such rows, and nothing else is
+ * read of each column. */
+static bool rows_are_lines(const mw_apply_call *c)
+{
+    return c->past_caches && !c->o->first && row_bytes(c) == MW_CACHE_LINE &&
+           c->stride == c->count && (uintptr_t)c->values % MW_CACHE_LINE == 0 &&
+           (uintptr_t)c->result % MW_CACHE_LINE == 0;
+}
+
+/* Into the second cache: more of them may be on their way than to the first. */
+static MW_INLINE void line_ask(const char *values, const uint32_t v[MW_NARROW_ROW])
+{
+    for (int i = 0; i < MW_NARROW_ROW; i++)
+        __builtin_prefetch(values + v[i] * (size_t)MW_CACHE_LINE, 0, 2);
+}
+
+static MW_INLINE void line_sum(const mw_apply_call *c, size_t rank, bool narrow)
+{
+    const mw_apply_entries e = mw__entries_of(c->o, rank);
+    void *to = __builtin_assume_aligned(
+        (char *)c->result + mw__operator_row(c->o, rank) * (size_t)MW_CACHE_LINE, MW_CACHE_LINE);
+    const size_t n = MW_CACHE_LINE / mw__operand_size(narrow);
+    if (MW_UNLIKELY(!mw__entries_plain(c, e.weight))) {
+        for (size_t k = 0; k < n; k++)
+            mw__operand_store(to, k, mw__sum_any(c, e, k, narrow), narrow);
+        return;
+    }
+    const void *from[3];
+    for (int i = 0; i < 3; i++)
+        from[i] = (const char *)c->values + e.column[i] * (size_t)MW_CACHE_LINE;
+    row_sum_plain(e.weight, from, n, to, narrow, true);
+}
+
+static MW_INLINE void lines_sum(const mw_apply_call *c, size_t from, size_t to, bool narrow)
+{
+    const uint32_t *column = c->o->column;
+    for (size_t rank = from; rank < to; rank++) {
+        if (rank + LINES_AHEAD < c->o->rows)
+            line_ask(c->values, &column[MW_NARROW_ROW * (rank + LINES_AHEAD)]);
+        line_sum(c, rank, narrow);
+    }
+    mw__past_caches_end();
+}
+
 static MW_INLINE void ranks_sum_stamped(const mw_apply_call *c, size_t from, size_t to)
 {
-    if (c->narrow && c->past_caches)
+    const bool lines = rows_are_lines(c);
+    if (c->narrow && lines)
+        lines_sum(c, from, to, true);
+    else if (lines)
+        lines_sum(c, from, to, false);
+    else if (c->narrow && c->past_caches)
         ranks_sum(c, from, to, true, true);
     else if (c->narrow)
         ranks_sum(c, from, to, true, false);

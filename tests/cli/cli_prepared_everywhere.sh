@@ -109,8 +109,8 @@ meshes() {
 
 # --- all commands ---------------------------------------------------------------------------------
 
-# What a mesh without heights answers, too.
-in_the_plane() { # in_the_plane MESH
+# What differs where meshes have marks, polygons, numbers from 1, values of triangles.
+in_short() { # in_short MESH
     local mesh=$1
     for as in '' '--json' '--as surface' '--as star'; do
         # shellcheck disable=SC2086 # words
@@ -118,29 +118,31 @@ in_the_plane() { # in_the_plane MESH
     done
     same 0 check "$mesh"
     same 0 check --json "$mesh"
-    for options in '' '--details' '--base file' '--walk border' '--fill no --walk border' \
-        '--areas' '--any' '--tolerance 0.7 --details' '--start layers' \
-        '--start curve --walk straight'; do
+    same 0 locate --details --base file "$mesh" points.csv
+    for to in vtu gr3 msh; do same 0 convert "$mesh" "made.$to"; done
+    same 0 edit "$mesh" edits.txt -o made.ply --changes changes.csv --numbers numbers.csv
+    same 0 weights --method conservative "$mesh" "$mesh" -o weights.npz
+}
+
+# What a mesh without heights answers, too.
+in_the_plane() { # in_the_plane MESH
+    local mesh=$1
+    in_short "$mesh"
+    for options in '' '--walk border' '--fill no --walk border' '--areas' '--any' \
+        '--tolerance 0.7 --details' '--start layers' '--start curve --walk straight'; do
         # shellcheck disable=SC2086 # words
         same 0 locate $options "$mesh" points.csv
     done
     same 1 locate --strict "$mesh" points.csv
     same 0 weights "$mesh" points.csv -o weights.npz
     same 0 weights --tolerance 0.7 "$mesh" points.csv -o weights.npz
-    for values in faces vertices; do
-        for norm in dstarea fracarea; do
-            same 0 weights --method conservative --values $values --norm $norm --stats "$mesh" \
-                "$mesh" -o weights.npz
-        done
-    done
+    same 0 weights --method conservative --values vertices "$mesh" "$mesh" -o weights.npz
+    same 0 weights --method conservative --norm fracarea --stats "$mesh" "$mesh" -o weights.npz
     for from in 0.1,0.2 '0.3,0.1 --walk straight' '0.2,0.1 --walk border'; do
         # shellcheck disable=SC2086 # words
         same 0 walk --from $from --to 1.9,0.8 "$mesh"
     done
-    for to in off ply obj stl vtk vtu 2dm gr3 14 msh node; do
-        same 0 convert "$mesh" "made.$to"
-    done
-    same 0 edit "$mesh" edits.txt -o made.ply --changes changes.csv --numbers numbers.csv
+    for to in off ply obj stl vtk 2dm 14 node; do same 0 convert "$mesh" "made.$to"; done
     same 0 prepare "$mesh" -o made.mwm
     same 0 prepare --border --fields none "$mesh" -o made.mwm
     same 0 prepare --tiles 2 "$mesh" -o made.tiles
@@ -203,16 +205,16 @@ else
 fi
 meshes bay.gr3
 prepared=(border)
-in_the_plane bay.gr3
+in_short bay.gr3
 same 0 sample --field depth bay.gr3 points.csv
 meshes soil.2dm
 prepared=(mapped)
-in_the_plane soil.2dm
+in_short soil.2dm
 in_space soil.2dm
 # Without heights; and of a mesh that has fields, without them.
 meshes bare.ply
 run prepare -q --fields none hill.ply -o mapped/bare.ply; exits 0
-in_the_plane bare.ply
+in_short bare.ply
 same 3 sample bare.ply points.csv
 same 3 contours --interval 1 bare.ply
 

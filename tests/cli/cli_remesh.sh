@@ -226,7 +226,7 @@ refused 3 "no field 'h'; --field may be one of: z f g"
 run sample octahedron.ply rays.csv --as star --field f --outside nearest
 refused 2 "'--outside' is not for --as star"
 run sample octahedron.ply rays.csv --as star --field f --time all
-refused 2 "'--time' is not for --as star"
+refused 2 'values over time on --as star need --lonlat'
 run sample octahedron.ply rays.csv --field f --lonlat; refused 2 "'--lonlat' needs --as star"
 run sample octahedron.ply rays.csv --field f --centre 1,2,3; refused 2 "'--centre' needs --as star"
 run sample cube.off rays.csv --as star --field z; refused 3 'cube.off: triangle .* centre'

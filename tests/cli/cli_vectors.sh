@@ -69,6 +69,7 @@ prints_line '^3,2,,.*,$'
 sed -i 's|</gpx>|<trk><trkseg><trkpt lat="0" lon="1"/><trkpt lat="1" lon="1"/></trkseg></trk></gpx>|' tracks.gpx
 run sample square.off tracks.gpx
 refused 2 'tracks\.gpx: which layer has the points\? --layer may be one of: waypoints, routes, tracks,'
+run profile -q square.off tracks.gpx; exits 0; prints_line '^0,0,.*,0,1,0,[0-9.]+,[0-9]+,begin$'
 run sample --only-answers --layer track_points square.off tracks.gpx; exits 0
 prints $'x,y,z\n1,0,1\n1,1,2'
 

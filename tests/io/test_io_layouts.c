@@ -567,6 +567,16 @@ static void test_written_faces(void **state)
 }
 
 /* Counts as other programs found them; shared/data/README.md. */
+/* libnetcdf 4.9 of big-endian machines reads the numbers of dimensions in HDF5 files of other
+ * machines the wrong way round, its own ncdump, too; such a file is refused there. */
+static void expect_not_numbered(const char *path)
+{
+    mw_mesh_file file;
+    mw_error error;
+    assert_int_not_equal(mw_read_mesh(path, NULL, &file, &error), MW_OK);
+    assert_non_null(strstr(error.message, "dimension"));
+}
+
 static void test_models(void **state)
 {
     (void)state;
@@ -575,23 +585,28 @@ static void test_models(void **state)
         const char *name;
         size_t vertices, faces;
         const char *crs;
+        bool numbered; /* variables of HDF5 with numbers of dimensions */
     } models[] = {
-        {"ocean/dflow_simplebox_hex7_map.nc.gz", 720, 810, "EPSG:28992"},
-        {"ocean/ugrid_eleven_points.nc", 11, 13, "EPSG:4326"},
-        {"ocean/ugrid_elevation_nl.nc.gz", 2790, 5248, NULL},
-        {"ocean/fesom_mesh_diag.nc.gz", 3140, 5839, "EPSG:4326"},
-        {"ocean/ugrid_overlap_rll10_csne4.nc", 683, 856, "EPSG:4326"},
-        {"ocean/fvcom_example.nc", 551, 903, "EPSG:4326"},
-        {"ocean/schism_out2d.nc.gz", 823, 791, NULL},
-        {"ocean/shinnecock_fort.63.nc", 3070, 5780, "EPSG:4326"},
-        {"ocean/cairns.sww.gz", 2579, 4962, NULL},
-        {"ocean/icon_5120.nc.gz", 2570, 5120, "EPSG:4326"},
-        {"ocean/tuflowfv_cone.nc.gz", 1497, 2866, NULL},
-        {"star/mpas_qu1920.nc.gz", 162, 320, "EPSG:4326"},
+        {"ocean/dflow_simplebox_hex7_map.nc.gz", 720, 810, "EPSG:28992", false},
+        {"ocean/ugrid_eleven_points.nc", 11, 13, "EPSG:4326", false},
+        {"ocean/ugrid_elevation_nl.nc.gz", 2790, 5248, NULL, true},
+        {"ocean/fesom_mesh_diag.nc.gz", 3140, 5839, "EPSG:4326", true},
+        {"ocean/ugrid_overlap_rll10_csne4.nc", 683, 856, "EPSG:4326", true},
+        {"ocean/fvcom_example.nc", 551, 903, "EPSG:4326", true},
+        {"ocean/schism_out2d.nc.gz", 823, 791, NULL, true},
+        {"ocean/shinnecock_fort.63.nc", 3070, 5780, "EPSG:4326", false},
+        {"ocean/cairns.sww.gz", 2579, 4962, NULL, false},
+        {"ocean/icon_5120.nc.gz", 2570, 5120, "EPSG:4326", false},
+        {"ocean/tuflowfv_cone.nc.gz", 1497, 2866, NULL, true},
+        {"star/mpas_qu1920.nc.gz", 162, 320, "EPSG:4326", false},
     };
     for (size_t i = 0; i < sizeof models / sizeof *models; i++) {
         const char *path = files_shared(models[i].name);
         if (!path) continue;
+        if (models[i].numbered && __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__) {
+            expect_not_numbered(path);
+            continue;
+        }
         mw_mesh_file file = read_layout(path, NULL);
         assert_int_equal(file.point_count, models[i].vertices);
         assert_int_equal(file.faces ? file.face_count : file.triangle_count, models[i].faces);

@@ -224,20 +224,21 @@ static void test_models(void **state)
         size_t steps;
         const char *field;
         size_t values;
+        bool numbered; /* HDF5 that libnetcdf misreads on big-endian machines: test_io_layouts.c */
     } models[] = {
-        {"ocean/shinnecock_fort.63.nc", 57, "zeta", 3070},
-        {"ocean/fvcom_example.nc", 10, "u:19", 903},
-        {"ocean/schism_out2d.nc.gz", 48, "dryFlagElement", 791},
-        {"ocean/cairns.sww.gz", 51, "stage", 2579},
-        {"ocean/icon_5120.nc.gz", 2, "t2m:1", 5120},
-        {"ocean/dflow_simplebox_hex7_map.nc.gz", 13, "mesh2d_s1", 810},
-        {"ocean/ugrid_adcirc_bg.nc.gz", 2, "ssh", 12769},
-        {"ocean/tuflowfv_cone.nc.gz", 16, "H", 2866},
-        {"ocean/ugrid_elevation_nl.nc.gz", 0, "elevation", 5248},
+        {"ocean/shinnecock_fort.63.nc", 57, "zeta", 3070, false},
+        {"ocean/fvcom_example.nc", 10, "u:19", 903, true},
+        {"ocean/schism_out2d.nc.gz", 48, "dryFlagElement", 791, true},
+        {"ocean/cairns.sww.gz", 51, "stage", 2579, false},
+        {"ocean/icon_5120.nc.gz", 2, "t2m:1", 5120, false},
+        {"ocean/dflow_simplebox_hex7_map.nc.gz", 13, "mesh2d_s1", 810, false},
+        {"ocean/ugrid_adcirc_bg.nc.gz", 2, "ssh", 12769, false},
+        {"ocean/tuflowfv_cone.nc.gz", 16, "H", 2866, true},
+        {"ocean/ugrid_elevation_nl.nc.gz", 0, "elevation", 5248, true},
     };
     for (size_t i = 0; i < sizeof models / sizeof *models; i++) {
         const char *path = files_shared(models[i].name);
-        if (!path) continue;
+        if (!path || (models[i].numbered && __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__)) continue;
         mw_series *series = open_series(path, NULL);
         const mw_series_info *info = mw_series_describe(series);
         assert_int_equal(info->step_count, models[i].steps);

@@ -18,8 +18,18 @@ uint64_t environment_print_seed(const char *test, uint64_t usual)
     return seed;
 }
 
+static bool environment_is_set(const char *name)
+{
+    const char *text = getenv(name);
+    return text && strcmp(text, "0") != 0;
+}
+
 bool environment_is_long(void)
 {
-    const char *text = getenv("MW_TEST_LONG");
-    return text && strcmp(text, "0") != 0;
+    return environment_is_set("MW_TEST_LONG");
+}
+
+bool environment_is_short(void)
+{
+    return environment_is_set("MW_TEST_SHORT");
 }

@@ -40,13 +40,12 @@ static void grid_bits(grid_bytes *g, uint64_t bits, size_t size, bool big)
 
 static void grid_real(grid_bytes *g, double value, bool wide, bool big)
 {
-    uint64_t bits = 0;
     float single = (float)value;
-    if (wide)
-        memcpy(&bits, &value, sizeof value);
-    else
-        memcpy(&bits, &single, sizeof single);
-    grid_bits(g, bits, wide ? 8 : 4, big);
+    uint64_t bits;
+    uint32_t single_bits;
+    memcpy(&bits, &value, sizeof bits);
+    memcpy(&single_bits, &single, sizeof single_bits);
+    grid_bits(g, wide ? bits : single_bits, wide ? 8 : 4, big);
 }
 
 void grid_release(grid_bytes *g)
