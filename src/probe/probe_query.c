@@ -239,20 +239,6 @@ static mw_touch probe_answer_certain(const mw_prober *prober, mw_probe_cursor *c
     return mw__ray_touch_found(&search);
 }
 
-bool mw__probe_ray(const mw_probe_options *options, const double q[3], const double m[3],
-                   mw_ray_query *ray)
-{
-    if (!mw__is_finite3(q) || !mw__is_finite3(m)) return false;
-    *ray = (mw_ray_query){.line = {{q[0], q[1], q[2]}, {m[0], m[1], m[2]}, {0}},
-                          .extent = options->extent,
-                          .faces = options->faces,
-                          .least = options->min_distance,
-                          .greatest = options->max_distance > 0 ? options->max_distance : INFINITY,
-                          .end = {m[0], m[1], m[2]}};
-    if (ray->extent == MW_PROBE_SEGMENT) return mw__line_through(q, m, &ray->line);
-    return m[0] != 0 || m[1] != 0 || m[2] != 0;
-}
-
 /* The answer of a query, and the state of the series after it. */
 static mw_touch probe_conclude(const mw_prober *prober, mw_probe_cursor *cursor, mw_touch touch,
                                mw_probe_counters *work)

@@ -22,12 +22,21 @@ typedef struct mw_ray_query {
 /* How a ray meets a triangle. */
 typedef enum mw_ray_side { MW_RAY_MISSES = 0, MW_RAY_FRONT, MW_RAY_BACK } mw_ray_side;
 
-/* --- probe_query.c --- */
-
 /* The line, ray or segment of a query. Returns false if a coordinate is not finite, or it has no
  * direction. */
-bool mw__probe_ray(const mw_probe_options *options, const double q[3], const double m[3],
-                   mw_ray_query *ray);
+static MW_INLINE bool mw__probe_ray(const mw_probe_options *options, const double q[3],
+                                    const double m[3], mw_ray_query *ray)
+{
+    if (!mw__is_finite3(q) || !mw__is_finite3(m)) return false;
+    *ray = (mw_ray_query){.line = {{q[0], q[1], q[2]}, {m[0], m[1], m[2]}, {0}},
+                          .extent = options->extent,
+                          .faces = options->faces,
+                          .least = options->min_distance,
+                          .greatest = options->max_distance > 0 ? options->max_distance : INFINITY,
+                          .end = {m[0], m[1], m[2]}};
+    if (ray->extent == MW_PROBE_SEGMENT) return mw__line_through(q, m, &ray->line);
+    return m[0] != 0 || m[1] != 0 || m[2] != 0;
+}
 
 /* --- ray_hit.c --- */
 

@@ -9,6 +9,7 @@ quick to compile; the code itself is tested elsewhere.
 """
 
 import asyncio
+import os
 import sys
 from pathlib import Path
 
@@ -74,3 +75,5 @@ async def main(recipe: Path, out: Path) -> None:
 
 
 asyncio.run(main(*(Path(argument).resolve() for argument in sys.argv[1:])))
+sys.stdout.flush()
+os._exit(0)  # rattler 0.28 crashes now and then when Python ends, with all done
