@@ -85,8 +85,7 @@ static const option star_options[] = {
      NULL},
     {"open", 0, OPTION_FLAG, offsetof(star_settings, open), NULL,
      "POLYHEDRON may leave directions open, as an ocean does, or overlap: boxes find the facet "
-     "that "
-     "a ray meets first; the status is outside if it meets none",
+     "that a ray meets first; the status is outside if it meets none",
      NULL},
     {"columns", 0, OPTION_TEXT, offsetof(star_settings, stream.source.columns), "LIST",
      "columns of DIRECTIONS that hold x, y and z, or longitude and latitude, as names or numbers "

@@ -142,6 +142,9 @@ run weights --lonlat --open ocean.14 places.csv -o w.nc --strict; exits 1
 rm w.nc
 run weights --lonlat ocean.14 places.csv -o w.nc; refused 3 'edge . has no neighbour'
 run weights globe.14 places.csv -o w.nc; refused 3 'globe.14: triangle '
+printf '%s\n' OFF '3 1 0' '0 0 5' '90 0 5' '0 80 5' '3 0 1 2' >height.off
+run weights --lonlat --open height.off places.csv -o w.nc
+refused 3 'height.off: has z, and no coordinate system of longitudes and latitudes'
 run weights --open globe.14 places.csv -o w.nc; refused 2 "'--open' needs --lonlat"
 run weights --lonlat --start grid globe.14 places.csv -o w.nc
 refused 2 "'--start' is for points in the plane, not for --lonlat"
