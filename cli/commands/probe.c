@@ -127,8 +127,8 @@ static const option probe_options[] = {
      NULL},
     {"columns", 0, OPTION_TEXT, offsetof(probe_settings, stream.source.columns), "LIST",
      "columns of QUERIES that hold the point and the motion, six names or numbers from 1 (default: "
-     "those that a header "
-     "calls x, y, z, mx, my, mz, or the only six; with --inside and --nearest x, y, z)",
+     "those that the header names x, y, z, mx, my, mz, or the only six; with --inside and "
+     "--nearest x, y, z)",
      NULL},
     {"strict", 0, OPTION_FLAG, offsetof(probe_settings, stream.strict), NULL,
      "exit with 1 if a row is 'limit' or 'bad'; 'none' is an answer", NULL},
@@ -170,8 +170,8 @@ static int probed_surface_fail(const probed_surface *p, const char *path, const 
 {
     int end = fail_mesh(path, error);
     if (end == END_INPUT && !p->settings->any)
-        complain("'meshwalk check --as surface%s %s' lists every defect, 'meshwalk view' shows "
-                 "it; --any probes all the same",
+        complain("'meshwalk check --as surface%s %s' lists every defect, 'meshwalk view' shows it; "
+                 "--any answers probes all the same",
                  p->settings->weld ? " --weld" : "", path);
     return end;
 }

@@ -126,9 +126,9 @@ typedef struct mw_file_options {
  *   becomes the triangle field "material"
  * - Selafin of TELEMAC (.slf): either byte order, single and double precision; the variables at the
  *   first time become fields
- * - MSH of Gmsh, 2.2, 4.0 and 4.1: text and binary; physical groups of faces become the triangle
- *   field "physical", those of lines mark edges; $NodeData and $ElementData of the first time
- *   become fields and triangle fields
+ * - MSH of Gmsh: 2.2 and 4.1 as text and binary, 4.0 as text; physical groups of faces become the
+ *   triangle field "physical", those of lines mark edges; $NodeData and $ElementData of the first
+ *   time become fields and triangle fields
  * - VTK: legacy unstructured grids and polydata, text and binary; VTU: text, base64 and raw, with
  *   zlib or without. Values of points become fields, those of cells triangle fields
  * - SU2 in the plane; markers mark edges

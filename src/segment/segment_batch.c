@@ -206,8 +206,8 @@ static bool chunk_join(segments_chunk *chunk, const segments_follower *lanes, ui
     return true;
 }
 
-/* Room for more pieces; `done` segments have theirs then. Room for those of all segments, if the
- * others have as many each, so that they need not be copied again. */
+/* Make room for `more` pieces; with these, `done` segments have theirs. The room is enough for all
+ * segments if the others have equally many each, so that pieces are not copied again. */
 static bool batch_make_room(segment_batch *b, size_t more, size_t done)
 {
     const size_t wanted = b->count + more, least = wanted + wanted / 2;
@@ -326,7 +326,8 @@ static mw_status segments_check(const mw_locator *locator, const double *segment
     if ((n && !segments) || !pieces)
         return mw__fail(error, MW_ERROR_ARGUMENT, "the segments or the results are NULL");
     if (stride == 1 || stride == 3)
-        return mw__fail(error, MW_ERROR_ARGUMENT, "a stride of %zu is too small for a segment",
+        return mw__fail(error, MW_ERROR_ARGUMENT,
+                        "a stride of %zu is too small for a segment: it must be 2 or at least 4",
                         stride);
     return MW_OK;
 }
