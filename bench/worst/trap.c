@@ -1,4 +1,5 @@
 /* trap.c - the list of traps. */
+#include "bench/worst/trap.h"
 #include "bench/worst/trap_entry.h"
 
 #include <math.h>

@@ -2,7 +2,7 @@
 #ifndef MW_BENCH_WORST_TRAP_CLOCK_H
 #define MW_BENCH_WORST_TRAP_CLOCK_H
 
-#include "bench/worst/trap.h"
+#include "bench/worst/trap_figures.h"
 
 /* Answer n queries, either way. Returns an exit code. */
 typedef int trap_answer(void *self, size_t n, bool alone);

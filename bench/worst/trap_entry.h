@@ -2,7 +2,7 @@
 #ifndef MW_BENCH_WORST_TRAP_ENTRY_H
 #define MW_BENCH_WORST_TRAP_ENTRY_H
 
-#include "bench/worst/trap.h"
+#include "bench/worst/trap_figures.h"
 
 typedef struct trap_entry trap_entry;
 typedef int trap_kind(const trap_entry *trap, const trap_plan *plan, trap_figures *figures);
