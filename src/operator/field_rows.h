@@ -9,9 +9,10 @@
 #include "base/job.h"
 
 /* `count` fields of `n` values of `size` bytes: value i of field k is at i * stride + k * step (in
- * values), and in the rows at i * count + k. */
+ * values). A row is a cache line, and value k of line i is that of field k. */
 typedef struct mw_field_rows {
     char *fields, *rows;
+    const uint32_t *place; /* the line of value i is place[i]; spread: NULL, lines are in order */
     size_t n, count, size, stride, step;
 } mw_field_rows;
 

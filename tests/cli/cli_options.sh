@@ -158,6 +158,19 @@ done
 for value in '' x -1 1.0 18446744073709551616; do
     run locate --seed "$value" a b; refused 2 "'--seed' must be"
 done
+# The greatest and the least that each takes.
+for words in '--threads 256' '--steps 4294967295' '--layers 8' '--sample 1' '--sample 4294967294' \
+    '--seed 0' '--seed 18446744073709551615' '--cells 1073741824'; do
+    # shellcheck disable=SC2086 # words
+    run locate $words a b; refused 3 'a: No such file'
+done
+run probe --race 256 a b; refused 3 'a: No such file'
+run star --levels 13 a b; refused 3 'a: No such file'
+# A long name is told up to its 63rd letter.
+for length in 62 63 64 65 300; do
+    name=$(printf "%0${length}d" 0)
+    run locate "--$name" a b; refused 2 "unknown option '--${name:0:63}'$"
+done
 only_files # none
 
 # Forms of one option; the last one counts; -- ends them.

@@ -1,4 +1,4 @@
-#include "support/call_inputs.h"
+#include "support/calls/call_inputs.h"
 
 #include <math.h>
 #include <meshwalk/io.h>

@@ -1,4 +1,4 @@
-#include "cli/stream/edit_stream.h"
+#include "cli/edits/edit_stream.h"
 #include "cli/frame/files.h"
 #include "cli/frame/message.h"
 #include "cli/frame/progress.h"

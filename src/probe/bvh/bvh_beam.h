@@ -28,11 +28,11 @@
  *    comparison keeps the old end where the new one is NaN.
  *  - A product that overflows says that the box is beyond 2^127, where no box is.
  *  - If q is farther than MW_BVH_FAR, or overflows, w is infinite and all boxes are met. */
-#ifndef MW_SRC_PROBE_BVH_BEAM_H
-#define MW_SRC_PROBE_BVH_BEAM_H
+#ifndef MW_SRC_PROBE_BVH_BVH_BEAM_H
+#define MW_SRC_PROBE_BVH_BVH_BEAM_H
 
 #include "predicates/line_lanes.h"
-#include "probe/bvh.h"
+#include "probe/bvh/bvh.h"
 
 #include <float.h>
 #include <stddef.h>

@@ -1,11 +1,11 @@
 /* edit_stream.h - carries out a stream of edits in order, and writes their answers and changes as
  * they come. */
-#ifndef MW_CLI_STREAM_EDIT_STREAM_H
-#define MW_CLI_STREAM_EDIT_STREAM_H
+#ifndef MW_CLI_EDITS_EDIT_STREAM_H
+#define MW_CLI_EDITS_EDIT_STREAM_H
 
 #include "cli/frame/text.h"
 #include "cli/output/side_outputs.h"
-#include "cli/stream/edit_log.h"
+#include "cli/edits/edit_log.h"
 #include "cli/stream/statistics.h"
 
 /* The files written beside the mesh, by option. */

@@ -1,4 +1,4 @@
-#include "cli/stream/edit_log.h"
+#include "cli/edits/edit_log.h"
 
 #include <stdlib.h>
 

@@ -8,7 +8,7 @@
  * two with six at most. So on each level there are at most as many divisions as were nodes, and a
  * third of those on the level below: fewer than 1.5 times all nodes, and k / 2. And there are at
  * most as many as levels for each insertion. */
-#include "probe/bvh.h"
+#include "probe/bvh/bvh.h"
 
 #include <float.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 /* call_inputs.h - meshes, points, surfaces and files of any size, for the calls of long_calls.h. */
-#ifndef MW_TESTS_SUPPORT_CALL_INPUTS_H
-#define MW_TESTS_SUPPORT_CALL_INPUTS_H
+#ifndef MW_TESTS_SUPPORT_CALLS_CALL_INPUTS_H
+#define MW_TESTS_SUPPORT_CALLS_CALL_INPUTS_H
 
 #include "support/meshes.h"
 #include "support/star_shapes.h"

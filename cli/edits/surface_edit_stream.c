@@ -1,4 +1,4 @@
-#include "cli/stream/surface_edit_stream.h"
+#include "cli/edits/surface_edit_stream.h"
 #include "cli/frame/files.h"
 #include "cli/frame/message.h"
 #include "cli/frame/progress.h"

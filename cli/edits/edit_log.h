@@ -3,8 +3,8 @@
  *
  * The others are kept here, so a log of any length takes memory only for the edits that can be
  * undone. */
-#ifndef MW_CLI_STREAM_EDIT_LOG_H
-#define MW_CLI_STREAM_EDIT_LOG_H
+#ifndef MW_CLI_EDITS_EDIT_LOG_H
+#define MW_CLI_EDITS_EDIT_LOG_H
 
 #include <meshwalk/meshwalk.h>
 #include <stdbool.h>

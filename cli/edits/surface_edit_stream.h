@@ -1,11 +1,11 @@
 /* surface_edit_stream.h - carries out a stream of edits of a surface in order, answers the probes
  * among them, and writes answers and changes as they come. */
-#ifndef MW_CLI_STREAM_SURFACE_EDIT_STREAM_H
-#define MW_CLI_STREAM_SURFACE_EDIT_STREAM_H
+#ifndef MW_CLI_EDITS_SURFACE_EDIT_STREAM_H
+#define MW_CLI_EDITS_SURFACE_EDIT_STREAM_H
 
 #include "cli/frame/text.h"
 #include "cli/output/side_outputs.h"
-#include "cli/stream/edit_stream.h"
+#include "cli/edits/edit_stream.h"
 
 typedef struct surface_edit_stream {
     mw_surface *surface;

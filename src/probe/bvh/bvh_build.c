@@ -12,17 +12,12 @@
  * own.
  *
  * The tree depends on the triangles alone, not on threads. */
-#include "base/random.h"
-#include "probe/bvh.h"
+#include "probe/bvh/bvh.h"
+#include "probe/bvh/bvh_item.h"
 
 #include <float.h>
 #include <stdatomic.h>
 #include <stdlib.h>
-#include <string.h>
-
-#ifdef __SSE2__
-#include <emmintrin.h>
-#endif
 
 enum {
     MOST_BINS = 16,
@@ -34,46 +29,6 @@ enum {
 /* The areas of boxes up to here are floats. */
 #define LARGEST 0x1p40f
 
-typedef float build_vector __attribute__((vector_size(16)));
-typedef int32_t build_index __attribute__((vector_size(16)));
-
-static MW_INLINE build_vector vector_min(build_vector a, build_vector b)
-{
-#ifdef __SSE2__
-    return (build_vector)_mm_min_ps((__m128)a, (__m128)b);
-#else
-    build_index less = a < b;
-    return (build_vector)((less & (build_index)a) | (~less & (build_index)b));
-#endif
-}
-
-static MW_INLINE build_vector vector_max(build_vector a, build_vector b)
-{
-    return -vector_min(-a, -b);
-}
-
-/* A triangle: the sides of its box on three axes. The fourth number of `low` is the triangle; that
- * of `high` is 0, or in a range that is in order a number for its corners. */
-typedef struct build_item {
-    build_vector low, high;
-} build_item;
-
-/* Numbers with this bit are no denormal floats, which are slow. */
-#define NORMAL_FLOAT 0x40000000u
-
-static uint32_t item_triangle(const build_item *item)
-{
-    uint32_t bits;
-    memcpy(&bits, (const char *)&item->low + 12, sizeof bits);
-    return bits & ~NORMAL_FLOAT;
-}
-
-static void item_set_triangle(build_item *item, uint32_t triangle)
-{
-    triangle |= NORMAL_FLOAT;
-    memcpy((char *)&item->low + 12, &triangle, sizeof triangle);
-}
-
 /* Items first .. first + count - 1, with their box. */
 typedef struct build_range {
     build_vector low, high;
@@ -84,13 +39,6 @@ typedef struct build_range {
 typedef struct build_node {
     uint32_t first[MW_BVH_WIDTH], count[MW_BVH_WIDTH];
 } build_node;
-
-/* Half the surface area of a box. The share of all lines that meet a box is proportional to it. */
-static MW_INLINE float area_of(build_vector low, build_vector high)
-{
-    build_vector d = high - low;
-    return d[0] * d[1] + d[1] * d[2] + d[2] * d[0];
-}
 
 /* --- bins --- */
 
@@ -180,45 +128,6 @@ static void bins_look_along(const build_bins *b, int axis, build_split *best)
     }
 }
 
-/* --- items in order --- */
-
-/* A number for the corners of a triangle: equal triangles have one number, others seldom. As a
- * float it is neither 0 nor infinite. */
-static float corners_number(const mw_surface *surface, uint32_t triangle)
-{
-    uint64_t mixed = 0, bits;
-    for (uint32_t i = 0; i < 9; i++) {
-        double x = mw__surface_corner(surface, triangle, i / 3)[i % 3] + 0.0; /* no -0 */
-        memcpy(&bits, &x, sizeof bits);
-        mixed = mw__mix(mixed + bits);
-    }
-    uint32_t number = NORMAL_FLOAT | (uint32_t)mixed % (NORMAL_FLOAT / 2);
-    float as_float;
-    memcpy(&as_float, &number, sizeof as_float);
-    return as_float;
-}
-
-/* Smaller boxes first, then by corners, then by number. */
-static int compare_items(const void *a, const void *b)
-{
-    build_item x, y;
-    memcpy(&x, a, sizeof x);
-    memcpy(&y, b, sizeof y);
-    float x_area = area_of(x.low, x.high), y_area = area_of(y.low, y.high);
-    if (x_area != y_area) return x_area < y_area ? -1 : 1;
-    if (x.high[3] != y.high[3]) return x.high[3] < y.high[3] ? -1 : 1;
-    return item_triangle(&x) < item_triangle(&y) ? -1 : 1;
-}
-
-/* Put items in order. The ranges that they are divided into are so, too. */
-static void items_order(build_item *item, uint32_t n, const mw_surface *surface)
-{
-    if (item[0].high[3] != 0) return;
-    for (uint32_t i = 0; i < n; i++)
-        item[i].high[3] = corners_number(surface, item_triangle(&item[i]));
-    qsort(item, n, sizeof *item, compare_items);
-}
-
 /* --- ranges --- */
 
 static void range_measure(build_range *r, const build_item *items)
@@ -238,20 +147,6 @@ static void range_cut(build_range *r, build_range *right, const build_item *item
     r->count = left;
     range_measure(r, items);
     range_measure(right, items);
-}
-
-/* Where to cut items that are in order: in the middle, or between triangles that differ as near to
- * it as they are. Two cuts part equal triangles that are more than half of all from others, and any
- * other cut leaves a quarter on either side: so the tree is at most twice as deep as by halving. */
-static uint32_t items_cut(const build_item *item, uint32_t n)
-{
-    const uint32_t middle = n / 2;
-    for (uint32_t off = 0; off < middle; off++) {
-        const uint32_t before = middle - off, behind = middle + off;
-        if (item[before].high[3] != item[before - 1].high[3]) return before;
-        if (behind < n && item[behind].high[3] != item[behind - 1].high[3]) return behind;
-    }
-    return middle;
 }
 
 /* The items of the left side first. Returns their number. */
@@ -299,8 +194,8 @@ static void range_divide(bvh_building *b, build_range *r, build_range *right)
     for (int axis = 0; axis < 3; axis++) bins_look_along(&bins, axis, &best);
     if (!(best.cost < INFINITY)) { /* all centres are one */
         atomic_store_explicit(&b->crowds, true, memory_order_relaxed);
-        items_order(item, r->count, b->surface);
-        range_cut(r, right, b->items, items_cut(item, r->count));
+        mw__bvh_items_order(item, r->count, b->surface);
+        range_cut(r, right, b->items, mw__bvh_items_cut(item, r->count));
         return;
     }
     uint32_t left = items_part(item, r->count, &bins, best);

@@ -8,8 +8,8 @@
  *
  * bvh_build.c divides the triangles, bvh_fit.c fits the boxes, bvh_beam.h tests the children of a
  * node against a line, bvh_follow.c lets the tree follow single triangles. */
-#ifndef MW_SRC_PROBE_BVH_H
-#define MW_SRC_PROBE_BVH_H
+#ifndef MW_SRC_PROBE_BVH_BVH_H
+#define MW_SRC_PROBE_BVH_BVH_H
 
 #include "base/job.h"
 #include "surface/surface.h"

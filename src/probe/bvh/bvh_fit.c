@@ -1,6 +1,6 @@
 /* bvh_fit.c - the frame of a bounding volume hierarchy, and boxes that are fitted to the present
  * vertices, the lowest level first. */
-#include "probe/bvh.h"
+#include "probe/bvh/bvh.h"
 
 #include <float.h>
 #include <stdatomic.h>
