@@ -9,9 +9,9 @@
 #include "cli/vertices/traced_constraints.h"
 #include "cli/vertices/vertex_table.h"
 #include "cli/output/mesh_output.h"
-#include "cli/stream/edit_stream.h"
+#include "cli/edits/edit_stream.h"
 #include "cli/stream/point_query.h"
-#include "cli/stream/surface_edit_stream.h"
+#include "cli/edits/surface_edit_stream.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -9,128 +9,6 @@
 
 #include <stdlib.h>
 
-static const char *walk_name(int i)
-{
-    return mw_walk_name((mw_walk_kind)i);
-}
-static const char *walk_help(int i)
-{
-    return mw_walk_help((mw_walk_kind)i);
-}
-static const char *start_name(int i)
-{
-    return mw_start_name((mw_start_kind)i);
-}
-static const char *start_help(int i)
-{
-    return mw_start_help((mw_start_kind)i);
-}
-static const char *arithmetic_name(int i)
-{
-    return i == MW_EXACT ? "exact" : i == MW_DOUBLE ? "double" : NULL;
-}
-
-/* The walks that may finish those whose own tests only guide them. */
-static const mw_walk_kind finishes[] = {MW_WALK_AUTO, MW_WALK_REMEMBERING, MW_WALK_STOCHASTIC};
-static const char *finish_name(int i)
-{
-    return i < (int)(sizeof finishes / sizeof *finishes) ? mw_walk_name(finishes[i]) : NULL;
-}
-
-/* Whether pockets and holes are filled: by mw_fill_mode. */
-static const char *fill_name(int i)
-{
-    static const char *const names[] = {
-        [MW_FILL_AUTO] = "auto", [MW_FILL_YES] = "yes", [MW_FILL_NO] = "no", NULL};
-    return names[i];
-}
-
-/* Where layers go down: by mw_descent. */
-static const char *descent_name(int i)
-{
-    static const char *const names[] = {"auto", "nearest", "coordinate", NULL};
-    return names[i];
-}
-static const char *descent_help(int i)
-{
-    static const char *const helps[] = {
-        "the nearest", "the nearest, which makes the shorter walks",
-        ("the one with the largest coordinate of the point, which --walk direct and "
-         "barycentric know")};
-    return helps[i];
-}
-
-const choices point_query_walks = {"walk", walk_name, walk_help};
-const choices point_query_starts = {"start", start_name, start_help};
-const choices point_query_descents = {"descent", descent_name, descent_help};
-static const choices arithmetics = {"arithmetic", arithmetic_name, NULL};
-static const choices fill_choices = {"way to fill", fill_name, NULL};
-static const choices finish_choices = {"way to finish", finish_name, NULL};
-
-const option point_query_options[] = {
-    {"walk", 0, OPTION_CHOICE, offsetof(point_query_settings, walk), "NAME",
-     "how to walk to the triangle (default: auto):", &point_query_walks},
-    {"start", 0, OPTION_CHOICE, offsetof(point_query_settings, start), "NAME",
-     "how to choose the first triangle (default: auto):", &point_query_starts},
-    {"arithmetic", 0, OPTION_CHOICE, offsetof(point_query_settings, arithmetic), "NAME",
-     "how walks decide their turns (default: exact); the triangle found is exact in either case:",
-     &arithmetics},
-    {"finish", 0, OPTION_CHOICE, offsetof(point_query_settings, finish), "NAME",
-     "the walk that ends those whose own tests are only a guide (default: auto, by the mesh):",
-     &finish_choices},
-    {"fill", 0, OPTION_CHOICE, offsetof(point_query_settings, fill), "NAME",
-     "fill pockets and holes of the mesh with triangles that count as outside, so that every walk "
-     "can cross them; "
-     "without "
-     "them only --walk border finds its way (default: auto: no with --walk border, else yes):",
-     &fill_choices},
-    {"steps", 0, OPTION_COUNT, offsetof(point_query_settings, steps), "K",
-     "--walk fast-stochastic: steps with one test (default: 0, estimated)", NULL},
-    {"areas", 0, OPTION_FLAG, offsetof(point_query_settings, areas), NULL,
-     "store the areas of the triangles, which saves tests with --walk direct", NULL},
-    {"sample", 0, OPTION_SAMPLE, offsetof(point_query_settings, sample), "K",
-     "--start sample: look at K random triangles; also cube-root (the default) or fourth-root, of "
-     "the number of "
-     "vertices",
-     NULL},
-    {"cells", 0, OPTION_COUNT, offsetof(point_query_settings, cells), "N",
-     "--start grid, buckets, triangle-buckets, two-level-grid: about N cells, of the first level; "
-     "curve: N samples "
-     "(default: 0, by the size of "
-     "the "
-     "mesh)",
-     NULL},
-    {"layers", 0, OPTION_COUNT, offsetof(point_query_settings, layers), "N",
-     "--start layers: N layers, the mesh itself counted (default: 0, by its size)", NULL},
-    {"descent", 0, OPTION_CHOICE, offsetof(point_query_settings, descent), "NAME",
-     "--start layers: the vertex at which to go down from one to the next (default: auto):",
-     &point_query_descents},
-    {"tolerance", 0, OPTION_LENGTH, offsetof(point_query_settings, tolerance), "D",
-     "a point outside, at most D away from the mesh, is 'near' (default: 0)", NULL},
-    {"columns", 0, OPTION_TEXT, offsetof(point_query_settings, stream.source.columns), "LIST",
-     "columns of POINTS that hold x and y, as names or numbers from 1: lon,lat or 3,4 (default: "
-     "those that the header names so, in one of the ways that the manual page lists, or the only "
-     "two)",
-     NULL},
-    {"crs", 0, OPTION_TEXT, offsetof(point_query_settings, crs), "CRS",
-     "the coordinate system of MESH, or of polygons, as EPSG:2056 (default: what their file tells)",
-     NULL},
-    {"points-crs", 0, OPTION_TEXT, offsetof(point_query_settings, stream.source.crs), "CRS",
-     "that of POINTS, or 'same' as MESH (default: what POINTS tell; columns called lon and lat are "
-     "WGS 84). "
-     "Points in another system than MESH are transformed",
-     NULL},
-    {"trust", 0, OPTION_FLAG, offsetof(point_query_settings, trust), NULL,
-     "do not check a prepared MESH (.mwm): only what is needed is read. For files of your own: "
-     "with a damaged one the program may crash",
-     NULL},
-    {"any", 0, OPTION_FLAG, offsetof(point_query_settings, any), NULL,
-     "accept a mesh that is not an embedding; a warning says which promise is void, and 'meshwalk "
-     "view' shows the defects",
-     NULL},
-    {0},
-};
-
 static void point_query_warn(const point_query *q, const char *path)
 {
     const char *promise = mw_locator_void_promise(q->locator);
@@ -186,32 +64,6 @@ static int point_query_make_locator(point_query *q, const char *path, bool borde
     q->locator = q->own_locator;
     point_query_warn(q, path);
     return 0;
-}
-
-const char *point_query_option_of_plane(const point_query_settings *q)
-{
-    return q->crs              ? "crs"
-           : q->tolerance != 0 ? "tolerance"
-           : q->sample         ? "sample"
-           : q->steps          ? "steps"
-           : q->cells          ? "cells"
-           : q->layers         ? "layers"
-           : q->walk           ? "walk"
-           : q->start          ? "start"
-           : q->arithmetic     ? "arithmetic"
-           : q->finish         ? "finish"
-           : q->fill           ? "fill"
-           : q->descent        ? "descent"
-           : q->areas          ? "areas"
-           : q->any            ? "any"
-           : q->trust          ? "trust"
-                               : NULL;
-}
-
-int point_query_check_index(uint32_t cells, uint32_t layers)
-{
-    int end = options_limit("cells", cells, UINT32_C(1) << 30, "2^30");
-    return end ? end : options_limit("layers", layers, MW_MAX_LAYERS, NULL);
 }
 
 /* Only the border walk works in a mesh whose pockets and holes are not filled. */
@@ -411,7 +263,7 @@ int point_query_locate(const point_query *q, const query_block *block, mw_locati
         .walk = (mw_walk_kind)settings->walk,
         .start = (mw_start_kind)settings->start,
         .arithmetic = (mw_arithmetic)settings->arithmetic,
-        .finish = finishes[settings->finish],
+        .finish = point_query_finish(settings),
         /* Each block has its own random numbers. */
         .seed = settings->stream.common.seed + block->block,
         .samples = settings->sample,
@@ -486,9 +338,9 @@ static void point_query_report(const void *self, report *r)
     if (context->query->count_rows) context->query->count_rows(context->self, r);
     for (int i = 0; i < MW_WHERE_COUNT && !context->query->count_rows; i++)
         report_count(r, mw_where_name((mw_where)i), context->statistics.where[i]);
-    report_string(r, "walk", walk_name(settings->walk));
-    report_string(r, "start", start_name(settings->start));
-    report_string(r, "arithmetic", arithmetic_name(settings->arithmetic));
+    report_string(r, "walk", mw_walk_name((mw_walk_kind)settings->walk));
+    report_string(r, "start", mw_start_name((mw_start_kind)settings->start));
+    report_string(r, "arithmetic", point_query_arithmetic(settings));
     statistics_report_settings(r, &settings->stream.common);
     statistics_report_walks(r, &context->statistics.counters);
     point_query_report_border(r, &context->statistics.counters);

@@ -360,7 +360,7 @@ typedef struct mw_editor_info {
      * when the editor is created. */
     int convex;
     size_t undoable;    /**< edits that can be undone */
-    size_t bytes;       /**< memory used by the editor, in bytes */
+    size_t bytes;       /**< memory in bytes, with room for further edits */
     size_t undo_bytes;  /**< of these, for undo and the log */
     size_t index_bytes; /**< of these, for indices and the locator's guide */
     uint64_t edits;     /**< edits applied since the editor was created, undone ones included */

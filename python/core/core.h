@@ -162,6 +162,25 @@ PyObject *memory_new(core_state *state, void *bytes, size_t size);
 PyObject *memory_borrow(core_state *state, PyObject *owner, const void *bytes, size_t size);
 int memory_init(PyObject *module, core_state *state);
 
+/* --- editing.c: what both editors hand out --- */
+
+/* A list of numbers; NULL with an exception. */
+PyObject *editing_numbers(const uint32_t *numbers, size_t count);
+/* The corners of a triangle, or the place of a vertex in 2 or 3 dimensions, as a tuple; None if
+ * there is no such triangle or vertex. */
+PyObject *editing_triangle(int there, const uint32_t v[3]);
+PyObject *editing_vertex(int there, const double *point, unsigned dimensions);
+
+/* Two arrays of numbers, one for each triangle and vertex that there was. */
+typedef struct editing_maps {
+    Py_buffer triangles, vertices;
+} editing_maps;
+
+/* 0, or -1 with an exception; released by editing_release_maps. */
+int editing_get_maps(PyObject *triangles, uint32_t triangle_range, PyObject *vertices,
+                     uint32_t vertex_range, editing_maps *maps);
+void editing_release_maps(editing_maps *maps);
+
 /* --- files.c: fields of meshes in files --- */
 
 /* Names and values of fields that are to be written; zero-initialised ones are empty. */

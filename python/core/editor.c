@@ -208,31 +208,16 @@ static PyObject *editor_log(PyObject *self, PyObject *unused)
 
 /* --- what is there --- */
 
-/* Two arrays of numbers, one for each triangle and vertex that there was. */
-typedef struct editor_maps {
-    Py_buffer triangles, vertices;
-} editor_maps;
-
 /* args: triangles, vertices, progress */
-static int editor_get_maps(PyObject *self, PyObject *args, editor_maps *maps, PyObject **function)
+static int editor_get_maps(PyObject *self, PyObject *args, editing_maps *maps, PyObject **function)
 {
     PyObject *triangles, *vertices;
     mw_editor_info info;
     mw_editor_describe(editor_of(self), &info);
     if (!PyArg_ParseTuple(args, "OOO", &triangles, &vertices, function) ||
-        editor_is_busy((editor_object *)self) ||
-        buffer_get_writable(triangles, sizeof(uint32_t), info.triangle_range, &maps->triangles))
+        editor_is_busy((editor_object *)self))
         return -1;
-    if (!buffer_get_writable(vertices, sizeof(uint32_t), info.vertex_range, &maps->vertices))
-        return 0;
-    PyBuffer_Release(&maps->triangles);
-    return -1;
-}
-
-static void editor_release_maps(editor_maps *maps)
-{
-    PyBuffer_Release(&maps->triangles);
-    PyBuffer_Release(&maps->vertices);
+    return editing_get_maps(triangles, info.triangle_range, vertices, info.vertex_range, maps);
 }
 
 /* _compact(triangles, vertices, progress): fill the new number of each */
@@ -240,7 +225,7 @@ static PyObject *editor_compact(PyObject *self, PyObject *args)
 {
     editor_object *object = (editor_object *)self;
     PyObject *function;
-    editor_maps maps;
+    editing_maps maps;
     mw_error error;
     mw_status status;
     if (editor_get_maps(self, args, &maps, &function)) return NULL;
@@ -249,7 +234,7 @@ static PyObject *editor_compact(PyObject *self, PyObject *args)
     status = mw_editor_compact(object->editor, maps.triangles.buf, maps.vertices.buf, &error);
     Py_END_ALLOW_THREADS
     editor_watch_end(object);
-    editor_release_maps(&maps);
+    editing_release_maps(&maps);
     if (status) return errors_raise(object->state, &error);
     Py_RETURN_NONE;
 }
@@ -259,7 +244,7 @@ static PyObject *editor_mesh(PyObject *self, PyObject *args)
 {
     editor_object *object = (editor_object *)self;
     PyObject *class, *arrays, *function;
-    editor_maps maps;
+    editing_maps maps;
     mw_mesh *mesh;
     mw_error error;
     mw_status status;
@@ -271,7 +256,7 @@ static PyObject *editor_mesh(PyObject *self, PyObject *args)
     status = mw_editor_mesh(object->editor, maps.triangles.buf, maps.vertices.buf, &mesh, &error);
     Py_END_ALLOW_THREADS
     editor_watch_end(object);
-    editor_release_maps(&maps);
+    editing_release_maps(&maps);
     return status ? errors_raise(object->state, &error) : mesh_new(object->state, class, mesh);
 }
 
@@ -296,8 +281,7 @@ static PyObject *editor_triangle(PyObject *self, PyObject *number)
 {
     uint32_t triangle, v[3];
     if (!option_uint32(number, &triangle)) return NULL;
-    if (!mw_editor_triangle(editor_of(self), triangle, v)) Py_RETURN_NONE;
-    return Py_BuildValue("III", v[0], v[1], v[2]);
+    return editing_triangle(mw_editor_triangle(editor_of(self), triangle, v), v);
 }
 
 /* _vertex(number): its place, or None */
@@ -306,8 +290,7 @@ static PyObject *editor_vertex(PyObject *self, PyObject *number)
     uint32_t vertex;
     double point[2];
     if (!option_uint32(number, &vertex)) return NULL;
-    if (!mw_editor_vertex(editor_of(self), vertex, point)) Py_RETURN_NONE;
-    return Py_BuildValue("dd", point[0], point[1]);
+    return editing_vertex(mw_editor_vertex(editor_of(self), vertex, point), point, 2);
 }
 
 /* _adjacent(number): [vertex] */
@@ -321,14 +304,7 @@ static PyObject *editor_adjacent(PyObject *self, PyObject *number)
     numbers = PyMem_Calloc(count + 1, sizeof *numbers);
     if (!numbers) return PyErr_NoMemory();
     mw_editor_adjacent_vertices(editor_of(self), vertex, numbers, count);
-    list = PyList_New((Py_ssize_t)count);
-    for (size_t i = 0; list && i < count; i++) {
-        PyObject *item = PyLong_FromUnsignedLong(numbers[i]);
-        if (!item)
-            Py_CLEAR(list);
-        else
-            PyList_SetItem(list, (Py_ssize_t)i, item);
-    }
+    list = editing_numbers(numbers, count);
     PyMem_Free(numbers);
     return list;
 }

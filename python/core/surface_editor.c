@@ -193,23 +193,19 @@ static PyObject *surface_editor_compact(PyObject *self, PyObject *args)
 {
     surface_editor_object *object = (surface_editor_object *)self;
     PyObject *triangles, *vertices;
-    Py_buffer triangle_view, vertex_view;
+    editing_maps maps;
     mw_surface_editor_info info;
     mw_error error;
     mw_status status;
     mw_surface_editor_describe(object->editor, &info);
     if (!PyArg_ParseTuple(args, "OO", &triangles, &vertices) ||
-        buffer_get_writable(triangles, sizeof(uint32_t), info.triangle_range, &triangle_view))
+        editing_get_maps(triangles, info.triangle_range, vertices, info.vertex_range, &maps))
         return NULL;
-    if (buffer_get_writable(vertices, sizeof(uint32_t), info.vertex_range, &vertex_view)) {
-        PyBuffer_Release(&triangle_view);
-        return NULL;
-    }
     Py_BEGIN_ALLOW_THREADS
-    status = mw_surface_editor_compact(object->editor, triangle_view.buf, vertex_view.buf, &error);
+    status =
+        mw_surface_editor_compact(object->editor, maps.triangles.buf, maps.vertices.buf, &error);
     Py_END_ALLOW_THREADS
-    PyBuffer_Release(&triangle_view);
-    PyBuffer_Release(&vertex_view);
+    editing_release_maps(&maps);
     if (status) return errors_raise(object->state, &error);
     Py_RETURN_NONE;
 }
@@ -235,8 +231,7 @@ static PyObject *surface_editor_triangle(PyObject *self, PyObject *number)
 {
     uint32_t triangle, v[3];
     if (!option_uint32(number, &triangle)) return NULL;
-    if (!mw_surface_editor_triangle(surface_editor_of(self), triangle, v)) Py_RETURN_NONE;
-    return Py_BuildValue("III", v[0], v[1], v[2]);
+    return editing_triangle(mw_surface_editor_triangle(surface_editor_of(self), triangle, v), v);
 }
 
 /* _vertex(number): its place, or None */
@@ -245,21 +240,8 @@ static PyObject *surface_editor_vertex(PyObject *self, PyObject *number)
     uint32_t vertex;
     double point[3];
     if (!option_uint32(number, &vertex)) return NULL;
-    if (!mw_surface_editor_vertex(surface_editor_of(self), vertex, point)) Py_RETURN_NONE;
-    return Py_BuildValue("ddd", point[0], point[1], point[2]);
-}
-
-static PyObject *surface_editor_numbers(const uint32_t *numbers, size_t count)
-{
-    PyObject *list = PyList_New((Py_ssize_t)count);
-    for (size_t i = 0; list && i < count; i++) {
-        PyObject *item = PyLong_FromUnsignedLong(numbers[i]);
-        if (!item)
-            Py_CLEAR(list);
-        else
-            PyList_SetItem(list, (Py_ssize_t)i, item);
-    }
-    return list;
+    return editing_vertex(mw_surface_editor_vertex(surface_editor_of(self), vertex, point), point,
+                          3);
 }
 
 /* _living(out): fill a byte for each number of a vertex, 1 where there is one */
@@ -288,7 +270,7 @@ static PyObject *surface_editor_triangles_of(PyObject *self, PyObject *number)
     numbers = PyMem_Calloc(count + 1, sizeof *numbers);
     if (!numbers) return PyErr_NoMemory();
     mw_surface_editor_triangles_of(surface_editor_of(self), vertex, numbers, count);
-    list = surface_editor_numbers(numbers, count);
+    list = editing_numbers(numbers, count);
     PyMem_Free(numbers);
     return list;
 }
@@ -298,8 +280,8 @@ static PyObject *surface_editor_edge(PyObject *self, PyObject *args)
 {
     uint32_t a, b, triangles[2];
     if (!PyArg_ParseTuple(args, "O&O&", option_uint32, &a, option_uint32, &b)) return NULL;
-    return surface_editor_numbers(triangles,
-                                  mw_surface_editor_edge(surface_editor_of(self), a, b, triangles));
+    return editing_numbers(triangles,
+                           mw_surface_editor_edge(surface_editor_of(self), a, b, triangles));
 }
 
 static PyObject *surface_editor_surface(PyObject *self, void *unused)

@@ -301,12 +301,20 @@ void mw__dynamic_release(mw_dynamic_tiling *dynamic)
     *dynamic = (mw_dynamic_tiling){0};
 }
 
-size_t mw__dynamic_bytes(const mw_dynamic_tiling *dynamic)
+/* Room in the arrays of the tiling that it does not use yet. */
+static size_t tiling_room_bytes(const mw_dynamic_tiling *dynamic)
 {
     const mw_tiling *t = dynamic->tiling;
-    return t->tri_count * sizeof *dynamic->mark +
-           dynamic->vertex_count * sizeof *dynamic->vertex_slot +
-           t->point_count * sizeof *dynamic->vertex_number +
+    return (dynamic->tile_room - t->tri_count) * sizeof *t->tri +
+           (dynamic->number_room - t->number_count) * sizeof *t->tile_of +
+           (dynamic->point_room - t->point_count) * (sizeof *t->point + sizeof *t->tile_at);
+}
+
+size_t mw__dynamic_bytes(const mw_dynamic_tiling *dynamic)
+{
+    return tiling_room_bytes(dynamic) + dynamic->tile_room * sizeof *dynamic->mark +
+           dynamic->vertex_room * sizeof *dynamic->vertex_slot +
+           dynamic->point_room * sizeof *dynamic->vertex_number +
            dynamic->free_room * sizeof *dynamic->free_slot +
            dynamic->journal_room * sizeof *dynamic->journal +
            dynamic->step_room * sizeof *dynamic->step +

@@ -15,7 +15,8 @@
 mw_status mw__dynamic_create(mw_dynamic_tiling *dynamic, mw_tiling *tiling, const mw_mesh *mesh,
                              bool convex, mw_error *error);
 void mw__dynamic_release(mw_dynamic_tiling *dynamic);
-size_t mw__dynamic_bytes(const mw_dynamic_tiling *dynamic); /* without mw__tiling_bytes */
+/* With room in the tiling that is not used yet, without mw__tiling_bytes. */
+size_t mw__dynamic_bytes(const mw_dynamic_tiling *dynamic);
 
 /* Room for n more tiles, and for their numbers if they are user tiles, as tile `beside` is. False
  * when out of memory or numbers. */

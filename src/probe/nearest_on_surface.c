@@ -5,7 +5,7 @@
  * triangle is at least that of its own box (mw__distance_to_corners_box). So a box at a rounded
  * distance from q has no triangle at a smaller one, except for the few roundings that REACH_ERROR
  * covers. */
-#include "probe/bvh_beam.h"
+#include "probe/bvh/bvh_beam.h"
 #include "probe/nearest_in_triangle.h"
 
 /* --- the search --- */

@@ -7,7 +7,7 @@
 
 #include "surface/surface.h"
 #include "predicates/line.h"
-#include "probe/bvh.h"
+#include "probe/bvh/bvh.h"
 #include "probe/probe_guide.h"
 
 #include <meshwalk/probe.h>

@@ -7,7 +7,7 @@
 #ifndef MW_SRC_PROBE_RAY_STACK_H
 #define MW_SRC_PROBE_RAY_STACK_H
 
-#include "probe/bvh_beam.h"
+#include "probe/bvh/bvh_beam.h"
 
 /* The nodes that wait, siblings by distance, the nearest on top. The search goes depth first, which
  * bounds the stack: of each level, at most the children of one node wait. A key is the distance of

@@ -172,6 +172,6 @@ int mw_segment_next(mw_segment *segment, mw_segment_piece *piece)
 {
     size_t count = 0;
     if (mw__segment_may_run(segment))
-        while (count == 0 && mw__segment_run(segment, 1, true, piece, &count)) continue;
+        while (count == 0 && mw__segment_run(segment, true, piece, &count)) continue;
     return count > 0 || mw__segment_next_surely(segment, piece);
 }

@@ -37,58 +37,45 @@ static MW_INLINE uint32_t mw__segment_turn(uint32_t e, bool left)
     return (18u >> (2 * e + left)) & 3;
 }
 
-/* Follow a segment that enters tile after tile over edges, through at most `steps` tiles, and
- * append its pieces, for which there is room. Returns false where rounded areas are not sure, at
- * vertices, and at b: there mw__segment_next_surely goes on. For tilings without cut triangles.
- * `ahead`: ask for the memory of the next step; lanes that take turns do that themselves. */
-static MW_INLINE bool mw__segment_run(mw_segment *s, size_t steps, bool ahead,
-                                      mw_segment_piece *piece, size_t *count)
+/* Follow a segment that enters a tile over an edge into the next one, and append the piece, for
+ * which there is room. Returns false where rounded areas are not sure, at vertices, and at b: there
+ * mw__segment_next_surely goes on. For tilings without cut triangles. `ahead`: ask for the memory
+ * of the next step; lanes that take turns do that themselves. */
+static MW_INLINE bool mw__segment_run(mw_segment *s, bool ahead, mw_segment_piece *piece,
+                                      size_t *count)
 {
-    const mw_triangle *tri = s->locator->tiling.tri;
-    const mw_point *point = s->locator->tiling.point, a = mw__segment_a(s), b = mw__segment_b(s);
-    uint32_t t = s->tile, e = s->local;
-    double at = s->at;
-    uint8_t gap = s->gap;
-    size_t n = 0;
-    bool sure = true;
-    for (; steps > 0; steps--) {
-        const mw_triangle *tile = &tri[t];
-        uint32_t apex = mw__prev(e), user = tile->user;
-        if (ahead) {
-            mw__segment_look_ahead(s->locator, tile->link[apex]);
-            mw__segment_look_ahead(s->locator, tile->link[mw__next(e)]);
-        }
-        double unsure, off_a, off_b,
-            side = mw__orient2d_rounded(a, b, point[tile->v[apex]], &unsure);
-        uint32_t out = mw__segment_turn(e, side > 0), link = tile->link[out];
-        mw_point p = point[tile->v[out]], q = point[tile->v[out + 1]];
-        double of_a = mw__orient2d_rounded(p, q, a, &off_a),
-               of_b = -mw__orient2d_rounded(p, q, b, &off_b), sum = of_a + of_b;
-        sure = (fabs(side) > unsure) & (MW_PARAMETER_ERROR * of_a > off_a) &
-               (MW_PARAMETER_ERROR * of_b > off_b) & (of_a > MW_AREA_LEAST) &
-               (of_b > MW_AREA_LEAST) & (sum < MW_AREA_MOST) & (link != MW_NONE);
-        if (MW_UNLIKELY(!sure)) break;
-        double to = of_a / sum;
-        to = to < at ? at : to;
-        piece[n] = (mw_segment_piece){at,
-                                      to,
-                                      user & MW_USER_MASK,
-                                      (uint8_t)mw__user_local_edge(user, e),
-                                      (uint8_t)mw__user_local_edge(user, out),
-                                      255,
-                                      gap};
-        gap = (user & MW_GHOST) != 0;
-        n += !gap;
-        at = to;
-        t = mw__link_triangle(link);
-        e = mw__link_edge(link);
+    const mw_tiling *tiling = &s->locator->tiling;
+    const mw_triangle *tile = &tiling->tri[s->tile];
+    const mw_point *point = tiling->point, a = mw__segment_a(s), b = mw__segment_b(s);
+    uint32_t e = s->local, apex = mw__prev(e), user = tile->user;
+    if (ahead) {
+        mw__segment_look_ahead(s->locator, tile->link[apex]);
+        mw__segment_look_ahead(s->locator, tile->link[mw__next(e)]);
     }
-    s->tile = t;
-    s->local = (uint8_t)e;
-    s->at = at;
-    s->gap = gap;
-    *count += n;
-    return sure;
+    double unsure, off_a, off_b, side = mw__orient2d_rounded(a, b, point[tile->v[apex]], &unsure);
+    uint32_t out = mw__segment_turn(e, side > 0), link = tile->link[out];
+    mw_point p = point[tile->v[out]], q = point[tile->v[out + 1]];
+    double of_a = mw__orient2d_rounded(p, q, a, &off_a),
+           of_b = -mw__orient2d_rounded(p, q, b, &off_b), sum = of_a + of_b;
+    bool sure = (fabs(side) > unsure) & (MW_PARAMETER_ERROR * of_a > off_a) &
+                (MW_PARAMETER_ERROR * of_b > off_b) & (of_a > MW_AREA_LEAST) &
+                (of_b > MW_AREA_LEAST) & (sum < MW_AREA_MOST) & (link != MW_NONE);
+    if (MW_UNLIKELY(!sure)) return false;
+    double to = of_a / sum;
+    to = to < s->at ? s->at : to;
+    *piece = (mw_segment_piece){s->at,
+                                to,
+                                user & MW_USER_MASK,
+                                (uint8_t)mw__user_local_edge(user, e),
+                                (uint8_t)mw__user_local_edge(user, out),
+                                255,
+                                s->gap};
+    s->gap = (user & MW_GHOST) != 0;
+    *count += !s->gap;
+    s->at = to;
+    s->tile = mw__link_triangle(link);
+    s->local = (uint8_t)mw__link_edge(link);
+    return true;
 }
 
 /* The next piece where mw__segment_run is not sure: parts in ghosts are left out. False at the

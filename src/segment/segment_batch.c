@@ -1,9 +1,10 @@
 /* segment_batch.c - the pieces of many segments, in chunks for the threads. */
-#include "segment/segment.h"
+#include "segment/segment_run.h"
 
 #include "base/cache.h"
 #include "base/job.h"
 #include "base/options.h"
+#include "segment/segment.h"
 #include "walk/remembering_fast.h"
 
 #include <stdlib.h>
@@ -75,11 +76,50 @@ static void segments_find_first_tiles(const segment_batch *b, size_t first, uint
         mw__index_first_many(&locator->tiling, &locator->guide, a, count, tile);
 }
 
+/* Make room for `more` pieces; with these, `done` segments have theirs. The room is enough for all
+ * segments if the others have equally many each, so that pieces are not copied again. */
+static bool batch_make_room(segment_batch *b, size_t more, size_t done)
+{
+    const size_t wanted = b->count + more, least = wanted + wanted / 2;
+    const double guess = done ? 1.05 * (double)wanted / (double)done * (double)b->n : 0,
+                 most = 16 * (double)wanted; /* the others may be shorter */
+    if (wanted <= b->room) return true;
+    size_t room = guess < (double)least ? least : (size_t)(guess < most ? guess : most);
+    mw_segment_piece *piece = mw__alloc_lines(room, sizeof *piece);
+    if (!piece && room > least) piece = mw__alloc_lines(room = least, sizeof *piece);
+    if (!piece) return false;
+    if (b->count) memcpy(piece, b->piece, b->count * sizeof *piece);
+    free(b->piece);
+    b->piece = piece;
+    b->room = room;
+    return true;
+}
+
 /* --- lanes --- */
 
-static bool follower_make_room(segments_follower *lane)
+/* The lane's pieces are those of the batch: it appends to them. */
+static bool batch_is_appended_to(const segment_batch *b)
 {
-    size_t room = 2 * lane->room + 256;
+    return b->in_order && b->lanes == 1;
+}
+
+static void follower_take_pieces(segments_follower *lane, const segment_batch *b)
+{
+    lane->piece = b->piece;
+    lane->count = b->count;
+    lane->room = b->room;
+}
+
+static bool follower_make_room(segment_batch *b, segments_follower *lane)
+{
+    enum { MORE = 256 };
+    if (batch_is_appended_to(b)) {
+        b->count = lane->count;
+        if (!batch_make_room(b, MORE, lane->at)) return false;
+        follower_take_pieces(lane, b);
+        return true;
+    }
+    size_t room = 2 * lane->room + MORE;
     mw_segment_piece *piece = mw__realloc(lane->piece, room, sizeof *piece);
     if (!piece) return false;
     lane->piece = piece;
@@ -87,10 +127,14 @@ static bool follower_make_room(segments_follower *lane)
     return true;
 }
 
+/* Begin the segment, near which the lane is. There is room for a piece. */
 static void follower_set(const segment_batch *b, segments_follower *lane)
 {
     const double *ends = segments_ends(b, lane->at);
-    lane->locating = 0;
+    if (MW_LIKELY(!b->locator->tiling.cut) &&
+        MW_LIKELY(mw__segment_begin_inside(&lane->s, b->locator, lane->s.tile, ends, ends + 2,
+                                           lane->piece + lane->count, &lane->count)))
+        return;
     lane->cursor->last = lane->s.tile;
     mw__segment_set(&lane->s, b->locator, lane->cursor, ends, ends + 2);
 }
@@ -108,7 +152,7 @@ static bool follower_begin(const segment_batch *b, segments_follower *lane)
     if (lane->at == lane->end) return false;
     const double *a = segments_ends(b, lane->at);
     if (lane->continues && a[0] == lane->s.b[0] && a[1] == lane->s.b[1]) {
-        follower_set(b, lane);
+        lane->locating = 1;
         return true;
     }
     lane->s.tile = lane->tile[lane->at - lane->first];
@@ -128,37 +172,47 @@ static bool follower_end_segment(const segment_batch *b, segments_follower *lane
 static MW_INLINE void follower_locate(const segment_batch *b, segments_follower *lane)
 {
     const double *a = segments_ends(b, lane->at);
-    uint32_t link = mw__link_nearer(&b->locator->tiling, (mw_point){a[0], a[1]}, lane->s.tile);
-    if (link == MW_NONE || mw__link_triangle(link) == lane->s.tile || --lane->locating == 0)
-        follower_set(b, lane);
-    else
-        lane->s.tile = mw__link_triangle(link);
+    if (--lane->locating > 0) {
+        uint32_t link = mw__link_nearer(&b->locator->tiling, (mw_point){a[0], a[1]}, lane->s.tile);
+        if (link != MW_NONE && mw__link_triangle(link) != lane->s.tile) {
+            lane->s.tile = mw__link_triangle(link);
+            return;
+        }
+    }
+    lane->locating = 0;
+    follower_set(b, lane);
+}
+
+/* The next pieces of the lane's segment, for which there is room. False: it has ended. */
+static MW_INLINE bool follower_go_on(const segment_batch *b, segments_follower *lane)
+{
+    mw_segment *s = &lane->s;
+    mw_segment_piece *piece = lane->piece + lane->count;
+    if (mw__segment_may_run(s)) {
+        bool sure = b->lanes > 1
+                        ? mw__segment_run(s, false, piece, &lane->count)
+                        : mw__segment_run_far(s, lane->room - lane->count, piece, &lane->count);
+        if (s->phase == MW_SEGMENT_ENDED) return false;
+        if (sure || lane->count == lane->room) return true;
+        piece = lane->piece + lane->count;
+    }
+    bool more = mw__segment_next_surely(s, piece);
+    lane->count += more;
+    return more;
 }
 
 /* False: the lane has no more segments, or there is no memory. */
 static MW_INLINE bool follower_step(segment_batch *b, segments_follower *lane)
 {
+    if (MW_UNLIKELY(lane->count == lane->room) && !follower_make_room(b, lane)) {
+        atomic_store_explicit(&b->no_memory, true, memory_order_relaxed);
+        return false;
+    }
     if (lane->locating) {
         follower_locate(b, lane);
         return true;
     }
-    if (MW_UNLIKELY(lane->count == lane->room) && !follower_make_room(lane)) {
-        atomic_store_explicit(&b->no_memory, true, memory_order_relaxed);
-        return false;
-    }
-    if (mw__segment_may_run(&lane->s)) {
-        mw_segment_piece *piece = lane->piece + lane->count;
-        bool sure = b->lanes > 1 ? mw__segment_run(&lane->s, 1, false, piece, &lane->count)
-                                 : mw__segment_run(&lane->s, lane->room - lane->count, true, piece,
-                                                   &lane->count);
-        if (sure) return true;
-        if (lane->count == lane->room) return true;
-    }
-    if (mw__segment_next_surely(&lane->s, lane->piece + lane->count))
-        lane->count++;
-    else
-        return follower_end_segment(b, lane);
-    return true;
+    return follower_go_on(b, lane) || follower_end_segment(b, lane);
 }
 
 /* Lanes take turns. After a step memory is asked for the new tile; half a lap later, when that has
@@ -189,10 +243,23 @@ static void followers_run(segment_batch *b, segments_follower *lanes, uint32_t c
 
 /* --- chunks --- */
 
+/* The chunk has the pieces of its only lane. */
+static void chunk_take(segments_chunk *chunk, segments_follower *lane)
+{
+    mw_segment_piece *fits = mw__realloc(lane->piece, lane->count, sizeof *fits);
+    chunk->piece = fits ? fits : lane->piece;
+    chunk->count = lane->count;
+    lane->piece = NULL;
+}
+
 /* The pieces of all lanes, in the order of the segments. */
-static bool chunk_join(segments_chunk *chunk, const segments_follower *lanes, uint32_t count)
+static bool chunk_join(segments_chunk *chunk, segments_follower *lanes, uint32_t count)
 {
     size_t all = 0;
+    if (count == 1) {
+        chunk_take(chunk, lanes);
+        return true;
+    }
     for (uint32_t i = 0; i < count; i++) all += lanes[i].count;
     chunk->piece = mw__alloc(all, sizeof *chunk->piece);
     if (!chunk->piece) return false;
@@ -201,42 +268,25 @@ static bool chunk_join(segments_chunk *chunk, const segments_follower *lanes, ui
             memcpy(chunk->piece + chunk->count, lanes[i].piece,
                    lanes[i].count * sizeof *chunk->piece);
         chunk->count += lanes[i].count;
-        chunk->bad += lanes[i].bad;
     }
     return true;
 }
 
-/* Make room for `more` pieces; with these, `done` segments have theirs. The room is enough for all
- * segments if the others have equally many each, so that pieces are not copied again. */
-static bool batch_make_room(segment_batch *b, size_t more, size_t done)
-{
-    const size_t wanted = b->count + more, least = wanted + wanted / 2;
-    const double guess = 1.05 * (double)wanted / (double)done * (double)b->n,
-                 most = 16 * (double)wanted; /* the others may be shorter */
-    if (wanted <= b->room) return true;
-    size_t room = guess < (double)least ? least : (size_t)(guess < most ? guess : most);
-    mw_segment_piece *piece = mw__alloc_lines(room, sizeof *piece);
-    if (!piece && room > least) piece = mw__alloc_lines(room = least, sizeof *piece);
-    if (!piece) return false;
-    if (b->count) memcpy(piece, b->piece, b->count * sizeof *piece);
-    free(b->piece);
-    b->piece = piece;
-    b->room = room;
-    return true;
-}
-
 /* Append the pieces of all lanes; `done` segments have theirs then. */
-static bool batch_append(segment_batch *b, segments_chunk *chunk, const segments_follower *lanes,
-                         uint32_t count, size_t done)
+static bool batch_append(segment_batch *b, segments_follower *lanes, uint32_t count, size_t done)
 {
     size_t all = 0;
+    if (batch_is_appended_to(b)) {
+        b->count = lanes->count;
+        lanes->piece = NULL;
+        return true;
+    }
     for (uint32_t i = 0; i < count; i++) all += lanes[i].count;
     if (!batch_make_room(b, all, done)) return false;
     for (uint32_t i = 0; i < count; i++) {
         if (lanes[i].count)
             memcpy(b->piece + b->count, lanes[i].piece, lanes[i].count * sizeof *b->piece);
         b->count += lanes[i].count;
-        chunk->bad += lanes[i].bad;
     }
     return true;
 }
@@ -263,9 +313,11 @@ static void segments_answer_chunk(void *work, uint64_t number, uint32_t member)
                                        .at = first + from,
                                        .end = first + size * (i + 1) / count};
     }
+    if (batch_is_appended_to(b)) follower_take_pieces(lanes, b);
     followers_run(b, lanes, count);
     segments_chunk *chunk = &b->chunk[number];
-    if (!(b->in_order ? batch_append(b, chunk, lanes, count, first + size)
+    for (uint32_t i = 0; i < count; i++) chunk->bad += lanes[i].bad;
+    if (!(b->in_order ? batch_append(b, lanes, count, first + size)
                       : chunk_join(chunk, lanes, count)))
         atomic_store_explicit(&b->no_memory, true, memory_order_relaxed);
     for (uint32_t i = 0; i < count; i++) free(lanes[i].piece);
@@ -332,12 +384,13 @@ static mw_status segments_check(const mw_locator *locator, const double *segment
     return MW_OK;
 }
 
-/* Do lanes take turns? They do where the mesh is larger than the cache of a core. */
+/* Do lanes take turns? They do where the mesh is much larger than the cache of a core. */
 static uint32_t segments_choose_lanes(const mw_tiling *tiling)
 {
+    enum { CACHES = 2 };
     size_t bytes =
         tiling->tri_count * sizeof *tiling->tri + tiling->point_count * sizeof *tiling->point;
-    return bytes > mw__caches().second ? BATCH_MOST_LANES : 1;
+    return bytes / CACHES > mw__caches().second ? BATCH_MOST_LANES : 1;
 }
 
 /* Makes everything, or nothing. */
@@ -370,7 +423,7 @@ mw_status mw_segment_batch(const mw_locator *locator, const double *segments, si
                        .stride = stride ? stride : 4,
                        .lanes = segments_choose_lanes(&locator->tiling),
                        .job = &job};
-    status = mw_cursor_init(locator, &(mw_query_options){.start = MW_START_LAST}, &b.cursor, error);
+    status = mw_cursor_init(locator, NULL, &b.cursor, error);
     if (status) return status;
     status = segments_make(&b, pieces, error);
     if (status) {

@@ -97,4 +97,21 @@ if command -v ogrinfo >/dev/null; then
 fi
 run drape gap.off road.geojson --crs EPSG:3857 -o road2.geojson -q; exits 0
 run drape gap.off road.geojson --lines-crs same -o none/road.gpkg; refused 4 'none/road.gpkg'
+
+# Attributes whose names are those of columns; x, y and z are columns of a table only.
+cat >names.geojson <<'END'
+{"type":"Feature","properties":{"Feature":1,"part":2,"piece":3,"LENGTH":4,"surface_length":5,"x":6,
+"y":7,"Z":8,"area":9,"name":"road"},"geometry":{"type":"LineString","coordinates":[[1,2],[2,2]]}}
+END
+run drape gap.off names.geojson --lines-crs same -q; exits 0
+prints_line '^feature,part,line_Feature,line_part,line_piece,line_LENGTH,line_surface_length,line_x,line_y,line_Z,area,name,piece,length,surface_length,x,y,z$'
+prints_line '^0,0,1,2,3,4,5,6,7,8,9,road,0,1,[0-9.]+,1,2,17.5$'
+run drape gap.off names.geojson --lines-crs same -q -o names_out.geojson; exits 0
+cp names_out.geojson "$logs/out"
+prints_line '"line_LENGTH": 4, "line_surface_length": 5, "x": 6, "y": 7, "Z": 8, "area": 9'
+cat >both.geojson <<'END'
+{"type":"GeometryCollection","geometries":[{"type":"LineString","coordinates":[[1,2],[2,2]]},
+{"type":"Polygon","coordinates":[[[1,1],[2,2],[2,1],[1,1]]]}]}
+END
+run drape gap.off both.geojson --lines-crs same -q; refused 3 'has lines and polygons'
 finish

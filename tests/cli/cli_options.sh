@@ -158,6 +158,35 @@ done
 for value in '' x -1 1.0 18446744073709551616; do
     run locate --seed "$value" a b; refused 2 "'--seed' must be"
 done
+# The greatest and the least that each takes.
+for words in '--threads 256' '--steps 4294967295' '--layers 8' '--sample 1' '--sample 4294967294' \
+    '--seed 0' '--seed 18446744073709551615' '--cells 1073741824'; do
+    # shellcheck disable=SC2086 # words
+    run locate $words a b; refused 3 'a: No such file'
+done
+run probe --race 256 a b; refused 3 'a: No such file'
+run star --levels 13 a b; refused 3 'a: No such file'
+# A long name is told up to its 63rd letter.
+for length in 62 63 64 65 300; do
+    name=$(printf "%0${length}d" 0)
+    run locate "--$name" a b; refused 2 "unknown option '--${name:0:63}'$"
+done
+# Options of points in the plane, where points are on a globe or a star.
+for words in '--crs EPSG:1' '--tolerance 1' '--sample 3' '--steps 3' '--cells 3' '--layers 3' \
+    '--walk lawson' '--start random' '--arithmetic double' '--finish stochastic' '--fill yes' \
+    '--descent nearest' --areas --any --trust; do
+    # shellcheck disable=SC2086 # words
+    run sample a b --as star --field f $words; refused 2 "option '${words%% *}' is not for --as star"
+    # shellcheck disable=SC2086
+    run weights a b --lonlat $words -o c.npz
+    refused 2 "option '${words%% *}' is for points in the plane, not for --lonlat"
+done
+for walk in lawson remembering stochastic straight celestial; do
+    run locate a b --fill no --walk $walk; refused 2 "--fill no needs --walk border, not $walk"
+    run locate a b --fill auto --walk $walk; refused 3 'a: No such file'
+done
+run locate a b --fill no --walk border; refused 3 'a: No such file'
+run locate a b --fill no; refused 3 'a: No such file'
 only_files # none
 
 # Forms of one option; the last one counts; -- ends them.

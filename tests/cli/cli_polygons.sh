@@ -213,4 +213,55 @@ run_on $'0.5 0.5\n' locate --polygons two.gml -
 refused 2 'two.gml: which layer has the polygons\? --polygon-layer may be one of: town, lake'
 run_on $'5.5 5.5\n' locate --polygons two.gml --polygon-layer lake --attribute name -; exits 0
 prints $'x,y,status,feature,others,name\n5.5,5.5,inside,0,,See'
+
+# More features over a point than a thread has room for at first, and just as many; a border counts
+# as one only where no part of the feature has the point inside.
+for count in 64 65 90; do
+    {
+        printf '{"type":"FeatureCollection","features":['
+        for ((i = 0; i < count; i++)); do
+            ((i == 0)) || printf ','
+            printf '{"type":"Feature","properties":{},"geometry":{"type":"Polygon","coordinates":'
+            printf '[[[-%d,-1],[%d,-1],[%d,1],[-%d,1],[-%d,-1]]]}}' $((i + 1)) $((i + 1)) \
+                $((i + 1)) $((i + 1)) $((i + 1))
+        done
+        printf ']}'
+    } >pile.geojson
+    run_on $'x,y\n0,0\n1,0\n1.5,0\n' locate --polygons pile.geojson -; exits 0
+    prints "x,y,status,feature,others
+0,0,inside,0,$(seq -s ' ' 1 $((count - 1)))
+1,0,border,0,$(seq -s ' ' 1 $((count - 1)))
+1.5,0,inside,1,$(seq -s ' ' 2 $((count - 1)))"
+done
+cat >parts.geojson <<'END'
+{"type":"Feature","properties":{},"geometry":{"type":"MultiPolygon","coordinates":[
+[[[0,0],[1,0],[1,1],[0,1],[0,0]]],[[[0.5,-1],[2,-1],[2,2],[0.5,2],[0.5,-1]]]]}}
+END
+run_on $'x,y\n1,0.5\n2,0.5\n0,0.5\n' locate --polygons parts.geojson - -q; exits 0
+prints 'x,y,status,feature,others
+1,0.5,inside,0,
+2,0.5,border,0,
+0,0.5,border,0,'
+
+# Ten features whose borders cross are named, the others are counted.
+for count in 10 11 13; do
+    {
+        printf '{"type":"FeatureCollection","features":['
+        for ((i = 0; i < count; i++)); do
+            ((i == 0)) || printf ','
+            printf '{"type":"Feature","properties":{},"geometry":{"type":"Polygon","coordinates":'
+            printf '[[[%d,0],[%d,2],[%d,2],[%d,0],[%d,0]]]}}' $((9 * i)) $((9 * i + 2)) \
+                $((9 * i)) $((9 * i + 2)) $((9 * i))
+        done
+        printf ']}'
+    } >bows.geojson
+    run_on $'x,y\n1,0.5\n' locate --polygons bows.geojson -; exits 0
+    holds "ten are named" test "$(grep -c 'warning: the border of feature' "$logs/err")" == 10
+    if ((count > 10)); then
+        says "^meshwalk: bows.geojson: warning: so do $((count - 10)) others$"
+    else
+        holds "no others" test -z "$(grep others "$logs/err")"
+    fi
+    run_on $'x,y\n1,0.5\n' locate --polygons bows.geojson - -q; exits 0; says_nothing
+done
 finish

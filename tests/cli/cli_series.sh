@@ -64,6 +64,13 @@ a,0.75,0.25,0.5,2,11,5,31,inside\nb,0.25,0.75,2,4,11,9,31,inside\nc,5,5,1,,,,,ou
 d,1,1,3,2,12,5,32,vertex\ne,0,0,4,2,10,5,30,vertex'
 run sample flow.nc points.csv --time nearest:1.9 --only-answers --field zeta -q; exits 0
 prints $'x,y,time,zeta\n0.75,0.25,1,11\n0.25,0.75,1,11\n5,5,1,\n1,1,1,12\n0,0,1,10'
+# Of two that are as near the first counts.
+run sample flow.nc points.csv --time nearest:2 --only-answers --field zeta -q; exits 0
+prints_line '^0.75,0.25,1,11$'
+run sample flow.nc points.csv --time nearest:2.01 --only-answers --field zeta -q; exits 0
+prints_line '^0.75,0.25,3,31$'
+run sample flow.nc points.csv --time 2..2 --only-answers --field zeta -q; exits 0
+prints_line '^0.75,0.25,3,31$'
 # Vertices 0 and 2 have both faces, the others one.
 run sample flow.nc points.csv --time 0 --field u --recover -q; exits 0
 prints $'id,x,y,t,time,u

@@ -175,6 +175,30 @@ pictures star --as star --lonlat --from 45,30 --to -135,-30 octahedron.off
 pictures probe --as surface --from 0.1,0.2,5 --to 0.1,0.2,4 octahedron.off
 run walk --from 9,9 --to 1e300,1e308 row.off -o far.svg; exits 0; says 'lies outside'
 run walk --from 0.1,0.2 --to 3.9,0.8 row.off -o absent/row.svg; exits 4; says 'absent/row.svg'
+# Where everything is on the page, and in which colour: picture_check.py knows it from the walk.
+looks_right() { # looks_right VIEW MESH FROM TO ARGUMENTS...
+    local view=$1 mesh=$2 from=$3 to=$4
+    shift 4
+    run walk --as "$view" --from "$from" --to "$to" "$@" "$mesh" -q -o look.csv; exits 0
+    run walk --as "$view" --from "$from" --to "$to" "$@" "$mesh" -q -o look.svg; exits 0
+    holds "the picture is right ($view $mesh)" \
+        python3 "$here/picture_check.py" look.svg "$mesh" look.csv "$view" "$from" "$to"
+}
+run star octahedron.off --remesh 2 -o ball.off; exits 0
+awk 'BEGIN { n = 12; print "OFF\n" n * n, 2 * (n - 1) * (n - 1), 0
+    for (y = 0; y < n; y++) for (x = 0; x < n; x++) print x, y, 0
+    for (y = 0; y < n - 1; y++) for (x = 0; x < n - 1; x++) { a = y * n + x
+        print 3, a, a + 1, a + n + 1 "\n" 3, a, a + n + 1, a + n } }' >grid.off
+looks_right plane row.off 0.1,0.2 3.9,0.8 --walk remembering
+looks_right plane grid.off 1.1,1.2 2.9,2.8 --walk remembering
+looks_right plane grid.off 1.1,1.2 8.9,7.8 --walk remembering
+sed 's/^\([0-9.]*\) \([0-9.]*\) 0$/\1 \2 0/; s/^\([0-9]*\) \(11\) 0$/\1 200 0/' grid.off >tall.off
+looks_right plane tall.off 1.1,1.2 8.9,7.8 --walk remembering
+looks_right star octahedron.off 1,1,1 0.3,1.1,-1 --walk stochastic
+looks_right star ball.off 1,1,1 0.3,1.1,-0.2 --walk stochastic
+looks_right surface octahedron.off 0.1,0.2,5 0.1,0.2,4
+looks_right surface ball.off 0.1,0.2,5 0.1,0.2,4
+looks_right surface ball.off 0.3,0.2,0 0.3,0.25,-0.1
 # All walks on one sheet: a caption each. In a list, or in space, they have no place.
 run walk --from 0.1,0.2 --to 3.9,0.8 --walk all row.off -o all.svg; exits 0; says_nothing
 run walk --from 0.1,0.2 --to 3.9,0.8 --walk straight row.off -o straight.svg; exits 0
@@ -242,7 +266,6 @@ holds "the picture is not too large" test "$(wc -c <large.svg)" -lt 20000000
 run walk --from 0.5,0.5 --to 0.52,0.52 large.ply -o small.svg; exits 0
 holds "a short walk needs few lines" test "$(wc -c <small.svg)" -lt 2000000
 # In the plane: of longitude and polar angle, with grids, whose first facets are yellow; of a probe.
-run star octahedron.off --remesh 2 -o ball.off; exits 0
 has_yellow() { grep -Eq 'rgb\(94[0-9.]*%, ?89' "$1"; }
 for walk in orthogonal straight auto; do
     run walk --as star --plane --lonlat --walk $walk --from 40,-20 --to 80,30 ball.off \

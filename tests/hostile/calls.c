@@ -2,7 +2,7 @@
  * from which nothing may be left behind; or repeated by a child of fork(), whose results must be
  * those of its parent. */
 #include "hostile/hostile.h"
-#include "support/long_calls.h"
+#include "support/calls/long_calls.h"
 
 #include <sys/wait.h>
 #include <unistd.h>

@@ -3,6 +3,7 @@
 #include "mpi_both.h"
 #include "support/environment.h"
 
+#include <meshwalk/predicates.h>
 #include <unistd.h>
 
 enum { SEED = 20261128 };
@@ -104,6 +105,76 @@ static void check_queries(const both *b, uint64_t seed)
     free(points);
 }
 
+/* --- what is told about pieces: counted by looking at all pairs of triangles --- */
+
+static uint32_t vertex_of(const arrays *a, uint32_t t, uint32_t k)
+{
+    return a->triangles[3 * (size_t)t + k % 3];
+}
+
+static const double *corner_of(const arrays *a, uint32_t t, uint32_t k)
+{
+    return a->points + 2 * (size_t)vertex_of(a, t, k);
+}
+
+static bool is_flat(const arrays *a, uint32_t t)
+{
+    return mw_orient2d(corner_of(a, t, 0), corner_of(a, t, 1), corner_of(a, t, 2)) == 0;
+}
+
+/* Is there nothing, or a triangle without area, beyond an edge of a triangle with an area? */
+static bool is_outline(const arrays *a, uint32_t t, uint32_t k)
+{
+    const uint32_t from = vertex_of(a, t, k), to = vertex_of(a, t, k + 1);
+    for (uint32_t u = 0; u < a->triangle_count; u++)
+        for (uint32_t i = 0; i < 3 && u != t && !is_flat(a, u); i++) {
+            const uint32_t begin = vertex_of(a, u, i), end = vertex_of(a, u, i + 1);
+            if ((begin == from && end == to) || (begin == to && end == from)) return false;
+        }
+    return true;
+}
+
+static bool triangle_contains(const arrays *a, uint32_t t, const double *p)
+{
+    int sides = 0; /* bits: some area is above 0, below 0 */
+    if (is_flat(a, t)) return false;
+    for (uint32_t k = 0; k < 3; k++) {
+        const double area = mw_orient2d(corner_of(a, t, k), corner_of(a, t, k + 1), p);
+        sides |= area > 0 ? 1 : area < 0 ? 2 : 0;
+    }
+    return sides != 3;
+}
+
+/* The triangles without area, and those that contain a corner of one, or an end of the outline. */
+static uint32_t rim_count(const arrays *a)
+{
+    bool *in = calloc(a->triangle_count + 1, sizeof *in);
+    uint32_t count = 0;
+    for (uint32_t t = 0; t < a->triangle_count; t++) {
+        const bool flat = is_flat(a, t);
+        in[t] = in[t] || flat;
+        for (uint32_t k = 0; k < 3; k++) {
+            if (!flat && !is_outline(a, t, k) && !is_outline(a, t, k + 2)) continue;
+            for (uint32_t u = 0; u < a->triangle_count; u++)
+                in[u] = in[u] || triangle_contains(a, u, corner_of(a, t, k));
+        }
+    }
+    for (uint32_t t = 0; t < a->triangle_count; t++) count += in[t];
+    free(in);
+    return count;
+}
+
+/* Vertices that some triangle has. */
+static uint32_t vertex_count(const arrays *a)
+{
+    bool *used = calloc(a->point_count + 1, sizeof *used);
+    uint32_t count = 0;
+    for (size_t i = 0; i < 3 * (size_t)a->triangle_count; i++) used[a->triangles[i]] = true;
+    for (uint32_t v = 0; v < a->point_count; v++) count += used[v];
+    free(used);
+    return count;
+}
+
 static void check_info(const both *b)
 {
     mw_locator_info whole;
@@ -114,6 +185,16 @@ static void check_info(const both *b)
                   info.piece_triangles == b->own.part.triangle_count && info.bytes > 0,
               "%s, %s: %lld triangles of %u, %u holes of %u", b->mesh_name, b->cut_name,
               (long long)info.triangles, b->a.triangle_count, info.holes, whole.holes);
+    mpi_check(info.vertices == vertex_count(&b->a) &&
+                  info.piece_vertices == b->own.part.point_count,
+              "%s, %s: %lld vertices, not %u; of the piece %u, not %u", b->mesh_name, b->cut_name,
+              (long long)info.vertices, vertex_count(&b->a), info.piece_vertices,
+              b->own.part.point_count);
+    mpi_check(info.boxes > 0 && info.boxes <= 64 * (uint32_t)mpi_ranks(), "%u boxes", info.boxes);
+    if (mpi_rank() > 0) return; /* the others have the same rim */
+    const uint32_t rim = rim_count(&b->a);
+    mpi_check(info.rim_triangles == rim, "%s, %s: the rim has %u triangles, not %u", b->mesh_name,
+              b->cut_name, info.rim_triangles, rim);
 }
 
 /* --- the meshes that the cases have ----------------------------------------------------------- */

@@ -81,6 +81,19 @@ static void expect_weights(const mw_mesh *mesh, const double a[2], const double 
         }
 }
 
+/* Bit for bit the pieces that an iterator gives, which finds them in another way. */
+static void expect_as_iterator(const mw_locator *locator, const double *ends,
+                               const mw_segment_piece *piece, size_t n)
+{
+    static mw_segment_piece own[ROOM + 1];
+    mw_cursor cursor = {.walk = 0};
+    mw_segment s;
+    mw_error error;
+    expect_ok(mw_segment_begin(locator, &cursor, ends, ends + 2, &s, &error), "a segment", &error);
+    assert_int_equal(pieces_of(&s, own), n);
+    if (n) assert_memory_equal(own, piece, n * sizeof *piece);
+}
+
 static void expect_batch(const arrays *m, const mw_locator *locator, const double *ends, size_t n,
                          size_t stride, uint32_t threads)
 {
@@ -92,9 +105,12 @@ static void expect_batch(const arrays *m, const mw_locator *locator, const doubl
     assert_int_equal(all.segment_count, n);
     assert_int_equal(all.offset[n], all.piece_count);
     assert_int_equal(all.bad_count, 0);
-    for (size_t i = 0; i < n; i++)
-        expect_pieces(m, ends + i * stride, ends + i * stride + 2, all.piece + all.offset[i],
-                      all.offset[i + 1] - all.offset[i]);
+    for (size_t i = 0; i < n; i++) {
+        const mw_segment_piece *piece = all.piece + all.offset[i];
+        size_t count = all.offset[i + 1] - all.offset[i];
+        expect_pieces(m, ends + i * stride, ends + i * stride + 2, piece, count);
+        expect_as_iterator(locator, ends + i * stride, piece, count);
+    }
     mw_segment_pieces_release(&all);
 }
 
@@ -288,34 +304,48 @@ static void test_large_mesh(void **state)
     arrays_free(&m);
 }
 
-/* Each allocation of a batch fails once. */
+/* Each allocation of a batch fails once. A batch that can do with less memory succeeds. */
+static void expect_each_failure(const mw_locator *locator, const double *ends, size_t n)
+{
+    mw_segment_options options = {.threads = 1};
+    mw_segment_pieces whole, all;
+    mw_error error = {0};
+    expect_ok(mw_segment_batch(locator, ends, n, 4, &options, &whole, &error), "pieces", &error);
+    bool failed = true;
+    int refused = 0;
+    for (long failures = 0; failed; failures++) {
+        allocations_left = failures;
+        mw_status status = mw_segment_batch(locator, ends, n, 4, &options, &all, &error);
+        failed = allocations_left < 0;
+        allocations_left = -1;
+        if (status == MW_OK) {
+            assert_int_equal(all.piece_count, whole.piece_count);
+            assert_memory_equal(all.piece, whole.piece, all.piece_count * sizeof *all.piece);
+            mw_segment_pieces_release(&all);
+            continue;
+        }
+        assert_true(failed);
+        assert_int_equal(status, MW_ERROR_MEMORY);
+        assert_null(all.piece);
+        assert_null(all.offset);
+        refused++;
+    }
+    assert_true(refused > 2);
+    mw_segment_pieces_release(&whole);
+}
+
 static void test_memory(void **state)
 {
     (void)state;
-    enum { SEGMENTS = 700 };
+    enum { SEGMENTS = 2700 };
     uint64_t random = 8;
     arrays m = arrays_grid(20, 0.5, &random);
     mw_mesh *mesh = arrays_mesh(&m, (mw_mesh_options){.threads = 1});
     mw_locator *locator = mesh_locator(mesh, (mw_locator_options){.threads = 1});
     static double ends[4 * SEGMENTS];
     for (int i = 0; i < 4 * SEGMENTS; i++) ends[i] = 22 * random_unit(&random) - 1;
-    mw_segment_options options = {.threads = 1};
-    for (long failures = 0;; failures++) {
-        mw_segment_pieces all;
-        mw_error error = {0};
-        allocations_left = failures;
-        mw_status status = mw_segment_batch(locator, ends, SEGMENTS, 4, &options, &all, &error);
-        bool failed = allocations_left < 0;
-        allocations_left = -1;
-        assert_int_equal(status, failed ? MW_ERROR_MEMORY : MW_OK);
-        if (!failed) {
-            assert_true(failures > 4);
-            mw_segment_pieces_release(&all);
-            break;
-        }
-        assert_null(all.piece);
-        assert_null(all.offset);
-    }
+    expect_each_failure(locator, ends, 700);
+    expect_each_failure(locator, ends, SEGMENTS);
     mw_locator_destroy(locator);
     mw_mesh_destroy(mesh);
     arrays_free(&m);

@@ -779,9 +779,75 @@ static void test_single_triangle(void **state)
     world_free(&w);
 }
 
+/* --- counters --------------------------------------------------------------------------------- */
+
+static void test_counters_add_up(void **state)
+{
+    (void)state;
+    enum { COUNT = sizeof(mw_probe_counters) / sizeof(uint64_t) };
+    const size_t most[] = {offsetof(mw_probe_counters, triangles_max),
+                           offsetof(mw_probe_counters, tests_max),
+                           offsetof(mw_probe_counters, iterations_max)};
+    uint64_t a[COUNT], b[COUNT], sum[COUNT];
+    for (size_t i = 0; i < COUNT; i++) {
+        a[i] = sum[i] = 100 + i;
+        b[i] = i % 2 ? 7 : 1000 + i;
+    }
+    mw_probe_counters_add((mw_probe_counters *)sum, (const mw_probe_counters *)b);
+    for (size_t i = 0; i < COUNT; i++) {
+        bool is_most = false;
+        for (size_t k = 0; k < 3; k++) is_most = is_most || most[k] == i * sizeof *sum;
+        assert_int_equal(sum[i], !is_most ? a[i] + b[i] : a[i] > b[i] ? a[i] : b[i]);
+    }
+}
+
+/* A line through a ball, from a random first triangle: each triangle of the walk takes two tests,
+ * the first one four; the one that is touched one more; and each look for a first triangle one. */
+static void test_counters_of_a_walk(void **state)
+{
+    (void)state;
+    uint64_t random = 41;
+    enum { LINES = 300 };
+    probe_world w = world_of("round", shape_ball(8, 4096, 0, &random), (mw_surface_options){0});
+    mw_probe_counters sum = {0}, each[LINES];
+    double *query = calloc(LINES, 6 * sizeof *query);
+    for (size_t i = 0; i < LINES; i++) {
+        double *q = query + 6 * i;
+        for (int k = 0; k < 3; k++) q[3 + k] = random_unit(&random) - 0.5;
+        for (int k = 0; k < 3; k++) q[k] = 900 * (random_unit(&random) - 0.5) - 30000 * q[3 + k];
+        mw_probe_cursor cursor = cursor_of(
+            &w, (mw_probe_options){.start = MW_PROBE_START_RANDOM, .seed = i, .counters = 1});
+        assert_int_equal(ask(&w, &cursor, q).state, MW_TOUCH_HIT);
+        const mw_probe_counters *c = &cursor.counters;
+        assert_int_equal(c->queries, 1);
+        assert_int_equal(c->hits, 1);
+        assert_int_equal(c->iterations, 1);
+        assert_int_equal(c->intersections, 1);
+        assert_int_equal(c->tests, 2 * c->triangles + 2 + 1 + c->samples);
+        assert_int_equal(c->tests_max, c->tests);
+        assert_int_equal(c->triangles_max, c->triangles);
+        assert_int_equal(c->iterations_max, 1);
+        assert_int_equal(c->boxes + c->box_triangles, 0);
+        each[i] = *c;
+        mw_probe_counters_add(&sum, c);
+    }
+    uint64_t tests = 0, longest = 0;
+    for (size_t i = 0; i < LINES; i++) {
+        tests += each[i].tests;
+        if (each[i].tests > longest) longest = each[i].tests;
+    }
+    assert_int_equal(sum.tests, tests);
+    assert_int_equal(sum.tests_max, longest);
+    assert_true(sum.triangles > 5 * LINES);
+    free(query);
+    world_free(&w);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_counters_add_up),
+        cmocka_unit_test(test_counters_of_a_walk),
         cmocka_unit_test(test_names),
         cmocka_unit_test(test_arguments),
         cmocka_unit_test(test_sample_count),

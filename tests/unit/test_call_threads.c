@@ -3,7 +3,7 @@
 /* wrap: pthread_create */
 #include "support/environment.h"
 #include "support/files.h"
-#include "support/long_calls.h"
+#include "support/calls/long_calls.h"
 
 #include <dirent.h>
 #include <errno.h>

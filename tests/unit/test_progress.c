@@ -3,7 +3,7 @@
 #define _GNU_SOURCE /* sched_setaffinity */
 #include "base/job.h"
 #include "support/environment.h"
-#include "support/long_calls.h"
+#include "support/calls/long_calls.h"
 #include "support/files.h"
 
 #include <stdarg.h>
