@@ -143,11 +143,12 @@ static mw_status weights_apply(const ocean_weights *w, size_t way, mw_error *err
 double ocean_weights_bytes(const ocean_weights *w, size_t way)
 {
     const double size = way == FLOATS ? sizeof(float) : sizeof(double),
-                 fields = 2 * size * (double)w->points * OCEAN_STEPS;
+                 fields = 2 * size * (double)w->points * OCEAN_STEPS,
+                 entry = sizeof(uint32_t) + sizeof(double); /* a column and a weight */
     mw_operator_info info;
     if (way == COPY) return fields;
     mw_operator_describe(weights_of_way(w, way), &info);
-    return fields + (double)info.bytes * (OCEAN_STEPS / BLOCK);
+    return fields + entry * (double)info.entries * (OCEAN_STEPS / BLOCK);
 }
 
 int ocean_weights_time(void *self, size_t way, size_t round, double *figures)

@@ -16,6 +16,8 @@
  *
  * The results are those of mw_interpolate_table(), bit for bit. An operator takes 40 bytes a point
  * and does not refer to the mesh. It orders its rows so that consecutive rows read nearby values.
+ * Where points or vertices are scattered, many fields stored one after another need 76 bytes more
+ * for each point and 68 for each vertex, which the operator keeps (mw_operator_apply()).
  */
 #ifndef MESHWALK_OPERATOR_H
 #define MESHWALK_OPERATOR_H
@@ -168,7 +170,7 @@ typedef struct mw_operator_info {
     size_t entries;      /**< weights that are not 0 */
     uint32_t empty_rows; /**< rows without entries */
     uint32_t widest;     /**< the most entries in a row */
-    size_t bytes;        /**< memory in bytes */
+    size_t bytes;        /**< memory in bytes, with what calls of mw_operator_apply() left to it */
 } mw_operator_info;
 
 /** Fill `info` with the size of an operator. O(1). */
@@ -222,9 +224,11 @@ typedef struct mw_operator_apply_options {
  *
  * Thread-safe. The result is the same, bit for bit, for any number of threads. Memory is allocated
  * for threads, and for fields that are stored one after another: from eight fields on 2.6 MB and a
- * byte for 256 columns for each thread, in which values are brought side by side; from four fields
- * on, if rows or columns are scattered, 64 bytes for each row and column instead. If that memory is
- * not available, the call takes longer.
+ * byte for 256 columns for each thread, in which values are brought side by side. From four fields
+ * on, if rows or columns are scattered, it is instead 64 bytes for each row and column, and 4 for
+ * each column and entry. The operator keeps this memory for the next call until it is destroyed; of
+ * calls at the same time each has 64 bytes for each row and column. If memory is not available, the
+ * call takes longer.
  */
 MW_API mw_status mw_operator_apply(const mw_operator *weights, const mw_value_table *table,
                                    const mw_operator_apply_options *options, void *result,

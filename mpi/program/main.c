@@ -1,6 +1,7 @@
 /* meshwalk-mpi - the program on many machines. Rank 0 runs the sub-command that the first argument
  * names: it reads and writes; the other ranks do what it orders. */
 #include "mpi/program/commands.h"
+#include "mpi/program/watch.h"
 
 #include "cli/commands/commands.h"
 #include "cli/frame/files.h"
@@ -67,9 +68,13 @@ static int main_run(int count, char **arguments)
 int main(int count, char **arguments)
 {
     mwp_error error;
-    int end = END_RESOURCE, given = 0;
+    int end = END_RESOURCE, given = 0, rank, size;
     signal(SIGPIPE, SIG_IGN); /* a closed pipe is then an error of the output */
+    watch_begin();
     MPI_Init_thread(&count, &arguments, MPI_THREAD_FUNNELED, &given);
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    MPI_Comm_size(MPI_COMM_WORLD, &size);
+    watch_set_rank(rank, size);
     if (service_open(&of_program, &error)) {
         complain("%s", error.message);
     } else if (of_program.wire.rank == 0) {

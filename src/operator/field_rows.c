@@ -1,96 +1,61 @@
-/* field_rows.c - whole groups, a cache line for each row, are written past the caches. */
+/* field_rows.c - rows are whole cache lines, and are written past the caches. */
 #include "operator/field_rows.h"
 
-#include "operator/past_caches.h"
+#include "operator/four_doubles.h"
 
 enum {
-    RUN = 64, /* rows that stay in the nearest cache while field after field is written */
-    DOUBLES = MW_CACHE_LINE / sizeof(double), /* of a whole group */
+    RUN = 512, /* bytes of a field: its rows stay in the nearest cache for field after field */
+    DOUBLES = MW_CACHE_LINE / sizeof(double), /* of a row */
     FLOATS = MW_CACHE_LINE / sizeof(float)
 };
 
 /* --- from fields to rows --- */
 
-static void gather_doubles(const mw_field_rows *f, uint64_t from, uint64_t to)
+/* The first value of each field. What a row has room for beyond them repeats the last. */
+static MW_INLINE void fields_at(const mw_field_rows *f, const void **at, size_t width)
 {
-    const double *fields = (const double *)(const void *)f->fields;
+    for (size_t k = 0; k < width; k++)
+        at[k] = f->fields + (k < f->count ? k : f->count - 1) * f->step * f->size;
+}
+
+static void gather_doubles(const mw_field_rows *f, size_t from, size_t to)
+{
+    const void *at[DOUBLES];
     double *rows = (double *)(void *)f->rows;
-    for (size_t i = from; i < to; i++)
-        for (size_t k = 0; k < f->count; k++)
-            rows[i * f->count + k] = fields[i * f->stride + k * f->step];
-}
-
-static void gather_floats(const mw_field_rows *f, uint64_t from, uint64_t to)
-{
-    const float *fields = (const float *)(const void *)f->fields;
-    float *rows = (float *)(void *)f->rows;
-    for (size_t i = from; i < to; i++)
-        for (size_t k = 0; k < f->count; k++)
-            rows[i * f->count + k] = fields[i * f->stride + k * f->step];
-}
-
-static void gather_lines_of_doubles(const mw_field_rows *f, uint64_t from, uint64_t to)
-{
-    const double *fields = (const double *)(const void *)f->fields;
-    double *rows = (double *)(void *)f->rows;
-    const size_t step = f->step;
+    fields_at(f, at, DOUBLES);
     for (size_t i = from; i < to; i++) {
-        const double *at = &fields[i * f->stride];
-        for (size_t k = 0; k < DOUBLES; k += 2, at += 2 * step)
-            mw__pass_doubles(&rows[i * DOUBLES + k], at[0], at[step]);
+        double *row = &rows[f->place[i] * (size_t)DOUBLES];
+        const size_t v = i * f->stride;
+        for (size_t k = 0; k < DOUBLES; k += 2)
+            mw__pass_doubles(&row[k], ((const double *)at[k])[v], ((const double *)at[k + 1])[v]);
     }
-    mw__past_caches_end();
 }
 
-static void gather_lines_of_floats(const mw_field_rows *f, uint64_t from, uint64_t to)
+static void gather_floats(const mw_field_rows *f, size_t from, size_t to)
 {
-    const float *fields = (const float *)(const void *)f->fields;
+    const void *at[FLOATS];
     float *rows = (float *)(void *)f->rows;
-    const size_t step = f->step;
+    fields_at(f, at, FLOATS);
     for (size_t i = from; i < to; i++) {
-        const float *at = &fields[i * f->stride];
-        for (size_t k = 0; k < FLOATS; k += 4, at += 4 * step)
-            mw__pass_floats(&rows[i * FLOATS + k], at[0], at[step], at[2 * step], at[3 * step]);
+        float *row = &rows[f->place[i] * (size_t)FLOATS];
+        const size_t v = i * f->stride;
+        for (size_t k = 0; k < FLOATS; k += 4)
+            mw__pass_floats(&row[k], ((const float *)at[k])[v], ((const float *)at[k + 1])[v],
+                            ((const float *)at[k + 2])[v], ((const float *)at[k + 3])[v]);
     }
-    mw__past_caches_end();
 }
 
 static void gather_range(void *work, uint64_t from, uint64_t to)
 {
     const mw_field_rows *f = work;
-    const bool doubles = f->size == sizeof(double);
-    if (doubles && f->count == DOUBLES)
-        gather_lines_of_doubles(f, from, to);
-    else if (doubles)
+    if (f->size == sizeof(double))
         gather_doubles(f, from, to);
-    else if (f->count == FLOATS)
-        gather_lines_of_floats(f, from, to);
     else
         gather_floats(f, from, to);
+    mw__past_caches_end();
 }
 
 /* --- from rows to fields --- */
-
-/* Rows of a few lines at a time, so that each field is written in whole lines. */
-static void spread_doubles(const mw_field_rows *f, uint64_t from, uint64_t to)
-{
-    const double *rows = (const double *)(const void *)f->rows;
-    double *fields = (double *)(void *)f->fields;
-    for (size_t begin = from; begin < to; begin += RUN)
-        for (size_t k = 0; k < f->count; k++)
-            for (size_t i = begin; i < to && i < begin + RUN; i++)
-                fields[i * f->stride + k * f->step] = rows[i * f->count + k];
-}
-
-static void spread_floats(const mw_field_rows *f, uint64_t from, uint64_t to)
-{
-    const float *rows = (const float *)(const void *)f->rows;
-    float *fields = (float *)(void *)f->fields;
-    for (size_t begin = from; begin < to; begin += RUN)
-        for (size_t k = 0; k < f->count; k++)
-            for (size_t i = begin; i < to && i < begin + RUN; i++)
-                fields[i * f->stride + k * f->step] = rows[i * f->count + k];
-}
 
 /* One field of n rows: `from` is its value in the first of them. */
 static void spread_line_of_doubles(const double *from, size_t n, double *to)
@@ -113,12 +78,16 @@ static void spread_line_of_floats(const float *from, size_t n, float *to)
     for (; i < n; i++) to[i] = from[i * FLOATS];
 }
 
-static void spread_lines(const mw_field_rows *f, uint64_t from, uint64_t to, bool doubles)
+/* Rows of a few lines at a time, so that each field is written in whole lines. */
+static void spread_range(void *work, uint64_t from, uint64_t to)
 {
-    for (size_t begin = from; begin < to; begin += RUN) {
-        const size_t n = to - begin < RUN ? to - begin : RUN;
+    const mw_field_rows *f = work;
+    const bool doubles = f->size == sizeof(double);
+    const size_t run = doubles ? RUN / sizeof(double) : RUN / sizeof(float);
+    for (size_t begin = from; begin < to; begin += run) {
+        const size_t n = to - begin < run ? to - begin : run;
         for (size_t k = 0; k < f->count; k++) {
-            const void *row = f->rows + (begin * f->count + k) * f->size;
+            const void *row = f->rows + begin * MW_CACHE_LINE + k * f->size;
             void *field = f->fields + (begin + k * f->step) * f->size;
             if (doubles)
                 spread_line_of_doubles(row, n, field);
@@ -129,24 +98,7 @@ static void spread_lines(const mw_field_rows *f, uint64_t from, uint64_t to, boo
     mw__past_caches_end();
 }
 
-static void spread_range(void *work, uint64_t from, uint64_t to)
+bool mw__field_rows_copy(const mw_field_rows *f, mw_job *job)
 {
-    const mw_field_rows *f = work;
-    const bool doubles = f->size == sizeof(double);
-    if (f->stride == 1 && f->count * f->size == MW_CACHE_LINE)
-        spread_lines(f, from, to, doubles);
-    else if (doubles)
-        spread_doubles(f, from, to);
-    else
-        spread_floats(f, from, to);
-}
-
-bool mw__field_rows_gather(const mw_field_rows *f, mw_job *job)
-{
-    return mw__job_ranges(job, f->n, gather_range, (void *)f);
-}
-
-bool mw__field_rows_spread(const mw_field_rows *f, mw_job *job)
-{
-    return mw__job_ranges(job, f->n, spread_range, (void *)f);
+    return mw__job_ranges(job, f->n, f->place ? gather_range : spread_range, (void *)f);
 }

@@ -1,6 +1,8 @@
 /* operator.c - an operator is destroyed, described and copied. */
 #include "operator/operator.h"
 
+#include "operator/past_caches.h"
+
 #include <stdlib.h>
 
 void mw_operator_destroy(mw_operator *o)
@@ -10,6 +12,8 @@ void mw_operator_destroy(mw_operator *o)
     free(o->first);
     free(o->column);
     free(o->weight);
+    free(o->places);
+    free(o->lines);
     free(o);
 }
 
@@ -23,7 +27,9 @@ void mw_operator_describe(const mw_operator *o, mw_operator_info *info)
                                .widest = o->widest};
     info->bytes = sizeof *o + room * (sizeof *o->column + sizeof *o->weight) +
                   (o->row ? o->rows * sizeof *o->row : 0) +
-                  (o->first ? (o->rows + (size_t)1) * sizeof *o->first : 0);
+                  (o->first ? (o->rows + (size_t)1) * sizeof *o->first : 0) +
+                  (o->places ? (o->columns + room) * sizeof(uint32_t) : 0) +
+                  (o->lines ? (o->columns + (size_t)o->rows) * MW_CACHE_LINE : 0);
 }
 
 /* Set first[i + 1] to the number of entries of row i. */

@@ -9,6 +9,7 @@
 #include "base/base.h"
 
 #include <meshwalk/operator.h>
+#include <stdatomic.h>
 
 enum { MW_NARROW_ROW = 3 };
 
@@ -19,6 +20,10 @@ struct mw_operator {
     uint64_t *first;  /* the entries of rank i begin at first[i]; NULL: at 3 * i, and are three */
     uint32_t *column; /* of each entry; of a weight of 0: any column */
     double *weight;
+    /* Made by calls for the calls after them; NULL: none. See column_places.h and field_groups.c.
+     */
+    _Atomic(uint32_t *) places;
+    _Atomic(char *) lines;
 };
 
 static MW_INLINE uint32_t mw__operator_row(const mw_operator *o, size_t rank)

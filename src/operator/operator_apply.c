@@ -5,7 +5,7 @@
  * columns are brought side by side first (field_rows.c). */
 #include "base/job.h"
 #include "base/options.h"
-#include "operator/field_rows.h"
+#include "operator/field_groups.h"
 #include "operator/field_sums.h"
 #include "operator/past_caches.h"
 #include "operator/row_sums.h"
@@ -90,92 +90,6 @@ static mw_apply_call apply_begin(const mw_operator *o, const mw_value_table *tab
     return c;
 }
 
-/* --- fields one after another, of scattered rows or columns ----------------------------------- */
-
-/* Do consecutive ranks mostly read values that are far apart? */
-static bool columns_jump(const mw_operator *o)
-{
-    enum { LOOKS = 256, FAR = 4096 };
-    const size_t apart = o->rows / LOOKS;
-    size_t far = 0;
-    for (size_t i = 0; i < LOOKS && apart > 1 && o->entries > 0; i++) {
-        const uint64_t a = mw__operator_first(o, i * apart),
-                       b = mw__operator_first(o, i * apart + 1);
-        if (b >= mw__operator_first(o, o->rows)) continue;
-        const uint32_t x = o->column[a], y = o->column[b];
-        far += (x > y ? x - y : y - x) >= FAR;
-    }
-    return far > LOOKS / 4;
-}
-
-/* Is it faster to bring groups of fields side by side, which takes two more passes over their
- * memory? Yes if most columns are used and a field is larger than the nearest caches. */
-static bool groups_repay(const mw_apply_call *c)
-{
-    enum { FEWEST = 4, MANY = 1 << 16 };
-    const mw_operator *o = c->o;
-    return c->step > 1 && c->count >= FEWEST && o->columns >= MANY && o->rows >= o->columns / 2 &&
-           (o->row || columns_jump(o));
-}
-
-/* Part `part` of three of a group. */
-static bool group_part(mw_apply_call *c, const mw_field_rows *in, const mw_field_rows *out,
-                       int part, mw_job *job)
-{
-    if (part == 0) return mw__field_rows_gather(in, job);
-    if (part == 2) return mw__field_rows_spread(out, job);
-    return mw__job_chunks(job, mw__job_team(job, c->ranges), c->ranges, apply_chunk, c);
-}
-
-static bool groups_of_fields_apply(const mw_apply_call *c, char *values, char *result, size_t most,
-                                   mw_job *job)
-{
-    const size_t size = mw__operand_size(c->narrow);
-    bool on = true;
-    for (size_t k = 0; k < c->count && on; k += most) {
-        const size_t n = c->count - k < most ? c->count - k : most;
-        mw_apply_call group = *c;
-        group.values = values;
-        group.result = result;
-        group.count = group.fields = group.stride = group.row = n;
-        group.step = group.field = 1;
-        group.past_caches = n == most && c->o->rows >= LARGE / MW_CACHE_LINE;
-        const mw_field_rows in = {(char *)c->values + k * c->step * size,
-                                  values,
-                                  c->o->columns,
-                                  n,
-                                  size,
-                                  c->stride,
-                                  c->step},
-                            out = {(char *)c->result + k * c->field * size,
-                                   result,
-                                   c->o->rows,
-                                   n,
-                                   size,
-                                   1,
-                                   c->field};
-        for (int part = 0; part < 3 && on; part++) {
-            mw_job_span outer = mw__job_steps_of(job, 3 * k + (uint64_t)part * n, n, 3 * c->count);
-            on = group_part(&group, &in, &out, part, job);
-            mw__job_steps_end(job, outer);
-        }
-    }
-    return on;
-}
-
-/* Returns false and changes nothing if there is no memory for the groups. */
-static bool groups_apply(const mw_apply_call *c, mw_job *job)
-{
-    const size_t most = MW_CACHE_LINE / mw__operand_size(c->narrow);
-    char *values = mw__alloc_lines(c->o->columns, MW_CACHE_LINE),
-         *result = mw__alloc_lines(c->o->rows, MW_CACHE_LINE);
-    const bool there = values && result;
-    if (there) groups_of_fields_apply(c, values, result, most, job);
-    free(values);
-    free(result);
-    return there;
-}
-
 static void chunks_apply(mw_apply_call *c, mw_job *job)
 {
     const uint64_t chunks = c->ranges * ((c->count + c->fields - 1) / c->fields);
@@ -195,6 +109,7 @@ mw_status mw_operator_apply(const mw_operator *weights, const mw_value_table *ta
     mw_apply_call call = apply_begin(weights, table, options, result);
     mw_job job = mw__job(options->threads, options->progress);
     mw__job_stage(&job, "applying weights", 1);
-    if (!groups_repay(&call) || !groups_apply(&call, &job)) chunks_apply(&call, &job);
+    if (!mw__field_groups_repay(&call) || !mw__field_groups_apply(&call, &job))
+        chunks_apply(&call, &job);
     return mw__job_end(&job, MW_OK, error);
 }

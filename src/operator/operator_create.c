@@ -97,8 +97,8 @@ static mw_operator *places_pack(const mw_placed_hits *at, mw_job *job)
     if (!o) return NULL;
     o->rows = (uint32_t)n;
     o->columns = mw__placed_vertex_count(at);
-    o->column = mw__alloc(n, 3 * sizeof *o->column);
-    o->weight = mw__alloc(n, 3 * sizeof *o->weight);
+    o->column = mw__alloc_lines(n, 3 * sizeof *o->column);
+    o->weight = mw__alloc_lines(n, 3 * sizeof *o->weight);
     mw__job_stage(job, "ordering points", 0.5);
     bool made = o->column && o->weight && places_order(at, o) && mw__job_step(job, 1, 1);
     mw__job_stage(job, "collecting weights", 0.5);
