@@ -35,7 +35,8 @@ int pieces_query_fail(const pieces_query *q, const mwp_error *from)
 
 /* --- the mesh --------------------------------------------------------------------------------- */
 
-/* The file as it is distributed: without heights and fields but the one that is asked for. */
+/* The file as it is distributed: without heights and fields but the one that is asked for, if it is
+ * one of vertices. */
 static int file_distribute(pieces_query *q, const mw_mesh_file *file, const mw_mesh *mesh,
                            const mesh_field_choice *field)
 {
@@ -44,9 +45,10 @@ static int file_distribute(pieces_query *q, const mw_mesh_file *file, const mw_m
                          .point_count = file->point_count,
                          .triangles = file->triangles,
                          .triangle_count = file->triangle_count};
-    char *name = field ? (char *)(uintptr_t)field->field : NULL;
-    double *values = field ? (double *)(uintptr_t)mw_mesh_field(mesh, name) : NULL;
-    if (field) {
+    q->values = field && !(field->triangles && *field->triangles);
+    char *name = q->values ? (char *)(uintptr_t)field->field : NULL;
+    double *values = q->values ? (double *)(uintptr_t)mw_mesh_field(mesh, name) : NULL;
+    if (q->values) {
         bare.field_names = &name; /* only read */
         bare.fields = &values;
         bare.field_count = 1;
@@ -85,11 +87,8 @@ int pieces_query_open(pieces_query *q, service *s, const pieces_settings *settin
                       const char *const *operands, const mesh_field_choice *field)
 {
     mw_mesh_file file;
-    *q = (pieces_query){.settings = settings,
-                        .service = s,
-                        .path = operands[0],
-                        .values = field != NULL,
-                        .begin = monotonic_seconds()};
+    *q = (pieces_query){
+        .settings = settings, .service = s, .path = operands[0], .begin = monotonic_seconds()};
     int end = files_check_output(settings->stream.common.output, operands, 2);
     if (end == 0) end = point_layers_check(operands, 2);
     if (end == 0) end = query_stream_check_output(&settings->stream);

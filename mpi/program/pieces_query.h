@@ -24,7 +24,7 @@ typedef struct pieces_query {
     char *crs;       /* NULL: not known */
     uint32_t *faces; /* NULL: faces are the triangles */
     int first_number;
-    bool values;      /* each point gets a value of the field */
+    bool values;      /* each point gets a value of the field of vertices */
     double *vertices; /* x, y of all vertices of the file */
     size_t vertex_count;
     extent_box extent, points;
