@@ -357,6 +357,7 @@ int gdal_constraints_read(const char *path, const gdal_constraints_options *opti
         path, GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, NULL, NULL, NULL);
     if (!set) return gdal_fail(path);
     int end = collector_read_layers(&c, set, path);
+    file->record_count = c.feature;
     gdal.GDALClose(set);
     if (end == 0 && file->point_count == 0) {
         complain("%s: GDAL finds no %spolygons in it", path,

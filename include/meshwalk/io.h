@@ -196,6 +196,8 @@ typedef struct mw_constraint_file {
      * latitudes (EPSG:4326) unless it says otherwise or its numbers cannot be such; .poly has a
      * .prj file beside it. */
     char *crs;
+    /** Features of the file, also those without points or segments; 0 if it has lines. */
+    size_t record_count;
 } mw_constraint_file;
 
 /**

@@ -39,7 +39,7 @@ static uint32_t guide_walk(const mw_guided *guided, mw_point q, uint32_t most, u
 
 double mw__guide_mean_walk(const mw_guided *guided)
 {
-    enum { TILES_PER_WALK = 256, WALKS = 256, MOST = 1 << 14 };
+    enum { TILES_PER_WALK = 256, WALKS = 256, MOST = LONG + MW_CHAINS_WALK };
     const mw_tiling *tiling = guided->tiling;
     uint32_t n = tiling->tri_count, walks = n / TILES_PER_WALK < WALKS ? n / TILES_PER_WALK : WALKS;
     uint64_t visited = 0;
