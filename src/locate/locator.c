@@ -149,11 +149,10 @@ static bool guide_make_chains(const mw_locator *locator, mw_job *job, mw_index *
     return done;
 }
 
-/* Replace a guide by chains if walks from it are long: a query by chains takes as long as a walk
- * over FEW tiles. Chains take 68 to 88 bytes a tile, and cannot follow edits. */
+/* Replace a guide by chains if walks from it are long. Chains take 68 to 88 bytes a tile, and
+ * cannot follow edits. */
 bool mw__locator_guide(const mw_locator *locator, mw_job *job, mw_index *guide)
 {
-    static const double FEW = 24;
     const mw_tiling *tiling = &locator->tiling;
     const mw_guided guided = {tiling, guide, locator->auto_walk, locator->threads};
     mw_job_span outer = mw__job_part(job, 0.6);
@@ -161,7 +160,7 @@ bool mw__locator_guide(const mw_locator *locator, mw_job *job, mw_index *guide)
     mw__job_part_end(job, outer);
     if (!done) return false;
     if (tiling->tile_of || tiling->border_loops || !tiling->embedding) return true;
-    bool leads = guide->start != MW_START_AUTO && !(mw__guide_mean_walk(&guided) > FEW);
+    bool leads = guide->start != MW_START_AUTO && !(mw__guide_mean_walk(&guided) > MW_CHAINS_WALK);
     return leads || guide_make_chains(locator, job, guide);
 }
 
@@ -266,7 +265,7 @@ mw_status mw_locator_create(const mw_mesh *mesh, const mw_locator_options *optio
     if (!mesh) return mw__fail(error, MW_ERROR_ARGUMENT, "no mesh");
     if (!options) options = &defaults;
     if ((unsigned)options->fill > MW_FILL_NO)
-        return mw__fail(error, MW_ERROR_ARGUMENT, "unknown way to fill");
+        return mw__fail(error, MW_ERROR_ARGUMENT, "unknown mode of filling pockets and holes");
     if (mesh->flat_count == mesh->tri_count)
         return mw__fail(error, MW_ERROR_INPUT, "the mesh has no triangle with an area");
     mw_status status = MW_RESERVED_CHECK(mw_locator_options, options, error);

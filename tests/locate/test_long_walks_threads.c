@@ -24,14 +24,16 @@ enum { LIMIT = 64, SHORT = LIMIT + 4, PRICE = 16, BLOCK = 512 };
 
 /* --- meshes ----------------------------------------------------------------------------------- */
 
-/* A vertex at the origin with `spokes` edges to a circle, among others outside of it. */
-static mw_mesh *wheel(uint32_t spokes, uint32_t others, uint64_t *random)
+static const double FULL_TURN = 6.28318530717958648;
+
+/* A vertex at the origin with `spokes` edges to an arc, among others outside of the circle. */
+static mw_mesh *wheel(uint32_t spokes, uint32_t others, double turn, uint64_t *random)
 {
     uint32_t n = 1 + spokes;
     double *at = calloc(2 * (size_t)(1 + spokes + others), sizeof *at);
     assert_non_null(at);
     for (uint32_t i = 1; i <= spokes; i++) {
-        const double angle = 6.28318530717958648 * i / spokes;
+        const double angle = turn * i / spokes;
         at[2 * i] = 0.09 * cos(angle);
         at[2 * i + 1] = 0.09 * sin(angle);
     }
@@ -50,7 +52,7 @@ static mw_mesh *wheel(uint32_t spokes, uint32_t others, uint64_t *random)
 static void draw(double *q, uint32_t n, uint64_t *random)
 {
     for (uint32_t i = 0; i < n; i++) {
-        const double angle = 6.28318530717958648 * random_unit(random),
+        const double angle = FULL_TURN * random_unit(random),
                      radius = exp2(-8 - 30 * random_unit(random));
         q[2 * i] = radius * cos(angle);
         q[2 * i + 1] = radius * sin(angle);
@@ -87,7 +89,7 @@ static unseen unseen_wheel(uint32_t spokes, uint32_t others, uint32_t no_late_ch
 {
     enum { TRIES = 200 };
     for (int i = 0; i < TRIES; i++) {
-        unseen u = {.mesh = wheel(spokes, others, random)};
+        unseen u = {.mesh = wheel(spokes, others, FULL_TURN, random)};
         u.locator = mesh_locator(
             u.mesh, (mw_locator_options){.threads = 1, .no_late_chains = no_late_chains});
         if (describe(u.locator).chain_bytes == 0) return u;
@@ -397,12 +399,32 @@ static void test_good(void **state)
     free(p);
 }
 
+/* One walk in seven is very long: chains end these, and the grid leads to the others. */
+static void test_few_very_long(void **state)
+{
+    (void)state;
+    uint64_t random = environment_print_seed("few very long walks", 109);
+    mw_mesh *mesh = wheel(15000, 85000, FULL_TURN / 2, &random);
+    mw_locator *locator = mesh_locator(mesh, (mw_locator_options){.threads = 1});
+    assert_int_equal(describe(locator).guide, MW_START_GRID);
+    assert_true(describe(locator).chain_bytes > 0);
+    double q[2 * BLOCK];
+    asked a = {.most = 0};
+    draw(q, BLOCK, &random);
+    ask_alone(locator, q, BLOCK, &a);
+    assert_true(a.most <= SHORT);
+    expect_answers(locator, q, BLOCK, a.at);
+    mw_locator_destroy(locator);
+    mw_mesh_destroy(mesh);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_paid),     cmocka_unit_test(test_threads),
-        cmocka_unit_test(test_unwanted), cmocka_unit_test(test_memory),
-        cmocka_unit_test(test_mapped),   cmocka_unit_test(test_good),
+        cmocka_unit_test(test_paid),          cmocka_unit_test(test_threads),
+        cmocka_unit_test(test_unwanted),      cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_few_very_long), cmocka_unit_test(test_mapped),
+        cmocka_unit_test(test_good),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
