@@ -127,8 +127,8 @@ static void polygon_file_warn(const polygon_file *f, const mw_constraint_file *c
         uint32_t feature = f->feature[crossing[i]];
         if (feature != last && named++ < NAMED)
             complain("%s: warning: the border of %s %" PRIu32
-                     " crosses itself or runs along itself; points are inside that it goes round "
-                     "an odd number of times",
+                     " crosses itself or runs along itself; a point is inside if the border goes "
+                     "round it an odd number of times",
                      path, c->record_name, feature);
         else if (feature != last)
             more++;

@@ -176,7 +176,7 @@ for words in '--crs EPSG:1' '--tolerance 1' '--sample 3' '--steps 3' '--cells 3'
     '--walk lawson' '--start random' '--arithmetic double' '--finish stochastic' '--fill yes' \
     '--descent nearest' --areas --any --trust; do
     # shellcheck disable=SC2086 # words
-    run sample a b --as star --field f $words; refused 2 "option '${words%% *}' is not for --as star"
+    run sample a b --as star --field f $words; refused 2 "option '${words%% *}' cannot be used with --as star"
     # shellcheck disable=SC2086
     run weights a b --lonlat $words -o c.npz
     refused 2 "option '${words%% *}' is for points in the plane, not for --lonlat"

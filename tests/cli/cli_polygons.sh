@@ -93,7 +93,7 @@ prints 'x,y,status,feature,others
 21,1.5,inside,3,
 30.5,0,outside,-1,
 5,5,outside,-1,'
-says 'invalid.geojson: warning: the border of feature 0 crosses itself or runs along itself; points are inside that it goes round an odd'
+says 'invalid.geojson: warning: the border of feature 0 crosses itself or runs along itself; a point is inside if the border goes round it an odd'
 says 'warning: the border of feature 1 crosses itself'
 says 'feature 4: ring 0 of polygon 0 has fewer than three different points: the polygon is skipped'
 says 'warning: 1 segments of lines are skipped'
@@ -258,7 +258,7 @@ for count in 10 11 13; do
     run_on $'x,y\n1,0.5\n' locate --polygons bows.geojson -; exits 0
     holds "ten are named" test "$(grep -c 'warning: the border of feature' "$logs/err")" == 10
     if ((count > 10)); then
-        says "^meshwalk: bows.geojson: warning: so do $((count - 10)) others$"
+        says "^meshwalk: bows.geojson: warning: the borders of $((count - 10)) others do so, too$"
     else
         holds "no others" test -z "$(grep others "$logs/err")"
     fi
