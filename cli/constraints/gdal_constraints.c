@@ -181,7 +181,7 @@ static int collector_add_feature(constraint_collector *c, OGRFeatureH feature, c
     gdal.OGR_G_DestroyGeometry(linear);
     if (!added) return fail_memory();
     if (c->file->point_count <= MW_MAX_VERTICES && c->file->segment_count < MW_NONE) return 0;
-    complain("%s: more than %" PRIu32 " points, or than %" PRIu32 " segments", path,
+    complain("%s: has more than %" PRIu32 " points, or more than %" PRIu32 " segments", path,
              (uint32_t)MW_MAX_VERTICES, MW_NONE - 1);
     return END_RESOURCE;
 }
@@ -357,6 +357,7 @@ int gdal_constraints_read(const char *path, const gdal_constraints_options *opti
         path, GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, NULL, NULL, NULL);
     if (!set) return gdal_fail(path);
     int end = collector_read_layers(&c, set, path);
+    file->record_count = c.feature;
     gdal.GDALClose(set);
     if (end == 0 && file->point_count == 0) {
         complain("%s: GDAL finds no %spolygons in it", path,

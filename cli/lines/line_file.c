@@ -83,9 +83,9 @@ static void table_remark_columns(const char *path, const query_source *source,
     }
     int size = names.size < 1000 ? (int)names.size : 1000;
     if (names.size > 0 && !names.failed)
-        complain("%s: remark: a table is one line; what it tells of its points is not kept: "
-                 "columns %.*s",
-                 files_is_standard(path) ? "standard input" : path, size, names.bytes);
+        complain(
+            "%s: remark: a table is one line, so values of its points are not kept: columns %.*s",
+            files_is_standard(path) ? "standard input" : path, size, names.bytes);
     text_release(&names);
 }
 
@@ -221,6 +221,29 @@ static int lines_settle_crs(const line_file_settings *settings, const char *mesh
     return crs && !c->crs ? fail_memory() : 0;
 }
 
+/* Features without a line, but for those whose rings were skipped: that has been told. */
+static int lines_remark_missing(const line_file *l, const char *path, const mw_constraint_file *c)
+{
+    enum { NAMED = 10 };
+    size_t missing = 0;
+    text names = {0};
+    bool *told = calloc(c->record_count + 1, sizeof *told);
+    if (!told) return fail_memory();
+    for (size_t i = 0; i < l->count; i++) told[l->feature[i]] = true;
+    for (size_t i = 0; i < c->skipped_count; i++) told[c->skipped[i].record] = true;
+    for (size_t i = 0; i < c->record_count; i++)
+        if (!told[i] && missing++ < NAMED)
+            text_printf(&names, "%s%zu", missing > 1 ? ", " : " ", i);
+    free(told);
+    if (missing > 0 && !names.failed)
+        complain("%s: remark: %zu of %zu features without a line or polygon %s skipped (no "
+                 "geometry, an empty one, or points only):%.*s%s",
+                 path, missing, c->record_count, missing == 1 ? "is" : "are", (int)names.size,
+                 names.bytes, missing > NAMED ? ", ..." : "");
+    text_release(&names);
+    return 0;
+}
+
 int line_file_read(line_file *l, const char *path, const line_file_settings *settings,
                    const common_settings *common, const char *mesh, const char *mesh_crs)
 {
@@ -240,6 +263,7 @@ int line_file_read(line_file *l, const char *path, const line_file_settings *set
     if (end == 0 && !as_is && (c.crs || mesh_crs))
         end = vertex_crs_move_constraints(common, path, &c, mesh, mesh_crs);
     if (end == 0) end = lines_take(l, files_is_standard(path) ? "standard input" : path, &c);
+    if (end == 0 && c.record_count > 0 && !common->quiet) end = lines_remark_missing(l, path, &c);
     mw_constraint_file_release(&c);
     return end;
 }

@@ -5,17 +5,12 @@
 
 #include "cli/input/mesh_field.h"
 #include "cli/stream/extent_remark.h"
-#include "cli/stream/query_stream.h"
+#include "cli/stream/point_query_options.h"
 #include "mpi/program/service.h"
 
-/* The settings, and the options for them. */
-typedef struct pieces_settings {
-    query_stream_settings stream;
-    const char *crs;
-    double tolerance;
-} pieces_settings;
-
-extern const option pieces_options[];
+/* The settings are those of the other program (point_query_options). Ranks have a way of their own
+ * to find triangles, so walks, starts and what belongs to them make no difference. */
+typedef point_query_settings pieces_settings;
 
 typedef struct pieces_query {
     const pieces_settings *settings;
@@ -24,7 +19,7 @@ typedef struct pieces_query {
     char *crs;       /* NULL: not known */
     uint32_t *faces; /* NULL: faces are the triangles */
     int first_number;
-    bool values;      /* each point gets a value of the field */
+    bool values;      /* each point gets a value of the field of vertices */
     double *vertices; /* x, y of all vertices of the file */
     size_t vertex_count;
     extent_box extent, points;

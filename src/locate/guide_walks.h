@@ -14,8 +14,12 @@ typedef struct mw_guided {
     uint32_t threads; /* for making what is needed */
 } mw_guided;
 
+/* A query by chains takes as long as a walk over so many tiles. */
+#define MW_CHAINS_WALK 24
+
 /* How many tiles a walk from the guide visits on average, of walks to the middles of up to 256
- * tiles all over the mesh. */
+ * tiles all over the mesh. A long one counts as if chains ended it, which they do if there are
+ * more. */
 double mw__guide_mean_walk(const mw_guided *guided);
 
 /* Look for long walks from the guide, one for each 256 tiles, and make chains for the tiles that

@@ -3,7 +3,7 @@
  *
  * A group is as many fields as a cache line has room for values. Its values are brought side by
  * side, a line for each column (field_rows.c), in the order in which the ranks use the columns;
- * then row_sums.c makes a line of results for each row; then the lines go back to the fields. So
+ * then line_sums.c makes a line of results for each row; then the lines go back to the fields. So
  * memory is read in order, and lines that go anywhere are written whole, past the caches.
  *
  * The lines take 64 bytes for each row and column. To get so much memory from the system takes a
@@ -12,8 +12,8 @@
 
 #include "operator/column_places.h"
 #include "operator/field_rows.h"
+#include "operator/line_sums.h"
 #include "operator/past_caches.h"
-#include "operator/row_sums.h"
 
 #include <stdlib.h>
 
@@ -117,15 +117,15 @@ static void group_sum_range(void *work, uint64_t chunk, uint32_t member)
     const mw_apply_call *c = work;
     const size_t from = chunk * RANGE, left = c->o->rows - from;
     (void)member;
-    mw__row_sums(c, from, from + (left < RANGE ? left : RANGE));
+    mw__line_sums(c, from, from + (left < RANGE ? left : RANGE));
 }
 
 /* Part `part` of three of a group. */
 static bool group_part(field_group *g, int part, mw_job *job)
 {
     const uint64_t ranges = (g->placed.rows + (uint64_t)RANGE - 1) / RANGE;
-    if (part == 0) return mw__field_rows_gather(&g->in, job);
-    if (part == 2) return mw__field_rows_spread(&g->out, job);
+    if (part == 0) return mw__field_rows_copy(&g->in, job);
+    if (part == 2) return mw__field_rows_copy(&g->out, job);
     g->sums.o = &g->placed;
     return mw__job_chunks(job, mw__job_team(job, ranges), ranges, group_sum_range, &g->sums);
 }

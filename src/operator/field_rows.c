@@ -4,7 +4,7 @@
 #include "operator/four_doubles.h"
 
 enum {
-    RUN = 64, /* rows that stay in the nearest cache while field after field is written */
+    RUN = 512, /* bytes of a field: its rows stay in the nearest cache for field after field */
     DOUBLES = MW_CACHE_LINE / sizeof(double), /* of a row */
     FLOATS = MW_CACHE_LINE / sizeof(float)
 };
@@ -82,12 +82,14 @@ static void spread_line_of_floats(const float *from, size_t n, float *to)
 static void spread_range(void *work, uint64_t from, uint64_t to)
 {
     const mw_field_rows *f = work;
-    for (size_t begin = from; begin < to; begin += RUN) {
-        const size_t n = to - begin < RUN ? to - begin : RUN;
+    const bool doubles = f->size == sizeof(double);
+    const size_t run = doubles ? RUN / sizeof(double) : RUN / sizeof(float);
+    for (size_t begin = from; begin < to; begin += run) {
+        const size_t n = to - begin < run ? to - begin : run;
         for (size_t k = 0; k < f->count; k++) {
             const void *row = f->rows + begin * MW_CACHE_LINE + k * f->size;
             void *field = f->fields + (begin + k * f->step) * f->size;
-            if (f->size == sizeof(double))
+            if (doubles)
                 spread_line_of_doubles(row, n, field);
             else
                 spread_line_of_floats(row, n, field);
@@ -96,12 +98,7 @@ static void spread_range(void *work, uint64_t from, uint64_t to)
     mw__past_caches_end();
 }
 
-bool mw__field_rows_gather(const mw_field_rows *f, mw_job *job)
+bool mw__field_rows_copy(const mw_field_rows *f, mw_job *job)
 {
-    return mw__job_ranges(job, f->n, gather_range, (void *)f);
-}
-
-bool mw__field_rows_spread(const mw_field_rows *f, mw_job *job)
-{
-    return mw__job_ranges(job, f->n, spread_range, (void *)f);
+    return mw__job_ranges(job, f->n, f->place ? gather_range : spread_range, (void *)f);
 }

@@ -12,12 +12,12 @@
  * values). A row is a cache line, and value k of line i is that of field k. */
 typedef struct mw_field_rows {
     char *fields, *rows;
-    const uint32_t *place; /* the line of value i is place[i]; spread: NULL, lines are in order */
+    const uint32_t *place; /* the line of value i is place[i]; NULL: it is i */
     size_t n, count, size, stride, step;
 } mw_field_rows;
 
-/* Each is a stage of the job. They return false if the job is to stop. */
-bool mw__field_rows_gather(const mw_field_rows *f, mw_job *job);
-bool mw__field_rows_spread(const mw_field_rows *f, mw_job *job);
+/* From fields to rows if there is a `place`, from rows to fields otherwise. A stage of the job;
+ * returns false if that is to stop. */
+bool mw__field_rows_copy(const mw_field_rows *f, mw_job *job);
 
 #endif

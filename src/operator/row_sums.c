@@ -1,9 +1,9 @@
 /* row_sums.c - rows of values, summed four values at a time.
  *
- * The time goes into waiting for the values of columns, which lie anywhere. So those of some ranks
- * later are asked for; and the fewer instructions a rank takes, the more of them the processor has
- * in flight. That is why this is compiled once more for processors with AVX2. The bits are the
- * same: each value is the sum that mw_interpolate makes, in its order. */
+ * Most of the time is spent waiting for the values of columns, which lie anywhere in memory. So the
+ * values of later ranks are prefetched. The fewer instructions a rank takes, the more ranks the
+ * processor works on at a time; therefore this file is compiled a second time, for processors with
+ * AVX2. The bits are the same: each value is the sum that mw_interpolate makes, in its order. */
 #include "operator/row_sums.h"
 
 #include "operator/four_doubles.h"
@@ -14,8 +14,7 @@ enum {
      * column, within these bounds. */
     AHEAD_BYTES = 6144,
     AHEAD_LEAST = 6,
-    AHEAD_MOST = 64,
-    LINES_AHEAD = 48 /* the same for rows of one cache line */
+    AHEAD_MOST = 64
 };
 
 static MW_INLINE void values_sum(const double w[3], const void *const from[3], size_t k, size_t end,
@@ -100,60 +99,9 @@ static MW_INLINE void ranks_sum(const mw_apply_call *c, size_t from, size_t to, 
     if (pass) mw__past_caches_end();
 }
 
-/* --- rows of one cache line ------------------------------------------------------------------- */
-
-/* Groups of fields, which field_rows.c brings side by side, have such rows, and nothing else is
- * read of each column. */
-static bool rows_are_lines(const mw_apply_call *c)
-{
-    return c->past_caches && !c->o->first && row_bytes(c) == MW_CACHE_LINE &&
-           c->stride == c->count && (uintptr_t)c->values % MW_CACHE_LINE == 0 &&
-           (uintptr_t)c->result % MW_CACHE_LINE == 0;
-}
-
-/* Into the second cache: more of them may be on their way than to the first. */
-static MW_INLINE void line_ask(const char *values, const uint32_t v[MW_NARROW_ROW])
-{
-    for (int i = 0; i < MW_NARROW_ROW; i++)
-        __builtin_prefetch(values + v[i] * (size_t)MW_CACHE_LINE, 0, 2);
-}
-
-static MW_INLINE void line_sum(const mw_apply_call *c, size_t rank, bool narrow)
-{
-    const mw_apply_entries e = mw__entries_of(c->o, rank);
-    void *to = __builtin_assume_aligned(
-        (char *)c->result + mw__operator_row(c->o, rank) * (size_t)MW_CACHE_LINE, MW_CACHE_LINE);
-    const size_t n = MW_CACHE_LINE / mw__operand_size(narrow);
-    if (MW_UNLIKELY(!mw__entries_plain(c, e.weight))) {
-        for (size_t k = 0; k < n; k++)
-            mw__operand_store(to, k, mw__sum_any(c, e, k, narrow), narrow);
-        return;
-    }
-    const void *from[3];
-    for (int i = 0; i < 3; i++)
-        from[i] = (const char *)c->values + e.column[i] * (size_t)MW_CACHE_LINE;
-    row_sum_plain(e.weight, from, n, to, narrow, true);
-}
-
-static MW_INLINE void lines_sum(const mw_apply_call *c, size_t from, size_t to, bool narrow)
-{
-    const uint32_t *column = c->o->column;
-    for (size_t rank = from; rank < to; rank++) {
-        if (rank + LINES_AHEAD < c->o->rows)
-            line_ask(c->values, &column[MW_NARROW_ROW * (rank + LINES_AHEAD)]);
-        line_sum(c, rank, narrow);
-    }
-    mw__past_caches_end();
-}
-
 static MW_INLINE void ranks_sum_stamped(const mw_apply_call *c, size_t from, size_t to)
 {
-    const bool lines = rows_are_lines(c);
-    if (c->narrow && lines)
-        lines_sum(c, from, to, true);
-    else if (lines)
-        lines_sum(c, from, to, false);
-    else if (c->narrow && c->past_caches)
+    if (c->narrow && c->past_caches)
         ranks_sum(c, from, to, true, true);
     else if (c->narrow)
         ranks_sum(c, from, to, true, false);

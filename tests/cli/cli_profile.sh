@@ -82,6 +82,21 @@ cat >roads.geojson <<'END'
 {"type":"Feature","properties":{"name":null,"lanes":null,"Z":null},"geometry":null},
 {"type":"Feature","properties":{"name":"x","lanes":3,"Z":1},"geometry":{"type":"MultiLineString","coordinates":[[[0,0],[4,4]],[[5,1],[6,1]]]}}]}
 END
+gzip -c roads.geojson >packed.geojson.gz
+run profile gap.off packed.geojson.gz; exits 0
+says 'packed\.geojson\.gz: remark: 1 of 3 features without a line or polygon is skipped .*: 1$'
+printf '%s\n' '{"type":"FeatureCollection","features":[' >several.geojson
+for part in '"Point","coordinates":[1,1]' '"LineString","coordinates":[[1,2],[3,2]]' \
+    '"LineString","coordinates":[]' '"Polygon","coordinates":[[[1,1],[2,2],[1,1]]]'; do
+    printf '{"type":"Feature","properties":{},"geometry":{"type":%s}},\n' "$part" >>several.geojson
+done
+printf '%s\n' '{"type":"Feature","properties":{},"geometry":null}]}' >>several.geojson
+run profile --field z gap.off several.geojson; exits 0
+says 'remark: 3 of 5 features without a line or polygon are skipped .*: 0, 2, 4$'
+says 'feature 3: ring 0 of polygon 0 has fewer than three different points'
+run drape gap.off several.geojson; exits 0
+says 'remark: 3 of 5 features without a line or polygon are skipped .*: 0, 2, 4$'
+run profile -q gap.off several.geojson; exits 0; says_nothing
 if "$meshwalk" --version | grep -q 'GDAL .*found'; then
     run profile -q gap.off roads.geojson; exits 0; says_nothing
     prints "feature,part,name,lanes,line_Z,chainage,x,y,z,triangle,at
@@ -92,6 +107,8 @@ if "$meshwalk" --version | grep -q 'GDAL .*found'; then
 2,0,x,3,1,5.656854249492381,4,4,30,-1,end
 2,1,x,3,1,0,5,1,,-1,begin
 2,1,x,3,1,1,6,1,,-1,end"
+    run profile gap.off roads.geojson; exits 0
+    says 'roads\.geojson: remark: 1 of 3 features without a line or polygon is skipped .*: 1$'
     run profile -q --attribute lanes gap.off roads.geojson; exits 0
     prints_line '^2,1,3,1,6,1,,-1,end$'
     run profile -q --attribute width gap.off roads.geojson

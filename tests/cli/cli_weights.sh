@@ -47,15 +47,15 @@ run weights square.off square.off $conservative; refused 2 'weights needs an out
 run weights square.off square.off $conservative -o square.off; refused 2 'square.off'
 run weights square.off square.off $conservative --columns 1,2 -o x.npz
 refused 2 "'--columns' is for points"
-run_on "$points" weights square.off - --norm fracarea -o x.npz; refused 2 "'--norm' is for"
+run_on "$points" weights square.off - --norm fracarea -o x.npz; refused 2 "'--norm' needs"
 run weights square.off none.off $conservative -o x.npz; refused 3 'none.off'
 run weights square.off none.tif $conservative -o x.npz; refused 3 'none.tif'
 sed 's/^\(0\|1\) 1 /\1 95 /; s/^1 2$/1 2/' square.off >pole.off
 if "$meshwalk" --version | grep -q 'GDAL .*found'; then
     run weights pole.off square.off $conservative --crs EPSG:4326 --points-crs EPSG:4326 -o x.npz
-    refused 3 'pole.off, square.off: latitudes from 0 to 95: they end at 90 degrees'
+    refused 3 'pole.off, square.off: latitudes from 0 to 95 are out of range, which is -90 to 90 degrees'
     run weights square.off square.off $conservative --crs EPSG:4326 --points-crs EPSG:2056 -o x.npz
-    refused 3 'bring one to the other first'
+    refused 3 'transform one of them first'
 
     # Round the globe: an octahedron with its vertices at the poles; two caps with the poles inside,
     # and a ring of triangles between them; the same counted from 0 to 360; a cap of four corners.
@@ -98,7 +98,7 @@ if "$meshwalk" --version | grep -q 'GDAL .*found'; then
     refused 3 'caps.off: crosses the meridian of 180 degrees, or a pole: --values vertices is not'
     sed '$d' octa.off | sed 's/^6 8 0/6 7 0/; s/^90 0 /90 20 /; s/^3 0 1 4/3 0 1 3/' >odd.off
     run weights odd.off globe.asc $degrees -o x.npz
-    refused 3 'odd.off: goes round the globe. Its triangles are counted as they were cut'
+    refused 3 'odd.off: goes round the globe and was cut at the meridian of'
     sed 's/^-110 /-190 /' caps.off >odd.off
     run weights odd.off globe.asc $degrees -o x.npz; refused 3 'longitudes, from -190 to 130, have'
     rm -f octa.off caps.off caps360.off box.off fans.off odd.off globe.asc turned.asc x.npz

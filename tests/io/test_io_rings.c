@@ -106,6 +106,7 @@ static void test_many(void **state)
     assert_true(read_rings(POLYGON(SQUARE "," INNER), &file));
     assert_int_equal(file.skipped_count, 0);
     assert_null(file.skipped);
+    assert_int_equal(file.record_count, 1);
     mw_constraint_file_release(&file);
     files_clear();
 }

@@ -216,6 +216,7 @@ static mw_status geojson_read_root(geojson_reader *g, const json_t *root)
         return mw__fail(g->error, MW_ERROR_INPUT,
                         "%.240s: this is JSON, but not GeoJSON: it has no type",
                         mw__source_name(g->builder->source));
+    g->builder->file->record_count = 1;
     if (object_is_feature(root)) return geojson_read_feature(g, root);
     if (strcmp(type, "FeatureCollection") != 0) return geojson_read_geometry(g, root);
     const json_t *features = json_object_get(root, "features");
@@ -224,6 +225,7 @@ static mw_status geojson_read_root(geojson_reader *g, const json_t *root)
                         "%.240s: the FeatureCollection has no array of features",
                         mw__source_name(g->builder->source));
     mw_status status = MW_OK;
+    g->builder->file->record_count = json_array_size(features);
     for (size_t i = 0; !status && i < json_array_size(features); i++) {
         g->feature = (uint32_t)i;
         g->polygons = 0;
