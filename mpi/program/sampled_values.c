@@ -39,7 +39,8 @@ static void sampling_release(sampling *s)
     free(s->asked);
 }
 
-/* The place of the border that is nearest to a point outside. */
+/* The place of the border that is nearest to a point outside. Points that are not finite have
+ * none. */
 static void place_outside(const sampling *s, size_t i)
 {
     mwp_nearest_border_point hit;
@@ -56,8 +57,7 @@ static void places_find(const sampling *s, const mwp_location *at)
 {
     for (size_t i = 0; i < s->n; i++) {
         s->place[i] = at[i];
-        if (at[i].triangle < 0 && s->options->outside != OUTSIDE_EMPTY && at[i].where != MW_BAD)
-            place_outside(s, i);
+        if (at[i].triangle < 0 && s->options->outside != OUTSIDE_EMPTY) place_outside(s, i);
     }
 }
 
