@@ -110,6 +110,22 @@ if ! "$meshwalk" --version | grep -q '^  netCDF .*found' ||
     left_out "libnetcdf is not found"
     finish
 fi
+# Cells stand at their centroids, a quadrangle at that of its area.
+holds_numbers() { # holds_numbers FILE NUMBERS: these doubles stand in it side by side
+    perl -e 'local $/; open my $f, "<:raw", shift; my $all = <$f>; my @want = @ARGV;
+        for my $at (0 .. length($all) - 8 * @want) {
+            my @got = unpack "d<" . @want, substr $all, $at, 8 * @want;
+            exit 0 unless grep { !(abs($got[$_] - $want[$_]) < 1e-14) } 0 .. $#want;
+        }
+        exit 1' "$@"
+}
+printf '%s\n' OFF '5 2 0' '0 0 0' '4 0 0' '4 1 0' '0 3 0' '7 -3 0' '4 0 1 2 3' '3 1 4 2' >cells.off
+run weights $conservative cells.off square.off -o c.nc -q; exits 0
+holds "in the plane nothing is in degrees" test -z "$(grep -a degrees c.nc)"
+holds "centroids of the source" holds_numbers c.nc 1.6666666666666667 5
+holds "centroids of the source" holds_numbers c.nc 1.0833333333333333 -0.66666666666666663
+holds "centroids of the target" holds_numbers c.nc 0.66666666666666663 0.33333333333333331
+holds "centroids of the target" holds_numbers c.nc 0.33333333333333331 0.66666666666666663
 run_on "$points" weights square.off - -o w.nc; exits 0; prints ''; says_nothing
 run apply w.npz w.nc -o o.nc; refused 3 'w.npz: this is not a netCDF file'
 # A file of weights has fields, too: the coordinates of its vertices, which are linear.
