@@ -25,6 +25,10 @@ trap_mesh_make trap_strip_30, trap_strip_300, trap_strip_2000, trap_fan, trap_ha
 /* --- trap_few.c --- */
 trap_mesh_make trap_few_cluster, trap_few_graded, trap_few_comb, trap_few_wheel, trap_few_wheels;
 
+/* --- trap_shapes.c --- */
+trap_mesh_make trap_hub_within, trap_fan_within, trap_spiral, trap_comb, trap_weave, trap_quadtree,
+    trap_layers_round;
+
 void trap_mesh_release(trap_mesh *m);
 
 /* Where queries lie. */

@@ -65,27 +65,38 @@ static bool driver_writes_rasters(const gdal_functions *gdal, GDALDriverH driver
             driver_can(gdal, driver, GDAL_DCAP_CREATECOPY));
 }
 
-int gdal_raster_check(const char *path, const char *driver)
+static int raster_refuse_library(const char *path)
+{
+    complain("%s: GDAL, which would write it, cannot be loaded (" MW_GDAL ")", path);
+    return END_USAGE;
+}
+
+static int raster_check_driver(const char *path, const char *name)
 {
     const gdal_functions *gdal = gdal_library_load();
-    const char *name = driver ? driver : path ? raster_driver_name(path) : NULL;
-    if (files_is_standard(path)) {
-        complain("a raster is written to a file: -o DEM.tif");
-        return END_USAGE;
-    }
-    if (!gdal) {
-        complain("%s: GDAL, which would write it, cannot be loaded (" MW_GDAL ")", path);
-        return END_USAGE;
-    }
+    if (!gdal) return raster_refuse_library(path);
     if (!name) {
         complain("%s: no raster format has this ending; use .tif, or name a format by --driver",
                  path);
         return END_USAGE;
     }
-    if (driver_writes_rasters(gdal, gdal->GDALGetDriverByName(name)))
-        return gdal_directory_check(path);
+    if (driver_writes_rasters(gdal, gdal->GDALGetDriverByName(name))) return 0;
     complain("%s: this GDAL does not write rasters as '%.60s'", path, name);
     return END_USAGE;
+}
+
+/* Every GDAL writes GeoTIFF: so GDAL is loaded meanwhile, by a thread of its own. */
+int gdal_raster_check(const char *path, const char *driver)
+{
+    const char *name = driver ? driver : path ? raster_driver_name(path) : NULL;
+    if (files_is_standard(path)) {
+        complain("a raster is written to a file: -o DEM.tif");
+        return END_USAGE;
+    }
+    const bool common = !driver && name && strcmp(name, "GTiff") == 0;
+    if (common) gdal_library_begin();
+    int end = common ? 0 : raster_check_driver(path, name);
+    return end ? end : gdal_directory_check(path);
 }
 
 /* --- writing ---------------------------------------------------------------------------------- */
@@ -187,6 +198,7 @@ int gdal_raster_create(gdal_raster **raster, const char *path, const gdal_raster
     if (!r) return fail_memory();
     r->gdal = gdal_library_load();
     r->form = *form;
+    if (!r->gdal) return raster_refuse_library(path);
     int end = gdal_directory_open(&r->target, path);
     if (end == 0) end = raster_choose_drivers(r);
     if (end) return end;

@@ -104,7 +104,7 @@ typedef struct band_strips {
     gdal_raster *raster;
     uint32_t strips, slots;
     char *pixels;         /* of each slot, band by band */
-    size_t band_bytes;    /* of a strip */
+    size_t band_bytes;    /* of a strip, and what raster_scan.h needs behind it */
     pthread_mutex_t lock; /* of what follows */
     pthread_cond_t change;
     uint32_t next;          /* the strip to be computed next */
@@ -344,8 +344,8 @@ static uint32_t strips_slots(size_t bytes, uint32_t team)
 int raster_bands_write(raster_bands *b, gdal_raster *raster)
 {
     const uint32_t strips = raster_scan_strips(b->scan), team = mw__team(b->threads, strips);
-    const size_t bytes =
-        (size_t)raster_scan_height(b->scan) * b->grid->columns * gdal_raster_size(b->type);
+    const size_t pixels = (size_t)raster_scan_height(b->scan) * b->grid->columns,
+                 bytes = pixels * gdal_raster_size(b->type) + RASTER_GRID_SPARE * sizeof(float);
     band_strips all = {.bands = b,
                        .raster = raster,
                        .strips = strips,

@@ -52,7 +52,7 @@ int raster_grid_complete(raster_grid *g)
                  (unsigned)g->rows);
         return END_RESOURCE;
     }
-    g->x = malloc(g->columns * sizeof *g->x);
+    g->x = calloc((size_t)g->columns + RASTER_GRID_SPARE, sizeof *g->x);
     g->y = calloc((size_t)g->rows + RASTER_GRID_SPARE, sizeof *g->y);
     if (!g->x || !g->y) return fail_memory();
     bool sorted = true;

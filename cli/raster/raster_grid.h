@@ -13,8 +13,8 @@ typedef struct raster_grid {
     double *x, *y;          /* the centres of columns, rising, and of rows, falling; owned */
 } raster_grid;
 
-/* Rows are read in fours: behind the last there are so many more, which mean nothing. */
-enum { RASTER_GRID_SPARE = 3 };
+/* Centres are read many at a time: behind the last there are so many more, which mean nothing. */
+enum { RASTER_GRID_SPARE = 32 };
 
 /* What the user asks for. All zero selects the defaults. */
 typedef struct raster_grid_wish {

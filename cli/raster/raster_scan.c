@@ -1,15 +1,19 @@
 #include "cli/raster/raster_scan.h"
 #include "cli/frame/message.h"
-#include "cli/raster/scan_triangle.h"
+#include "cli/raster/scan_batch.h"
 #include "src/base/base.h"
 #include "src/base/threads.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-/* A triangle that reaches into more strips than this is in the list of tall ones, which every strip
- * goes through. */
+/* A unit of triangles that reaches into more strips than this is in the list of tall ones, which
+ * every strip goes through. */
 enum { MOST_STRIPS = 4 };
+
+/* A unit has so many triangles, which follow each other in the mesh's memory, if they are so near
+ * to each other that strips go through at most so many triangles for each in the mesh; else one. */
+enum { UNIT = 16, MOST_PASSES = 2 };
 
 /* A strip has at most so many rows, and about as many pixels at most as stay in a cache. */
 enum { MOST_ROWS = 64, STRIP_PIXELS = 1 << 20 };
@@ -20,6 +24,11 @@ enum { MOST_SHARES = 8, SHARE_TRIANGLES = 1 << 15 };
 /* Triangles and vertices are taken from the mesh so many at a time. */
 enum { BLOCK = 256 };
 
+/* The strips that a unit reaches into. */
+typedef struct unit_strips {
+    int32_t first, last;
+} unit_strips;
+
 /* Triangles and vertices have their places in the mesh's memory: so triangles that follow each
  * other find their vertices near each other. */
 struct raster_scan {
@@ -29,9 +38,11 @@ struct raster_scan {
     const double *values; /* those that the vertices have; NULL: none */
     scan_vertex *vertices;
     uint32_t height, strips, shares;
-    size_t *counts;      /* of each share: of each strip, then of the tall triangles */
-    const size_t *end;   /* of each strip's triangles in `triangles`, then of the tall ones */
-    uint32_t *triangles; /* those that reach into a strip, and few others */
+    uint32_t unit;       /* triangles in a unit; the last unit may have fewer */
+    unit_strips *ranges; /* of each unit */
+    size_t *counts;      /* of each share: of each strip, then of the tall units */
+    const size_t *end;   /* of each strip's units in `units`, then of the tall ones */
+    uint32_t *units;     /* those that reach into a strip, and few others */
 };
 
 /* --- shares ----------------------------------------------------------------------------------- */
@@ -86,49 +97,88 @@ static void scan_copy_vertices(void *self, uint32_t share)
     }
 }
 
-/* The strips that a triangle with these corners reaches into: first .. last. The list of the tall
- * ones is behind the last strip. */
-static row_range strips_of_triangle(const raster_scan *s, const uint32_t v[3])
+static uint32_t scan_unit_count(const raster_scan *s)
 {
-    const int32_t a = s->vertices[v[0]].strip, b = s->vertices[v[1]].strip,
-                  c = s->vertices[v[2]].strip, low = a < b ? a : b, high = a < b ? b : a;
-    row_range r = {low < c ? low : c, high < c ? c : high};
-    if (r.first < 0) r.first = 0;
-    if (r.last == s->strips) r.last--;
-    if (r.last - r.first >= MOST_STRIPS) r.first = r.last = s->strips;
+    const uint64_t triangles = mw_mesh_triangle_count(s->mesh);
+    return (uint32_t)((triangles + s->unit - 1) / s->unit);
+}
+
+/* How many triangles a unit has; *first: where they begin. */
+static uint32_t scan_unit_at(const raster_scan *s, uint32_t unit, uint32_t *first)
+{
+    const uint32_t count = mw_mesh_triangle_count(s->mesh);
+    *first = unit * s->unit;
+    return count - *first < s->unit ? count - *first : s->unit;
+}
+
+/* The strips that triangles with these corners reach into. The list of the tall ones is behind the
+ * last strip. */
+static unit_strips strips_of_unit(const raster_scan *s, const uint32_t *corners, uint32_t count)
+{
+    int32_t low = s->vertices[corners[0]].strip, high = low;
+    for (uint32_t i = 1; i < 3 * count; i++) {
+        const int32_t strip = s->vertices[corners[i]].strip;
+        low = strip < low ? strip : low;
+        high = strip > high ? strip : high;
+    }
+    const int32_t strips = (int32_t)s->strips;
+    unit_strips r = {low < 0 ? 0 : low, high == strips ? high - 1 : high};
+    if (r.last - r.first >= MOST_STRIPS) r.first = r.last = strips;
     return r;
 }
 
-/* Go through the triangles of a share, count those of each strip or put them there. */
-static void scan_go_through(raster_scan *s, uint32_t share, bool put)
+/* Count the units of each strip. */
+static void scan_count_units(void *self, uint32_t share)
 {
+    raster_scan *s = self;
     size_t *at = scan_counts(s, share);
-    uint32_t corners[3 * BLOCK];
-    const scan_part part = scan_part_of(s, share, mw_mesh_triangle_count(s->mesh));
-    for (uint32_t first = part.first; first < part.end; first += BLOCK) {
-        const uint32_t count = scan_block(first, part.end);
+    uint32_t corners[3 * UNIT], first;
+    const scan_part part = scan_part_of(s, share, scan_unit_count(s));
+    for (uint32_t unit = part.first; unit < part.end; unit++) {
+        const uint32_t count = scan_unit_at(s, unit, &first);
         mw_mesh_stored_triangles(s->mesh, first, count, corners, NULL);
-        for (uint32_t i = 0; i < count; i++) {
-            const row_range r = strips_of_triangle(s, corners + 3 * (size_t)i);
-            for (int64_t strip = r.first; strip <= r.last; strip++) {
-                if (put) s->triangles[at[strip]] = first + i;
-                at[strip]++;
-            }
-        }
+        s->ranges[unit] = strips_of_unit(s, corners, count);
+        for (int64_t k = s->ranges[unit].first; k <= s->ranges[unit].last; k++) at[k]++;
     }
 }
 
-static void scan_count_triangles(void *self, uint32_t share)
+static void scan_put_units(void *self, uint32_t share)
 {
-    scan_go_through(self, share, false);
+    raster_scan *s = self;
+    size_t *at = scan_counts(s, share);
+    const scan_part part = scan_part_of(s, share, scan_unit_count(s));
+    for (uint32_t unit = part.first; unit < part.end; unit++)
+        for (int64_t k = s->ranges[unit].first; k <= s->ranges[unit].last; k++)
+            s->units[at[k]++] = unit;
 }
 
-static void scan_put_triangles(void *self, uint32_t share)
+/* Do strips go through few triangles that they do not have? */
+static bool scan_units_fit(const raster_scan *s)
 {
-    scan_go_through(self, share, true);
+    const uint64_t triangles = mw_mesh_triangle_count(s->mesh);
+    uint64_t passes = 0;
+    for (uint32_t share = 0; share < s->shares; share++)
+        for (uint32_t strip = 0; strip <= s->strips; strip++)
+            passes += scan_counts(s, share)[strip] * (strip < s->strips ? 1 : s->strips);
+    return passes <= MOST_PASSES * triangles / s->unit;
 }
 
-/* Counts become where each share puts its triangles of each strip. Returns the sum. */
+/* Choose units, and count those of each strip. */
+static bool scan_make_units(raster_scan *s)
+{
+    const size_t counts = (size_t)s->shares * (s->strips + 1);
+    for (s->unit = UNIT;; s->unit = 1) {
+        s->ranges = mw__alloc_lines(scan_unit_count(s), sizeof *s->ranges);
+        s->counts = mw__calloc(counts, sizeof *s->counts);
+        if (!s->ranges || !s->counts) return false;
+        mw__team_run(s->shares, scan_count_units, s);
+        if (s->unit == 1 || scan_units_fit(s)) return true;
+        free(s->ranges);
+        free(s->counts);
+    }
+}
+
+/* Counts become where each share puts its units of each strip. Returns the sum. */
 static size_t scan_add_counts(raster_scan *s)
 {
     size_t sum = 0;
@@ -144,13 +194,12 @@ static size_t scan_add_counts(raster_scan *s)
 static bool scan_make(raster_scan *s)
 {
     s->vertices = mw__alloc_lines(mw_mesh_vertex_count(s->mesh), sizeof *s->vertices);
-    s->counts = mw__calloc((uint64_t)s->shares * (s->strips + 1), sizeof *s->counts);
-    if (!s->vertices || !s->counts) return false;
+    if (!s->vertices) return false;
     mw__team_run(s->shares, scan_copy_vertices, s);
-    mw__team_run(s->shares, scan_count_triangles, s);
-    s->triangles = mw__alloc_lines(scan_add_counts(s), sizeof *s->triangles);
-    if (!s->triangles) return false;
-    mw__team_run(s->shares, scan_put_triangles, s);
+    if (!scan_make_units(s)) return false;
+    s->units = mw__alloc_lines(scan_add_counts(s), sizeof *s->units);
+    if (!s->units) return false;
+    mw__team_run(s->shares, scan_put_units, s);
     s->end = scan_counts(s, s->shares - 1);
     return true;
 }
@@ -168,7 +217,7 @@ int raster_scan_create(raster_scan **scan, const mw_locator *locator, const mw_m
     s->strips = (uint32_t)(((uint64_t)grid->rows + s->height - 1) / s->height);
     s->shares = mw__team(threads, count / SHARE_TRIANGLES);
     if (s->shares > MOST_SHARES) s->shares = MOST_SHARES;
-    if (s->strips > count) s->shares = 1;
+    if (s->strips > count / UNIT) s->shares = 1;
     return scan_make(s) ? 0 : fail_memory();
 }
 
@@ -177,7 +226,8 @@ void raster_scan_release(raster_scan *s)
     if (!s) return;
     free(s->vertices);
     free(s->counts);
-    free(s->triangles);
+    free(s->ranges);
+    free(s->units);
     free(s);
 }
 
@@ -214,37 +264,51 @@ uint32_t raster_scan_height(const raster_scan *s)
 
 /* --- scanning --------------------------------------------------------------------------------- */
 
-/* A triangle of a list that will be filled soon. */
+/* The triangles of a unit that will be filled soon: corners and numbers. */
 typedef struct scan_soon {
-    const scan_vertex *corner[3];
-    uint32_t number;
+    uint32_t corner[3 * UNIT], number[UNIT], count;
 } scan_soon;
 
-static scan_soon scan_soon_of(const raster_scan *s, uint32_t triangle)
+static void scan_soon_take(const raster_scan *s, uint32_t unit, scan_soon *soon)
 {
-    scan_soon soon;
-    uint32_t v[3];
-    mw_mesh_stored_triangles(s->mesh, triangle, 1, v, &soon.number);
-    for (int k = 0; k < 3; k++) {
-        soon.corner[k] = &s->vertices[v[k]];
-        __builtin_prefetch(soon.corner[k]);
-    }
-    return soon;
+    uint32_t first;
+    soon->count = scan_unit_at(s, unit, &first);
+    mw_mesh_stored_triangles(s->mesh, first, soon->count, soon->corner, soon->number);
+    for (uint32_t k = 0; k < 3 * soon->count; k++)
+        __builtin_prefetch(&s->vertices[soon->corner[k]]);
 }
 
-/* Fill the triangles of a list. The memory of a triangle's vertices is asked for while others are
- * filled. */
+/* Fill the triangles of some units. `batch`: NULL if the strip can have none. */
+static void scan_fill_unit(const raster_scan *s, const scan_strip *strip, const scan_soon *unit,
+                           scan_batch *batch)
+{
+    for (uint32_t i = 0; i < unit->count; i++) {
+        const uint32_t *v = unit->corner + 3 * (size_t)i;
+        const scan_vertex *const corner[3] = {&s->vertices[v[0]], &s->vertices[v[1]],
+                                              &s->vertices[v[2]]};
+        if (batch)
+            scan_batch_add(batch, strip, unit->number[i], corner);
+        else
+            scan_triangle_fill(strip, unit->number[i], corner);
+    }
+}
+
+/* Fill the triangles of the units of a list. The memory of a unit's vertices is asked for while
+ * others are filled. */
 static void scan_fill(const raster_scan *s, const scan_strip *strip, size_t from, size_t to)
 {
-    enum { AHEAD = 8 };
+    enum { AHEAD = 2 };
     scan_soon soon[AHEAD];
-    for (size_t i = from; i < to && i < from + AHEAD; i++)
-        soon[i % AHEAD] = scan_soon_of(s, s->triangles[i]);
+    scan_batch batch;
+    const bool batches = scan_batch_begin(&batch, strip);
+    for (size_t i = from; i < to && i < from + AHEAD - 1; i++)
+        scan_soon_take(s, s->units[i], &soon[i % AHEAD]);
     for (size_t i = from; i < to; i++) {
-        const scan_soon now = soon[i % AHEAD];
-        if (to - i > AHEAD) soon[i % AHEAD] = scan_soon_of(s, s->triangles[i + AHEAD]);
-        scan_triangle_fill(strip, now.number, now.corner);
+        const size_t next = i + AHEAD - 1;
+        if (next < to) scan_soon_take(s, s->units[next], &soon[next % AHEAD]);
+        scan_fill_unit(s, strip, &soon[i % AHEAD], batches ? &batch : NULL);
     }
+    if (batches) scan_batch_finish(&batch, strip);
 }
 
 void raster_scan_strip(const raster_scan *s, uint32_t strip, mw_cursor *cursor,

@@ -16,9 +16,10 @@
 typedef struct raster_scan raster_scan;
 
 /* Prepare a mesh with a locator of its own, which outlive the scan, on several threads (0: one for
- * each processor). Memory: 32 bytes for each vertex, and for each triangle 4 for each strip
- * that it reaches into, at most four. Returns 0, or an exit code after a complaint; release it in
- * both cases. */
+ * each processor). Memory: 32 bytes for each vertex; 8 for each 16 triangles, and 4 for each strip
+ * that these reach into, at most four. If triangles that follow each other are far from each other,
+ * it is as much for each triangle. Returns 0, or an exit code after a complaint; release it in both
+ * cases. */
 int raster_scan_create(raster_scan **scan, const mw_locator *locator, const mw_mesh *mesh,
                        const raster_grid *grid, uint32_t threads);
 void raster_scan_release(raster_scan *s); /* NULL is allowed */
@@ -34,7 +35,8 @@ uint32_t raster_scan_height(const raster_scan *s);
 /* Where the pixels of a strip go, grid.columns for each row. NULL: not wanted. */
 typedef struct raster_scan_pixels {
     double *values;      /* NaN where there is none */
-    float *rounded;      /* the same values, rounded; faster than the doubles */
+    float *rounded;      /* the same values, rounded; faster than the doubles. Behind the last row
+                          * are RASTER_GRID_SPARE more, which mean nothing */
     uint32_t *triangles; /* MW_NONE where there is none */
 } raster_scan_pixels;
 

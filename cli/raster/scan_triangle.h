@@ -31,8 +31,8 @@ typedef struct scan_strip {
     double per_width;    /* one over the width of a pixel */
     int64_t first, last; /* rows */
     double *result;      /* these three receive values, the same values rounded to floats, and */
-    float *rounded;      /* triangles; NULL: not wanted */
-    uint32_t *triangles;
+    float *rounded;      /* triangles; NULL: not wanted. `rounded` has RASTER_GRID_SPARE floats */
+    uint32_t *triangles; /* behind the last row, which only this strip's thread uses */
 } scan_strip;
 
 /* Rows, or strips of them: first .. last. None if first > last. */

@@ -594,7 +594,7 @@ typedef struct mw_surface_edit_reader mw_surface_edit_reader;
  * @param out    receives the reader, owned by the caller (mw_surface_edit_reader_close()); NULL on
  *               failure
  * @param error  NULL, or receives the message of a failure
- * @return MW_OK; MW_ERROR_IO, MW_ERROR_MEMORY; MW_ERROR_ARGUMENT for NULL. Thread-safe.
+ * @return MW_OK; MW_ERROR_SYSTEM, MW_ERROR_MEMORY; MW_ERROR_ARGUMENT for NULL. Thread-safe.
  */
 MW_API mw_status mw_surface_edit_reader_open(const char *path, mw_surface_edit_reader **out,
                                              mw_error *error);
@@ -607,7 +607,7 @@ MW_API mw_status mw_surface_edit_reader_open(const char *path, mw_surface_edit_r
  * @param reader  the reader
  * @param line    receives the request; MW_SURFACE_EDIT_LINE_NONE at the end, with line 0
  * @param error   NULL, or receives the message of a failure, with the line
- * @return MW_OK, also at the end; MW_ERROR_INPUT, MW_ERROR_IO, MW_ERROR_MEMORY.
+ * @return MW_OK, also at the end; MW_ERROR_INPUT, MW_ERROR_SYSTEM, MW_ERROR_MEMORY.
  *
  * Thread-safe on different readers.
  */

@@ -99,7 +99,10 @@ typedef struct mw_map_options {
     int trust;
     uint32_t threads;            /**< number of threads of the check; 0: one per processor */
     const mw_progress *progress; /**< progress and cancelling, see base.h; NULL: none */
-    uint32_t reserved[4];        /**< must be zero */
+    /** 1: queries never allocate memory: as mw_locator_options.no_late_chains. Late chains are not
+     * in the file, but on the heap of each process. */
+    uint32_t no_late_chains;
+    uint32_t reserved[3]; /**< must be zero */
 } mw_map_options;
 
 /**

@@ -78,8 +78,8 @@ typedef struct mw_segment {
  * @return MW_OK; MW_ERROR_ARGUMENT for NULL, a locator whose pockets and holes are open or whose
  *         mesh is not an embedding; MW_ERROR_INPUT if a coordinate is not finite.
  *
- * Thread-safe with one cursor per thread. No allocation. Time: that of a query; if a is outside the
- * convex hull, also proportional to the hull edges that the search passes.
+ * Thread-safe with one cursor per thread. Memory and time: those of a query (mw_locate()); if a is
+ * outside the convex hull, also proportional to the hull edges that the search passes.
  */
 MW_API mw_status mw_segment_begin(const mw_locator *locator, mw_cursor *cursor, const double a[2],
                                   const double b[2], mw_segment *segment, mw_error *error);

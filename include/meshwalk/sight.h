@@ -79,7 +79,7 @@ typedef struct mw_viewpoint {
  * @return MW_OK; MW_ERROR_ARGUMENT for NULL, and as mw_segment_begin(); MW_ERROR_INPUT if a number
  *         is not finite, if there is no ground below the viewpoint, or if it lies below the ground.
  *
- * Thread-safe. No allocation. Time: that of a query.
+ * Thread-safe. Memory and time: those of a query (mw_locate()).
  */
 MW_API mw_status mw_viewpoint_init(const mw_locator *locator, const double *heights,
                                    const mw_sight_end *from, mw_viewpoint *view, mw_error *error);
@@ -91,7 +91,7 @@ MW_API mw_status mw_viewpoint_init(const mw_locator *locator, const double *heig
  * @param to    the target
  * @return the line of sight.
  *
- * Thread-safe with a copy of the viewpoint for each thread. No allocation. Time: that of a query,
+ * Thread-safe with a copy of the viewpoint for each thread. Memory and time: those of a query,
  * and O(1) for each triangle that the line passes before it is interrupted.
  */
 MW_API mw_sight mw_sight_to(mw_viewpoint *view, const mw_sight_end *to);

@@ -39,22 +39,24 @@ PyObject *locator_new(core_state *state, PyObject *class, PyObject *mesh, mw_loc
     return (PyObject *)object;
 }
 
-/* locator_from_mesh(cls, mesh, any, border, areas, fill, queries, threads, progress) */
+/* locator_from_mesh(cls, mesh, any, border, areas, late_chains, fill, queries, threads,
+ * progress) */
 static PyObject *locator_from_mesh(PyObject *module, PyObject *args)
 {
     core_state *state = PyModule_GetState(module);
     PyObject *class, *mesh, *function;
     mw_locator_options options = {0};
     mw_progress progress;
-    int fill;
+    int fill, late_chains;
     mw_locator *locator;
     mw_error error;
     mw_status status;
-    if (!PyArg_ParseTuple(args, "OO!pppiO&O&O", &class, state->mesh_type, &mesh, &options.any,
-                          &options.border, &options.areas, &fill, option_uint64, &options.queries,
-                          option_threads, &options.threads, &function))
+    if (!PyArg_ParseTuple(args, "OO!ppppiO&O&O", &class, state->mesh_type, &mesh, &options.any,
+                          &options.border, &options.areas, &late_chains, &fill, option_uint64,
+                          &options.queries, option_threads, &options.threads, &function))
         return NULL;
     options.fill = (mw_fill_mode)fill;
+    options.no_late_chains = !late_chains;
     options.progress = progress_begin(state, function, &progress);
     Py_BEGIN_ALLOW_THREADS
     status = mw_locator_create(((mesh_object *)mesh)->mesh, &options, &locator, &error);
@@ -246,10 +248,11 @@ static PyObject *locator_describe(PyObject *self, PyObject *unused)
     (void)unused;
     mw_locator_describe(locator, &info);
     return Py_BuildValue(
-        "{s:n,s:n,s:n,s:n,s:n,s:z,s:I,s:I,s:I,s:N,s:N,s:N,s:z}", "bytes", (Py_ssize_t)info.bytes,
-        "border_bytes", (Py_ssize_t)info.border_bytes, "area_bytes", (Py_ssize_t)info.area_bytes,
-        "fill_bytes", (Py_ssize_t)info.fill_bytes, "guide_bytes", (Py_ssize_t)info.guide_bytes,
-        "guide", info.guide == MW_START_AUTO ? NULL : mw_start_name(info.guide), "ghost_triangles",
+        "{s:n,s:n,s:n,s:n,s:n,s:n,s:z,s:I,s:I,s:I,s:N,s:N,s:N,s:z}", "bytes",
+        (Py_ssize_t)info.bytes, "border_bytes", (Py_ssize_t)info.border_bytes, "area_bytes",
+        (Py_ssize_t)info.area_bytes, "fill_bytes", (Py_ssize_t)info.fill_bytes, "guide_bytes",
+        (Py_ssize_t)info.guide_bytes, "chain_bytes", (Py_ssize_t)info.chain_bytes, "guide",
+        info.guide == MW_START_AUTO ? NULL : mw_start_name(info.guide), "ghost_triangles",
         info.ghost_triangles, "holes", info.holes, "components", info.components, "copied",
         PyBool_FromLong(info.copied), "embedding", PyBool_FromLong(info.embedding), "unfilled",
         PyBool_FromLong(info.unfilled), "void_promise", mw_locator_void_promise(locator));

@@ -189,6 +189,7 @@ def locator_from_mesh(
     any: bool,
     border: bool,
     areas: bool,
+    late_chains: bool,
     fill: int,
     queries: int,
     threads: int,

@@ -6,6 +6,7 @@
 #include "locate/interleaved.h"
 
 #include "base/random.h"
+#include "locate/conclude.h"
 #include "locate/fast_path.h"
 #include "locate/hints.h"
 #include "locate/index.h"

@@ -6,6 +6,7 @@
  * its own number (batch/batch.c). */
 #include "batch/batch.h"
 #include "base/random.h"
+#include "locate/conclude.h"
 #include "locate/fast_path.h"
 #include "locate/hints.h"
 #include "locate/index.h"

@@ -154,17 +154,25 @@ static bool guide_make_chains(const mw_locator *locator, mw_job *job, mw_index *
 bool mw__locator_guide(const mw_locator *locator, mw_job *job, mw_index *guide)
 {
     static const double FEW = 24;
-    enum { SMALL = 256 };
     const mw_tiling *tiling = &locator->tiling;
     const mw_guided guided = {tiling, guide, locator->auto_walk, locator->threads};
     mw_job_span outer = mw__job_part(job, 0.6);
     bool done = locator_lay_guide(locator, job, guide);
     mw__job_part_end(job, outer);
     if (!done) return false;
-    if (tiling->tile_of || tiling->border_loops || !tiling->embedding || tiling->tri_count < SMALL)
-        return true;
+    if (tiling->tile_of || tiling->border_loops || !tiling->embedding) return true;
     bool leads = guide->start != MW_START_AUTO && !(mw__guide_mean_walk(&guided) > FEW);
     return leads || guide_make_chains(locator, job, guide);
+}
+
+bool mw__locator_allow_late_chains(mw_locator *locator)
+{
+    const mw_tiling *tiling = &locator->tiling;
+    if (tiling->tile_of || tiling->border_loops || !tiling->embedding ||
+        locator->guide.start == MW_START_CHAINS)
+        return true;
+    locator->late = mw__late_chains_create();
+    return locator->late != NULL;
 }
 
 static bool are_slots_numbers(const mw_tiling *tiling)
@@ -245,6 +253,7 @@ static mw_status locator_prepare(mw_locator *locator, const mw_locator_options *
     const mw_guided guided = {tiling, &locator->guide, locator->auto_walk, locator->threads};
     done = done && mw__guide_make_fallback(&guided, job, &locator->fallback);
     mw__job_part_end(job, outer);
+    if (!options->no_late_chains) done = done && mw__locator_allow_late_chains(locator);
     return done ? MW_OK : mw__fail_memory(error);
 }
 
@@ -306,6 +315,7 @@ void mw_locator_destroy(mw_locator *locator)
     if (!locator) return;
     mw__index_release(&locator->guide);
     mw__index_release(&locator->fallback);
+    mw__late_chains_destroy(locator->late);
     mw__border_tree_release(&locator->border_tree);
     mw__tiling_release(&locator->tiling);
     free(locator);
@@ -315,10 +325,11 @@ void mw_locator_describe(const mw_locator *locator, mw_locator_info *info)
 {
     const mw_tiling *tiling = &locator->tiling;
     size_t border = mw__border_tree_bytes(&locator->border_tree),
-           chains = mw__index_bytes(&locator->fallback),
+           chains = mw__index_bytes(&locator->fallback) + mw__late_chains_bytes(locator->late),
            guide = mw__index_bytes(&locator->guide) + chains;
     *info = (mw_locator_info){
-        .bytes = sizeof *locator + mw__tiling_bytes(tiling) + border + guide,
+        .bytes = sizeof *locator + (locator->late ? sizeof *locator->late : 0) +
+                 mw__tiling_bytes(tiling) + border + guide,
         .border_bytes = border,
         .area_bytes = tiling->area ? tiling->tri_count * sizeof(double) : 0,
         .fill_bytes = tiling->ghost_count ? mw__tiling_copy_bytes(tiling) : 0,

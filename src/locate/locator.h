@@ -6,6 +6,7 @@
 #include "base/job.h"
 #include "locate/border_tree.h"
 #include "locate/index.h"
+#include "locate/late_chains.h"
 #include "start/start.h"
 #include "walk/walk.h"
 
@@ -40,6 +41,9 @@ struct mw_locator {
     /* for a mesh that is no embedding: the promise that does not hold; else empty */
     char promise[640];
     uint32_t threads; /* of the options, for its indices */
+    /* What long walks cost, and the chains that they may come to; NULL: the guide is chains, or
+     * there can be none, or they are not wanted. */
+    mw_late_chains *late;
 };
 
 /* Look at the tiling and fill in what follows from it: extent, density, default walks, the tile in
@@ -48,6 +52,9 @@ void mw__locator_measure(mw_locator *locator, mw_job *job);
 
 /* Set only what follows from the extent and the number of tiles. */
 void mw__locator_scale(mw_locator *locator);
+
+/* Let long walks lead to chains, where chains are possible. False when out of memory. */
+bool mw__locator_allow_late_chains(mw_locator *locator);
 
 /* Build the guide of a locator that has been measured. False when out of memory, or
  * cancelled; it may be released in either case. Stages of the present part of the job. */

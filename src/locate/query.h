@@ -4,16 +4,6 @@
 
 #include "locate/locator.h"
 
-/* Turn the end of a walk into the answer: decide by exact tests where its point is, and apply the
- * rule of ties (query.c). Leaves in walk->t the tile where the point is, or the last one before the
- * hull. Counts if the walk does. */
-mw_location mw__query_conclude(const mw_locator *locator, const mw_cursor *cursor, mw_walk *walk,
-                               mw_verdict verdict, mw_counters *counters);
-
-/* The answer if tile t contains q, without a walk; else false. For cursors of the fast path. */
-bool mw__query_answer_here(const mw_locator *locator, const mw_cursor *cursor, uint32_t t,
-                           mw_point q, mw_location *location);
-
 /* The walk of one query: first tile by the cursor's start; `last` is the tile where the query
  * before it ended; if it is MW_NONE, the start is MW_START_SAMPLE. If the cursor counts, it counts
  * in *work, which must last as long as the walk. */
@@ -27,10 +17,15 @@ mw_walk mw__query_begin_at(const mw_locator *locator, const mw_cursor *cursor, u
 uint32_t mw__query_first_tile(const mw_locator *locator, const mw_cursor *cursor, uint32_t last,
                               mw_point q, uint64_t *random, mw_work *work);
 
-/* If the mesh was edited since the cursor's last query: let it begin at the tile that is now where
- * that query ended, or near it. */
+/* The tile that has q, or one with a hull edge that q lies beyond: by a walk from tile t, as a
+ * query by default would go on from there. Not for tilings that were left open. */
+uint32_t mw__query_tile(const mw_locator *locator, uint32_t t, mw_point q);
+
 /* Give a cursor that is all zero, which was never initialised, the default options. */
 void mw__cursor_default(const mw_locator *locator, mw_cursor *cursor);
+
+/* If the mesh was edited since the cursor's last query: let it begin at the tile that is now where
+ * that query ended, or near it. */
 void mw__cursor_follow_edits(const mw_locator *locator, mw_cursor *cursor);
 
 /* Before the mesh may be edited: remember by its name, which outlasts edits, the tile where the

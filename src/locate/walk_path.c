@@ -1,4 +1,5 @@
 /* walk_path.c - one query whose way is written down, triangle by triangle. */
+#include "locate/conclude.h"
 #include "locate/location.h"
 #include "locate/query.h"
 

@@ -90,15 +90,27 @@ static mw_status check_records(prepared_checking *c, mw_prepared_kind kind, reco
                                    mw__prepared_part_name(kind), c->bad);
 }
 
+/* What a record names lies anywhere in memory: that of a later record is asked for. A number that
+ * is wrong does no harm there. */
+enum { RECORDS_AHEAD = 16 };
+
+static void check_ask(const uint32_t *of, uint32_t number)
+{
+    if (of) __builtin_prefetch(&of[number]);
+}
+
 /* Numbers and slots of vertices: each the inverse of the other. */
 static void vertex_slots_check(void *work, uint64_t from, uint64_t to)
 {
     prepared_checking *c = work;
     const mw_mesh *mesh = &c->p->mesh;
-    for (uint32_t v = (uint32_t)from; v < to; v++)
+    for (uint32_t v = (uint32_t)from; v < to; v++) {
+        if (to - v > RECORDS_AHEAD)
+            check_ask(mesh->vertex_number, mesh->vertex_slot[v + RECORDS_AHEAD]);
         if (mesh->vertex_slot[v] >= mesh->point_count ||
             mesh->vertex_number[mesh->vertex_slot[v]] != v)
             checking_note(c, v);
+    }
 }
 
 /* Has the record three vertices that exist, each once, with finite coordinates? */
@@ -133,6 +145,13 @@ static bool triangle_is_sound(const mw_mesh *mesh, uint32_t t)
            number < mesh->tri_count && mw__triangle_slot(mesh, number) == t;
 }
 
+static void triangle_ask(const mw_mesh *mesh, uint32_t t)
+{
+    const mw_triangle *tri = &mesh->tri[t];
+    check_ask(mesh->triangle_slot, tri->user & MW_USER_MASK);
+    for (int k = 0; k < 3; k++) __builtin_prefetch(&mesh->tri[mw__link_triangle(tri->link[k])]);
+}
+
 /* The triangles of the mesh: counter-clockwise or flat, each number once. */
 static void triangles_check(void *work, uint64_t from, uint64_t to)
 {
@@ -141,6 +160,7 @@ static void triangles_check(void *work, uint64_t from, uint64_t to)
     uint64_t flat = 0, reversed = 0, border = 0, clashing = 0;
     for (uint32_t t = (uint32_t)from; t < to; t++) {
         const mw_triangle *tri = &mesh->tri[t];
+        if (to - t > RECORDS_AHEAD) triangle_ask(mesh, t + RECORDS_AHEAD);
         if (!triangle_is_sound(mesh, t)) {
             checking_note(c, t);
             return;
@@ -246,13 +266,20 @@ static void owners_check(void *work, uint64_t from, uint64_t to)
     const mw_mesh *mesh = &c->p->mesh;
     const uint32_t *owner = c->p->locator.tiling.owner;
     for (uint32_t v = (uint32_t)from; v < to; v++) {
+        if (to - v > 2 * RECORDS_AHEAD) {
+            check_ask(mesh->triangle_slot, owner[v + 2 * RECORDS_AHEAD]);
+            const uint32_t o = owner[v + RECORDS_AHEAD];
+            if (o < mesh->tri_count) __builtin_prefetch(&mesh->tri[mw__triangle_slot(mesh, o)]);
+        }
         if (owner[v] == MW_NONE) continue;
         if (owner[v] >= mesh->tri_count || !mw__is_finite(mesh->point[v])) {
             checking_note(c, v);
             continue;
         }
         const mw_triangle *tri = &mesh->tri[mw__triangle_slot(mesh, owner[v])];
-        if (!mw__has_area(mesh->point, tri) || !triangle_has_point(mesh, tri, mesh->point[v]))
+        const bool corner = tri->v[0] == v || tri->v[1] == v || tri->v[2] == v;
+        if (!mw__has_area(mesh->point, tri) ||
+            !(corner || triangle_has_point(mesh, tri, mesh->point[v])))
             checking_note(c, v);
     }
 }

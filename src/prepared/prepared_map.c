@@ -51,8 +51,8 @@ static mw_status path_map(const char *path, void **bytes, size_t *size, mw_error
     return status;
 }
 
-static mw_status prepared_map(const char *path, bool trust, mw_job *job, mw_prepared **out,
-                              mw_error *error)
+static mw_status prepared_map(const char *path, const mw_map_options *options, mw_job *job,
+                              mw_prepared **out, mw_error *error)
 {
     void *bytes;
     size_t size = 0;
@@ -63,7 +63,9 @@ static mw_status prepared_map(const char *path, bool trust, mw_job *job, mw_prep
         munmap(bytes, size);
         return mw__fail_memory(error);
     }
-    status = mw__prepared_open(p, path, bytes, size, trust, job, error);
+    status = mw__prepared_open(p, path, bytes, size, options->trust != 0, job, error);
+    if (!status && !options->no_late_chains && !mw__locator_allow_late_chains(&p->locator))
+        status = mw__fail_memory(error);
     p->name = NULL;
     p->header.bytes = size; /* of the map, also where the header is wrong */
     *out = p;
@@ -80,7 +82,7 @@ mw_status mw_mesh_map(const char *path, const mw_map_options *options, mw_prepar
     mw_status status = MW_RESERVED_CHECK(mw_map_options, options, error);
     if (status) return status;
     mw_job job = mw__job(options->threads, options->progress);
-    status = mw__job_end(&job, prepared_map(path, options->trust != 0, &job, out, error), error);
+    status = mw__job_end(&job, prepared_map(path, options, &job, out, error), error);
     if (status) {
         mw_prepared_close(*out);
         *out = NULL;

@@ -270,6 +270,7 @@ mw_status mw__prepared_open(mw_prepared *p, const char *name, const void *bytes,
 
 void mw__prepared_release(mw_prepared *p)
 {
+    mw__late_chains_destroy(p->locator.late);
     mw__mesh_release_fields(&p->mesh);
     free(p->values.field_names);
     free(p->values.fields);

@@ -422,7 +422,7 @@ mw_status mw_segment_batch(const mw_locator *locator, const double *segments, si
                        .stride = stride ? stride : 4,
                        .lanes = segments_choose_lanes(&locator->tiling),
                        .job = &job};
-    status = mw_cursor_init(locator, &(mw_query_options){.start = MW_START_LAST}, &b.cursor, error);
+    status = mw_cursor_init(locator, NULL, &b.cursor, error);
     if (status) return status;
     status = segments_make(&b, pieces, error);
     if (status) {

@@ -1,5 +1,6 @@
 /* segment_start.c - where a segment begins: in a tile, or where it comes over the hull. */
 #include "segment/segment_start.h"
+#include "locate/query.h"
 
 #include "walk/walk.h"
 
@@ -130,7 +131,5 @@ static bool start_is_at(mw_segment *s, uint32_t t)
 void mw__segment_start(mw_segment *s, uint32_t near)
 {
     if (MW_LIKELY(start_is_at(s, near))) return;
-    mw_walk walk = mw__walk_begin(&s->locator->tiling, mw__segment_a(s), near, 0, 0, NULL);
-    mw__walk_surely(&walk, false);
-    start_is_at(s, walk.t);
+    start_is_at(s, mw__query_tile(s->locator, near, mw__segment_a(s)));
 }

@@ -99,4 +99,61 @@ printf 'bad\n1 3\n' >bad.gr3
 run convert bad.gr3 x.off; exits 3; says 'bad.gr3:2: the file ends after 0 of 3 vertices'
 run convert a.gr3 nowhere/x.off; exits 4
 holds "nothing is left" test ! -e x.off -a ! -e y.off -a ! -e x.nothing
+
+# Boundaries that are barriers, by the types of fort.14; what stands last is the last one named.
+marked() { # marked NAME NAME: a square with two marked edges
+    printf '%s\n' '$MeshFormat' '2.2 0 8' '$EndMeshFormat' '$PhysicalNames' 2 "1 1 \"$1\"" \
+        "1 2 \"$2\"" '$EndPhysicalNames' '$Nodes' 4 '1 0 0 0' '2 1 0 0' '3 1 1 0' '4 0 1 0' \
+        '$EndNodes' '$Elements' 4 '1 1 2 1 1 1 2' '2 1 2 2 2 3 4' '3 2 2 0 1 1 2 3' \
+        '4 2 2 0 1 1 3 4' '$EndElements' >marked.msh
+}
+for type in 0 1 2 3 4 5 6 12 13 15 22 23 25 26 29 30 33 35; do
+    marked "land type $type" wall
+    run convert marked.msh -o marked.14; exits 0
+    case $type in
+    3 | 4 | 5 | 13 | 15 | 23 | 25)
+        says "^meshwalk: marked.14: warning: barriers are not written, .*: 'land type $type' and perhaps others$"
+        ;;
+    *) says_nothing ;;
+    esac
+done
+marked wall 'land type 4'
+run convert marked.msh -o marked.14; says "barriers are not written, .*: 'land type 4'$"
+marked 'open type 4' wall
+run convert marked.msh -o marked.14; says_nothing
+run convert marked.msh -o marked.off
+says "marked.off: warning: the format off has no place for marked edges: open type 4, wall are not written"
+
+# Eight names of fields that are lost, and a number for more.
+for count in 1 2 8 9 11; do
+    echo "3 2 $count 0" >fields.node
+    for corner in '0 0 0' '1 1 0' '2 0 1'; do
+        echo "$corner$(printf ' %d' $(seq $count))" >>fields.node
+    done
+    printf '%s\n' '1 3 0' '0 0 1 2' >fields.ele
+    run convert fields.node -o fields.off; exits 0
+    names=$(printf 'attribute%d, ' $(seq $((count < 8 ? count : 8))))
+    names=${names%, }
+    ((count > 8)) && names+=" and $((count - 8)) more"
+    says "^meshwalk: fields.off: warning: the format off has no place for fields: $names $(
+        ((count > 1)) && echo are || echo is) not written; ply, node and vtu have one$"
+done
+
+# Whole numbers of 32 bits are kept as the groups of msh, others are not.
+for value in 2147483647 -2147483647 2147483648 1.5; do
+    printf '%s\n' '# vtk DataFile Version 3.0' x ASCII 'DATASET UNSTRUCTURED_GRID' \
+        'POINTS 3 double' '0 0 0 1 0 0 0 1 0' 'CELLS 1 4' '3 0 1 2' 'CELL_TYPES 1' 5 'CELL_DATA 1' \
+        'SCALARS physical double 1' 'LOOKUP_TABLE default' "$value" >group.vtk
+    run convert group.vtk -o group.msh; exits 0
+    case $value in
+    *7) says_nothing ;;
+    *) says 'group.msh: warning: the format msh has no place for .*: physical is not written' ;;
+    esac
+done
+
+# Where no mesh is written.
+run convert marked.msh -o x.mwm; refused 2 "'meshwalk prepare MESH -o x.mwm' writes prepared meshes"
+run convert marked.msh -o x.off.gz; refused 2 'x.off.gz: gzip is read, but not written'
+run convert marked.msh -o x.off.gz --format off; refused 2 'x.off.gz: gzip is read, but not written'
+run convert marked.msh -o .gz --format off; exits 0
 finish

@@ -170,4 +170,22 @@ awk 'BEGIN { n = 3000; print "OFF"; print 3 * n, n, 0
     for (i = 0; i < n; i++) print 3, 3*i, 3*i+1, 3*i+2 }' >same.off
 run check same.off; exits 3
 holds "there is a line for each" test "$(grep -c '^triangle ' "$logs/out")" -ge 2999
+
+# Names in JSON: characters of UTF-8 as they are, every other byte as U+FFFD.
+cat >names.py <<'END'
+import json, os, subprocess, sys
+characters = [c.encode() for c in "a\u0080\u07ff\u0800\ud7ff\ue000\uffff\U00010000\U0010ffff\u0001\u001f \"\\\u007f"]
+wrong = [b"\x80", b"\xbf", b"\xc0\xaf", b"\xc1\xbf", b"\xc2\xc3", b"\xe0\x9f\xbf", b"\xed\xa0\x80",
+         b"\xf0\x8f\xbf\xbf", b"\xf4\x90\x80\x80", b"\xf5\x80\x80\x80", b"\xff", b"\xe2\x82", b"\xf0\x90\x80"]
+for piece in characters + wrong:
+    name = b"n" + piece + b"m.off"
+    os.rename(b"given.off", name)
+    out = subprocess.run([sys.argv[1], "info", "--json", name], capture_output=True, check=True).stdout
+    told = json.loads(out.decode())["file"]
+    want = name.decode() if piece in characters else "n" + "\ufffd" * len(piece) + "m.off"
+    assert told == want, (piece, told, want)
+    os.rename(name, b"given.off")
+END
+cp square.off given.off
+holds "names are quoted" python3 names.py "$meshwalk"
 finish

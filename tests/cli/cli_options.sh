@@ -171,6 +171,22 @@ for length in 62 63 64 65 300; do
     name=$(printf "%0${length}d" 0)
     run locate "--$name" a b; refused 2 "unknown option '--${name:0:63}'$"
 done
+# Options of points in the plane, where points are on a globe or a star.
+for words in '--crs EPSG:1' '--tolerance 1' '--sample 3' '--steps 3' '--cells 3' '--layers 3' \
+    '--walk lawson' '--start random' '--arithmetic double' '--finish stochastic' '--fill yes' \
+    '--descent nearest' --areas --any --trust; do
+    # shellcheck disable=SC2086 # words
+    run sample a b --as star --field f $words; refused 2 "option '${words%% *}' is not for --as star"
+    # shellcheck disable=SC2086
+    run weights a b --lonlat $words -o c.npz
+    refused 2 "option '${words%% *}' is for points in the plane, not for --lonlat"
+done
+for walk in lawson remembering stochastic straight celestial; do
+    run locate a b --fill no --walk $walk; refused 2 "--fill no needs --walk border, not $walk"
+    run locate a b --fill auto --walk $walk; refused 3 'a: No such file'
+done
+run locate a b --fill no --walk border; refused 3 'a: No such file'
+run locate a b --fill no; refused 3 'a: No such file'
 only_files # none
 
 # Forms of one option; the last one counts; -- ends them.

@@ -67,6 +67,8 @@ for name in random grid thin utm large; do
 done
 as_asked random.ply -2 102 0.9 120 117
 as_asked random.ply 40 60 0.013 100 40
+as_asked random.ply 30 45 0.15 150 150 # some triangles are small to the scan, some are not
+as_asked random.ply 70 71 0.3 110 70   # beyond the mesh in the east
 as_asked grid.ply -0.5 20.5 1 21 21 # every centre is a vertex
 as_asked grid.ply -0.25 20.25 0.5 41 41
 as_asked thin.ply -1 1.001 0.02 90 60

@@ -166,4 +166,16 @@ awk 'BEGIN { s = sprintf("%3000s", ""); gsub(/ /, "abc ", s); print "x,y,text"; 
 run sample square.off long.csv -o o.csv; exits 0
 holds "long rows are kept" same_text <(sed '1s/$/,z/; 2,$s/$/,1/' long.csv) o.csv
 rm -f o.csv
+
+# A field whose name needs quotes in a header, as the answer's own and beside a column of that name.
+printf '%s\n' ply 'format ascii 1.0' 'element vertex 3' 'property double x' 'property double y' \
+    'property double a"b,c' 'property double d;e' 'property double e,f' 'element face 1' \
+    'property list uchar int vertex_indices' end_header '0 0 1 5 8' '1 0 2 6 9' '0 1 3 7 10' \
+    '3 0 1 2' \
+    >odd.ply
+run_on $'x,y\n0,0\n' sample odd.ply - --field 'a"b,c'; exits 0; prints $'x,y,"a""b,c"\n0,0,1'
+run_on $'x,y,"E,f"\n1,0,8\n' sample odd.ply - --field 'e,f'; exits 0
+prints $'x,y,"E,f","e,f_mw"\n1,0,8,9'
+run_on $'x;y\n0;1\n' sample odd.ply - --field 'd;e'; exits 0; prints $'x;y;"d;e"\n0;1;7'
+run_on $'x,y\n0,1\n' sample odd.ply - --field 'd;e'; exits 0; prints $'x,y,d;e\n0,1,7'
 finish

@@ -213,4 +213,40 @@ if [[ -d $data ]]; then
 else
     left_out "there is no ../shared/data"
 fi
+
+# What the columns of a table become: numbers as programs write them are numbers, others texts; a
+# column has the widest kind of its cells, and a number that is missing is none.
+cat >kinds.py <<'END'
+import json, subprocess, sys
+cells = {"12": 12, "0": 0, "-7": -7, "007": "007", "+5": "+5", "1.": 1.0, ".5": ".5", "1.5": 1.5, "1e3": 1000.0,
+         "1e": "1e", "1e+": "1e+", "1E-2": 0.01, "1e+05": 1e5, "1e5x": "1e5x", "12a": "12a", "--": "--", "1-2": "1-2",
+         "123456789012345678": 123456789012345678, "1234567890123456789": "1234567890123456789",
+         "123456789012345.5": 123456789012345.5, "1234567890123456.5": "1234567890123456.5", "0.5": 0.5,
+         "00": "00", "-0": 0, "1.5.2": "1.5.2", " 4 ": 4, '" 4 "': " 4 ", '"say ""hi"""': 'say "hi"', '"7"': 7,
+         '""': None, "": None, "a b": "a b", '"a,b"': "a,b", "2024-01-02": "2024-01-02"}
+columns = [(["1", "2"], [1, 2]), (["1", "NA"], [1, None]), (["nan", "2"], [None, 2]), (["n/a", "-", "3"], [None, None, 3]),
+           (["1", "2.5"], [1.0, 2.5]), (["2.5", "null"], [2.5, None]), (["1", "x"], ["1", "x"]),
+           (["", "x"], [None, "x"]), (["1.5", "x", "2"], ["1.5", "x", "2"])]
+rows = 3
+header, table = ["x", "y"], [["0.5", "0.25"] for _ in range(rows)]
+wanted = []
+for cell, value in cells.items():
+    wanted.append([value] * rows)
+    for row in table: row.append(cell)
+for given, values in columns:
+    wanted.append(values + [values[-1]] * (rows - len(values)))
+    for row, cell in zip(table, given + [given[-1]] * (rows - len(given))): row.append(cell)
+header += [f"c{i}" for i in range(len(wanted))]
+for separator in ",", ";":
+    if separator == ";": table = [[c.replace(";", "") for c in row] for row in table]
+    with open("kinds.csv", "w") as file:
+        for row in [header, *table]: print(separator.join(row), file=file)
+    subprocess.run([sys.argv[1], "locate", "-q", "square.off", "kinds.csv", "-o", "kinds.geojson"], check=True)
+    features = json.load(open("kinds.geojson"))["features"]
+    for i, values in enumerate(wanted):
+        told = [f["properties"][f"c{i}"] for f in features]
+        assert told == values and [type(t) for t in told] == [type(v) for v in values], (separator, header[i + 2], told, values)
+END
+rm -f kinds.geojson
+holds 'columns have their kinds' python3 kinds.py "$meshwalk"
 finish

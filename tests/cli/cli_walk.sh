@@ -192,6 +192,8 @@ awk 'BEGIN { n = 12; print "OFF\n" n * n, 2 * (n - 1) * (n - 1), 0
 looks_right plane row.off 0.1,0.2 3.9,0.8 --walk remembering
 looks_right plane grid.off 1.1,1.2 2.9,2.8 --walk remembering
 looks_right plane grid.off 1.1,1.2 8.9,7.8 --walk remembering
+sed 's/^\([0-9.]*\) \([0-9.]*\) 0$/\1 \2 0/; s/^\([0-9]*\) \(11\) 0$/\1 200 0/' grid.off >tall.off
+looks_right plane tall.off 1.1,1.2 8.9,7.8 --walk remembering
 looks_right star octahedron.off 1,1,1 0.3,1.1,-1 --walk stochastic
 looks_right star ball.off 1,1,1 0.3,1.1,-0.2 --walk stochastic
 looks_right surface octahedron.off 0.1,0.2,5 0.1,0.2,4

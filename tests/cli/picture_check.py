@@ -224,6 +224,20 @@ def main():
         fills.append(colour_of(style, "fill"))
     assert not all(inside) or fills[0] == WHITE != fills[1], fills
 
+    # Triangles that are too small to show their colour have a ring of it.
+    rings = [p for p in paths if p[1].startswith("MCC") and "stroke-width:2" in p[0]]
+    for colour, t in ((GREEN, path[0]), (VERMILION, path[-1])):
+        box = box_of([page(seen[v]) for v in triangles[t]])
+        if min(box[1][k] - box[0][k] for k in range(2)) > 12:
+            continue
+        style, _, points = rings.pop(0)
+        ring = box_of(points)
+        assert colour_of(style, "stroke") == colour, style
+        assert abs(ring[1][0] - ring[0][0] - 16) < 0.1, ring
+        for k in range(2):
+            assert abs(ring[0][k] + ring[1][k] - box[0][k] - box[1][k]) < 0.2, (ring, box)
+    assert not rings, rings
+
     # The legend: samples of colours, side by side under the picture.
     legend = [path for path in paths if path[1] in ("MLLLZM", "MLLLZ")]
     assert [colour_of(p[0], "fill") for p in legend[:2]] == [GREEN, VERMILION], legend

@@ -578,6 +578,46 @@ static void test_undo_limit(void **state)
     }
 }
 
+/* A vertex outside of the hull takes the values of the nearest vertex that it is joined to, in all
+ * fields but the one that is given. */
+static void test_values_outside(void **state)
+{
+    (void)state;
+    enum { FIELDS = 3, CORNERS = 4 };
+    static const double corners[2 * CORNERS] = {0, 0, 4, 0, 4, 4, 0, 4};
+    static const struct {
+        double x, y;
+        uint32_t near;
+    } outside[] = {{6, 1, 1}, {6, 3.5, 2}, {-1, -1, 0}, {1, 9, 3}};
+    for (uint32_t given = 0; given <= FIELDS; given++) {
+        mw_mesh *mesh;
+        mw_editor *editor;
+        REQUIRE(mw_delaunay(corners, CORNERS, 2, NULL, NULL, NULL, &mesh, NULL) == MW_OK);
+        for (int f = 0; f < FIELDS; f++) {
+            const char name[2] = {(char)('a' + f), 0};
+            double values[CORNERS];
+            for (int v = 0; v < CORNERS; v++) values[v] = 100 * f + v;
+            REQUIRE(mw_mesh_set_field(mesh, name, values, 0, NULL) == MW_OK);
+        }
+        for (size_t i = 0; i < sizeof outside / sizeof *outside; i++) {
+            mw_change change;
+            mw_edit edit = {.kind = MW_EDIT_INSERT,
+                            .x = outside[i].x,
+                            .y = outside[i].y,
+                            .field = given < FIELDS ? given : 0,
+                            .value = given < FIELDS ? 7.5 : NAN};
+            REQUIRE(mw_editor_create(mesh, NULL, &editor, NULL) == MW_OK);
+            REQUIRE(mw_edit_apply(editor, &edit, &change, NULL) == MW_OK);
+            assert_int_equal(change.vertex, CORNERS);
+            for (uint32_t f = 0; f < FIELDS; f++)
+                assert_true(mw_editor_value(editor, f, change.vertex) ==
+                            (f == given ? 7.5 : 100 * f + outside[i].near));
+            mw_editor_destroy(editor);
+        }
+        mw_mesh_destroy(mesh);
+    }
+}
+
 /* The memory reported grows with the fields and with the log, and its parts are no more than it. */
 static void test_bytes(void **state)
 {
@@ -881,6 +921,7 @@ int main(void)
         cmocka_unit_test(test_arguments),
         cmocka_unit_test(test_refusals),
         cmocka_unit_test(test_undo_limit),
+        cmocka_unit_test(test_values_outside),
         cmocka_unit_test(test_bytes),
         cmocka_unit_test(test_edits_unreported),
         cmocka_unit_test(test_hub),

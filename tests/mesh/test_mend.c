@@ -450,6 +450,35 @@ static void test_space_tolerance(void **state)
         }
 }
 
+/* In space, vertices within the tolerance become one; a little farther apart they stay two. */
+static void test_space_weld(void **state)
+{
+    (void)state;
+    static const double apart[][3] = {{1, 2, 2}, {-2, 1, 2}, {2, -2, -1}, {3, 0, 0}, {0, 0, -3}};
+    static const uint32_t triangles[] = {0, 1, 2, 3, 4, 1};
+    for (size_t i = 0; i < sizeof apart / sizeof *apart; i++)
+        for (int near = 0; near < 2; near++) {
+            /* vertex 3 is as far from vertex 2 as the vector is long: 3 */
+            const double *d = apart[i],
+                         points[15] = {0, 0,         0,         90,       0,   7,  80, 70,
+                                       9, 80 + d[0], 70 + d[1], 9 + d[2], 190, 95, 3};
+            mw_arrays view = {.points = points,
+                              .point_count = 5,
+                              .point_stride = 3,
+                              .triangles = triangles,
+                              .triangle_count = 2};
+            mw_mend_options options = {
+                .repairs = MW_REPAIR_WELD, .space = 1, .tolerance = near ? 3.000001 : 2.999999};
+            mw_mended m;
+            mw_error error;
+            expect_ok(mw_mend_arrays(&view, &options, &m, &error), "mending", &error);
+            assert_int_equal(m.vertex_count, near ? 4 : 5);
+            assert_int_equal(m.triangle_count, 2);
+            assert_int_equal(m.triangles[3] == m.triangles[2], near);
+            mw_mended_release(&m);
+        }
+}
+
 /* A band of Moebius has no orientation: it is kept, and a check names the clash. */
 static void test_moebius(void **state)
 {
@@ -522,6 +551,7 @@ int main(void)
         cmocka_unit_test(test_chains_do_not_collapse),
         cmocka_unit_test(test_space),
         cmocka_unit_test(test_space_tolerance),
+        cmocka_unit_test(test_space_weld),
         cmocka_unit_test(test_moebius),
         cmocka_unit_test(test_refusals),
     };

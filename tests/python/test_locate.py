@@ -136,6 +136,34 @@ def test_description(ring: meshwalk.Mesh) -> None:
         meshwalk.Locator(ring, fill="maybe")  # type: ignore[arg-type]
 
 
+def test_late_chains(random: np.random.Generator) -> None:
+    """Walks round a hub are long: they lead to chains, unless these are not wanted."""
+    angle = np.linspace(0, 2 * np.pi, 400, endpoint=False)
+    wheel = 0.09 * np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    turns, radius = 2 * np.pi * random.random(4000), 2.0 ** (-8 - 30 * random.random(4000))
+    queries = np.stack([radius * np.cos(turns), radius * np.sin(turns)], axis=1)
+    for _ in range(200):
+        others = random.uniform(-1, 1, (600, 2))
+        others = others[np.hypot(*others.T) > 0.1]
+        mesh = meshwalk.delaunay(np.concatenate([[[0, 0]], wheel, others]))
+        locator = meshwalk.Locator(mesh)
+        without = meshwalk.Locator(mesh, late_chains=False)
+        before = locator.describe()
+        if before.chain_bytes == 0:
+            break
+    assert before.chain_bytes == 0
+    answers = locator.locate(queries, walk="straight", start="sorted").triangle
+    for _ in range(10):
+        for asked in locator, without:
+            assert (asked.locate(queries).triangle == answers).all()
+    after = locator.describe()
+    assert after.chain_bytes > 0
+    assert after.bytes - before.bytes == after.chain_bytes
+    assert after.guide_bytes - before.guide_bytes == after.chain_bytes
+    assert without.describe().chain_bytes == 0
+    assert pickle.loads(pickle.dumps(without))._options == without._options
+
+
 def test_interpolation_is_exact_at_vertices(
     scattered: meshwalk.Mesh, random: np.random.Generator
 ) -> None:

@@ -8,8 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What follows the first word: p a point, m a motion, o a point that may be missing, v w x
- * vertices, t a triangle, c vertices to the end, s vertices, "to", and as many. */
+/* What follows the first word: p a point, m a motion, o a point that may be missing, u a
+ * vertex, v w x vertices, t a triangle, c vertices to the end, s vertices, "to", and as many. */
 typedef struct surface_edit_form {
     const char *word, *arguments;
     mw_surface_edit_line_kind line;
@@ -18,8 +18,8 @@ typedef struct surface_edit_form {
 
 static const surface_edit_form surface_forms[] = {
     {"add-vertex", "p", MW_SURFACE_EDIT_LINE_EDIT, MW_SURFACE_ADD_VERTEX},
-    {"remove-vertex", "v", MW_SURFACE_EDIT_LINE_EDIT, MW_SURFACE_REMOVE_VERTEX},
-    {"move-vertex", "vp", MW_SURFACE_EDIT_LINE_EDIT, MW_SURFACE_MOVE_VERTEX},
+    {"remove-vertex", "u", MW_SURFACE_EDIT_LINE_EDIT, MW_SURFACE_REMOVE_VERTEX},
+    {"move-vertex", "up", MW_SURFACE_EDIT_LINE_EDIT, MW_SURFACE_MOVE_VERTEX},
     {"add-triangle", "vwx", MW_SURFACE_EDIT_LINE_EDIT, MW_SURFACE_ADD_TRIANGLE},
     {"remove-triangle", "t", MW_SURFACE_EDIT_LINE_EDIT, MW_SURFACE_REMOVE_TRIANGLE},
     {"split-edge", "vwo", MW_SURFACE_EDIT_LINE_EDIT, MW_SURFACE_SPLIT_EDGE},
@@ -145,6 +145,7 @@ static mw_status surface_read_argument(mw_surface_edit_reader *r, mw_edit_words 
     case 'p': return surface_read_triple(words, point_names, probe ? line->point : edit->point);
     case 'm': return surface_read_triple(words, motion_names, line->motion);
     case 'o': return surface_read_optional(words, edit->point);
+    case 'u': return mw__edit_read_number(words, "vertex", "vertex", &edit->vertex[0]);
     case 'v': return mw__edit_read_number(words, "first vertex", "vertex", &edit->vertex[0]);
     case 'w': return mw__edit_read_number(words, "second vertex", "vertex", &edit->vertex[1]);
     case 'x': return mw__edit_read_number(words, "third vertex", "vertex", &edit->vertex[2]);
