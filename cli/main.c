@@ -32,9 +32,9 @@ static int main_print_help(void)
     }
     text_string(
         &t, "\noptions:\n"
-            "      --help            print this help; 'meshwalk COMMAND --help' tells about a "
+            "      --help            print this help; 'meshwalk COMMAND --help' describes a "
             "command,\n"
-            "                        'meshwalk COMMAND --help all' about all its options\n"
+            "                        'meshwalk COMMAND --help all' all its options\n"
             "      --version         print the version, what is built in and what was found\n\n");
     help_wrap(
         &t,

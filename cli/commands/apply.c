@@ -32,7 +32,7 @@ static const option apply_options[] = {
     {"field", 0, OPTION_TEXT, offsetof(apply_settings, field), "LIST",
      "names of the fields, separated by commas (default: all with a value for each vertex)", NULL},
     {"missing", 0, OPTION_CHOICE, offsetof(apply_settings, missing), "NAME",
-     "what a point gets where a vertex that it needs has no value (default: empty):",
+     "the value of a point if a vertex that it needs has none (default: empty):",
      &apply_missing_choices},
     {"strict", 0, OPTION_FLAG, offsetof(apply_settings, strict), NULL,
      "exit with 1 if a point has no weights", NULL},

@@ -22,7 +22,7 @@ typedef struct check_settings {
 
 static const option check_options[] = {
     {"fix", 0, OPTION_TEXT, offsetof(check_settings, fix), "LIST",
-     "mend these, write the mesh to -o OUT, and tell each change, and what could not be mended:",
+     "mend these, write the mesh to -o OUT, and report each change and each defect that remains:",
      &mend_repairs},
     {"tolerance", 0, OPTION_LENGTH, offsetof(check_settings, tolerance), "D",
      "--fix: weld vertices that are at most D apart, and split border edges at vertices at most D "
@@ -30,7 +30,7 @@ static const option check_options[] = {
      "exact)",
      NULL},
     {"numbers", 0, OPTION_TEXT, offsetof(check_settings, numbers), "FILE",
-     "--fix: write to FILE which numbers of vertices and triangles became which", NULL},
+     "--fix: write to FILE the old and the new number of each vertex and triangle", NULL},
     {"format", 0, OPTION_CHOICE, offsetof(check_settings, format), "NAME",
      "--fix: format of OUT (default: auto, by its ending):", &mesh_formats},
     {"json", 0, OPTION_FLAG, offsetof(check_settings, mesh.json), NULL, "print the defects as JSON",
@@ -298,18 +298,15 @@ const command check_command = {
     .operands = "MESH",
     .operand_count = 1,
     .summary = "list the defects of a mesh, and mend them",
-    .description = "Prints every defect of MESH and where it is, one on a line, and then whether "
-                   "the mesh is an "
-                   "embedding: whether its triangles cover the plane without folds and overlaps. "
-                   "Exits with 0 if it "
-                   "is one and with 3 if not, or if no triangle has an area. Flat triangles beside "
-                   "others are listed, but do "
-                   "no harm. With --as, MESH is checked as a surface or as a star-shaped "
-                   "polyhedron in the same way. With "
-                   "--fix, a mended mesh is written and told about; then the exit code is 0 if "
-                   "that is an embedding, and 1 if "
-                   "defects remain. 'meshwalk view MESH' shows the defects in a browser. '-' is "
-                   "standard input.",
+    .description =
+        "Prints every defect of MESH and where it is, one on a line, and then whether the mesh is "
+        "an embedding: whether its triangles cover the plane without folds and overlaps. Exits "
+        "with 0 if it is one and with 3 if not, or if no triangle has an area. Flat triangles "
+        "beside others are listed, but do no harm. With --as, MESH is checked as a surface or as a "
+        "star-shaped polyhedron in the same way. With --fix, the mesh is mended and written, and "
+        "each change is reported; the exit code then is 0 if the mended mesh is an embedding, and "
+        "1 if defects remain. 'meshwalk view MESH' shows the defects in a browser. '-' is standard "
+        "input.",
     .options = tables,
     .essential = "fix tolerance numbers as output",
     .settings_size = sizeof(check_settings),

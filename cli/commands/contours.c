@@ -274,7 +274,7 @@ static int contours_check(const contours_settings *s, const char *const *operand
         return END_USAGE;
     }
     if (s->base && !s->interval) {
-        complain("option '--base' is for --interval");
+        complain("option '--base' needs --interval");
         return END_USAGE;
     }
     if (s->interval) end = levels_number("interval", s->interval, &value, &decimals);

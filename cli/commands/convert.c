@@ -42,8 +42,8 @@ static int convert_file(const convert_settings *s, const char *path, const char 
     if (!s->common.quiet) {
         mesh_output_warn(output, s->format, file);
         if (file->step_count > 1)
-            complain("%s: warning: has values at %zu times; those of the first are written", path,
-                     file->step_count);
+            complain("%s: warning: has values at %zu times; only those of the first are written",
+                     path, file->step_count);
     }
     return mesh_output_write(output, s->format, file, temporary, s->common.quiet);
 }
@@ -74,11 +74,10 @@ const command convert_command = {
     .operand_count = 2,
     .optional_operands = 1, /* with -o OUT */
     .summary = "write a mesh in another format",
-    .description =
-        "Reads MESH and writes it as OUT, in the format of its ending or of --format: with its "
-        "vertices, faces, heights and fields, its marked edges and its coordinate system, as far "
-        "as that format has a place for them; a warning names what has none. '-' is standard "
-        "input or output.",
+    .description = "Reads MESH and writes it as OUT, in the format of its ending or of --format: "
+                   "with its vertices, faces, heights and fields, its marked edges and its "
+                   "coordinate system, as far as that format has a place for them; a warning names "
+                   "those without a place. '-' is standard input or output.",
     .options = tables,
     .essential = "format crs layout output quiet",
     .settings_size = sizeof(convert_settings),

@@ -28,8 +28,8 @@ static int drape_check(const common_settings *common, const line_file *lines, co
     int kind = drape_has_polygons(lines);
     *polygons = kind == 1;
     if (kind < 0) {
-        complain("%s: has lines and polygons: drape takes one of them; --layer chooses, or ogr2ogr "
-                 "parts them",
+        complain("%s: has both lines and polygons, but drape takes one kind; choose a layer with "
+                 "--layer, or separate them with ogr2ogr",
                  path);
         return END_INPUT;
     }
@@ -130,11 +130,10 @@ const command drape_command = {
     .description =
         "Writes the lines of a file with the heights of MESH, and with a point wherever they cross "
         "an edge or a vertex of it, so that they lie on the surface. Their attributes are kept, "
-        "and "
-        "length and surface_length added: lengths in the plane and on the surface. What lies "
-        "outside MESH is left out, so a line may become several. Polygons keep their outline, and "
-        "get area, surface_area and outside_area too: in the plane and on the surface where MESH "
-        "is, and in the plane where it is not.",
+        "and length and surface_length added: lengths in the plane and on the surface. Parts "
+        "outside MESH are left out, so a line may become several. Polygons keep their outline and "
+        "get three more attributes: area, in the plane, and surface_area, on the surface, of the "
+        "part over MESH; and outside_area, in the plane, of the rest.",
     .options = tables,
     .essential = "field attribute layer strict output",
     .settings_size = sizeof(drape_settings),

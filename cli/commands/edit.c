@@ -63,9 +63,12 @@ static const option edit_options[] = {
      "freed",
      NULL},
     {"numbers", 0, OPTION_TEXT, offsetof(edit_settings, paths[EDIT_STREAM_NUMBERS]), "FILE",
-     "write to FILE which number became which in the mesh written, and at each compact line", NULL},
+     "write to FILE the old and the new number of each vertex and triangle, for the mesh written "
+     "and for each compact line",
+     NULL},
     {"log", 0, OPTION_TEXT, offsetof(edit_settings, paths[EDIT_STREAM_LOG]), "FILE",
-     "write to FILE the edits that took effect, as a stream that makes the same of MESH", NULL},
+     "write to FILE the edits that took effect, as a stream that makes the same mesh from MESH",
+     NULL},
     {"constraints", 0, OPTION_TEXT, offsetof(edit_settings, constraints), "FILE",
      "the points, lines and polygons that MESH was made with: edges along them stay, as "
      "triangulate --constraints "
@@ -478,22 +481,16 @@ const command edit_command = {
     .summary = "change a mesh by a stream of edits, and locate in between",
     .description =
         "Carries out the lines of EDITS in order, then writes the mesh. A line is one of: insert X "
-        "Y [Z], remove V, "
-        "move V X "
-        "Y, flip V V, constrain V V, release V V, value V Z, locate X Y, undo, compact; with "
-        "blanks or commas between "
-        "its "
-        "words. Vertices go by their numbers, from 0, which stay as they are while the stream "
-        "runs; a new vertex gets "
-        "the "
-        "next one. A locate line is answered as the command locate does it: "
-        "x,y,status,triangle,w0,w1,w2. The mesh "
-        "written is numbered anew, without gaps and in the same order. '-' is standard input. With "
-        "--as surface the lines are: add-vertex X Y Z, remove-vertex V, move-vertex V X Y Z, "
-        "add-triangle V V V, remove-triangle T, split-edge V V [X Y Z], split-triangle T [X Y Z], "
-        "flip V V, collapse V V [X Y Z], cut V V ..., sew V V ... to V V ..., probe X Y Z MX MY "
-        "MZ, "
-        "undo, compact; a probe line is answered as 'probe --certain' does it.",
+        "Y [Z], remove V, move V X Y, flip V V, constrain V V, release V V, value V Z, locate X Y, "
+        "undo, compact; with blanks or commas between its words. Vertices are named by their "
+        "numbers, from 0. Numbers do not change while the stream runs; a new vertex gets the next "
+        "number. A locate line is answered as the command locate does it: "
+        "x,y,status,triangle,w0,w1,w2. The mesh written is numbered anew, without gaps and in the "
+        "same order. '-' is standard input. With --as surface the lines are: add-vertex X Y Z, "
+        "remove-vertex V, move-vertex V X Y Z, add-triangle V V V, remove-triangle T, split-edge V "
+        "V [X Y Z], split-triangle T [X Y Z], flip V V, collapse V V [X Y Z], cut V V ..., sew V V "
+        "... to V V ..., probe X Y Z MX MY MZ, undo, compact; a probe line is answered as 'probe "
+        "--certain' does it.",
     .options = tables,
     .essential = "answers changes numbers log output",
     .settings_size = sizeof(edit_settings),

@@ -225,14 +225,11 @@ const command info_command = {
     .operand_count = 1,
     .summary = "describe a mesh",
     .description = "Prints counts, extent, area, borders, holes, components and orientation of "
-                   "MESH, whether it is an "
-                   "embedding, convex and Delaunay, and the memory it takes. With --as, MESH is "
-                   "described as a surface in "
-                   "space, or as a polyhedron: whether it is star-shaped about a centre. Of a "
-                   "vector file that GDAL reads it "
-                   "lists "
-                   "the layers, and what one of them holds. 'meshwalk check' lists the defects of "
-                   "MESH, 'meshwalk view' shows them. '-' is standard input.",
+                   "MESH, whether it is an embedding, convex and Delaunay, and the memory it "
+                   "takes. With --as, MESH is described as a surface in space, or as a polyhedron: "
+                   "whether it is star-shaped about a centre. For a vector file that GDAL reads, "
+                   "it lists the layers, or describes one of them. 'meshwalk check' lists the "
+                   "defects of MESH, 'meshwalk view' shows them. '-' is standard input.",
     .options = tables,
     .essential = "as centre json output threads",
     .settings_size = sizeof(info_settings),

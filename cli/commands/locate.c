@@ -67,7 +67,7 @@ static int locate_run(const void *settings, const char *const *operands)
     if (s->polygons.path) return locate_in_polygons(s, operands);
     if (!operands[1]) return options_fail_operands(&locate_command, 1);
     if (s->polygons.attribute || s->polygons.layer) {
-        complain("option '--%s' is for --polygons",
+        complain("option '--%s' needs --polygons",
                  s->polygons.attribute ? "attribute" : "polygon-layer");
         return END_USAGE;
     }

@@ -22,8 +22,8 @@ static const option prepare_options[] = {
     {"border", 0, OPTION_FLAG, offsetof(prepare_settings, border), NULL,
      "keep the index of the border, which --tolerance, --outside and --details need", NULL},
     {"tiles", 0, OPTION_COUNT, offsetof(prepare_settings, tiles), "N",
-     "make a folder of N prepared files, each for as many triangles, that are mapped one by one "
-     "(meshwalk.Tiles in Python); with the index of the border (default: one file)",
+     "make a folder of N prepared files, with equally many triangles each, that are mapped one by "
+     "one (meshwalk.Tiles in Python); with the index of the border (default: one file)",
      NULL},
     {"fields", 0, OPTION_TEXT, offsetof(prepare_settings, fields), "LIST",
      "the fields to keep, of vertices and of triangles, separated by commas; z are the heights; "
@@ -157,7 +157,7 @@ static int prepare_check_output(const prepare_settings *s)
         return END_USAGE;
     }
     if (access(output, F_OK) == 0) {
-        complain("%s: is there already; remove it first", output);
+        complain("%s: exists already; remove it first", output);
         return END_RESOURCE;
     }
     return output[strlen(output) - 1] == '/' ? 0 : files_try_output(output, NULL);

@@ -63,9 +63,9 @@ const command profile_command = {
         "Writes a row for every point where a line begins, bends, crosses an edge or a vertex of "
         "MESH, or ends: feature,part, the attributes of the line, chainage,x,y,z,triangle,at. The "
         "chainage is the length of the line up to there, in the units of MESH; z is interpolated "
-        "linearly, and empty outside MESH; the triangle is that in which the line goes on, or -1; "
-        "at is begin, corner (of the line), edge, vertex or end. LINES is a vector file with lines "
-        "or polygons, or a table of points, which is one line.",
+        "linearly, and empty outside MESH; the triangle is the one that the line enters there, or "
+        "-1; at is begin, corner (of the line), edge, vertex or end. LINES is a vector file with "
+        "lines or polygons, or a table of points, which is one line.",
     .options = tables,
     .essential = "field attribute layer columns output",
     .settings_size = sizeof(line_query_settings),

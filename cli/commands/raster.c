@@ -166,9 +166,8 @@ static int raster_choose_bands(const raster_settings *s, raster_bands *b)
     if (b->count == 0) return END_USAGE;
     for (uint32_t k = 0; s->mean && k < b->count; k++)
         if (b->bands[k] == BAND_TRIANGLE)
-            return raster_refuse(
-                "--derive triangle cannot be used with --mean: the mean of numbers "
-                "of triangles means nothing");
+            return raster_refuse("--derive triangle cannot be used with --mean: a mean of triangle "
+                                 "numbers has no meaning");
     b->type = raster_type_of(s, b);
     return raster_choose_nodata(s, b);
 }
@@ -180,9 +179,10 @@ static int raster_check_settings(const raster_settings *s, const char *mesh, ras
     if (s->like && (s->grid.extent || s->grid.resolution > 0))
         return raster_refuse(
             "--resolution and --extent cannot be used with --like, which sets the pixels");
-    if (s->values && !s->time) return raster_refuse("--values is for values over time: --time");
+    if (s->values && !s->time)
+        return raster_refuse("--values needs --time: it is for values over time");
     if (s->time && (s->derive || s->outside != OUTSIDE_EMPTY || s->vertex_nodata))
-        return raster_refuse("--derive, --outside and --vertex-nodata are not for --time");
+        return raster_refuse("--derive, --outside and --vertex-nodata cannot be used with --time");
     if (s->mean && s->outside != OUTSIDE_EMPTY)
         return raster_refuse("--outside cannot be used with --mean");
     int end = s->time ? series_check_time(s->time) : 0;
@@ -218,11 +218,10 @@ static void raster_warn_of_seam(const char *path, const raster_work *w)
     const double *mesh = w->mesh.extent, east = g->west + g->columns * g->width;
     for (int turn = -360; turn <= 360; turn += 720) {
         if (fmin(mesh[2] + turn, east) - fmax(mesh[0] + turn, g->west) <= g->width / 2) continue;
-        complain(
-            "%s: warning: its longitudes are from %g to %g, those of the raster from %g to %g: "
-            "centres of pixels that lie in the mesh with 360 degrees %s have no value; "
-            "--extent lays the pixels over the mesh, --mean finds them as they are",
-            path, mesh[0], mesh[2], g->west, east, turn < 0 ? "more" : "less");
+        complain("%s: warning: its longitudes are from %g to %g, but those of the raster from %g "
+                 "to %g: pixels that lie in the mesh only with 360 degrees %s have no value; set "
+                 "--extent to the extent of the mesh, or use --mean, which finds them",
+                 path, mesh[0], mesh[2], g->west, east, turn < 0 ? "more" : "less");
         return;
     }
 }
@@ -234,7 +233,7 @@ static void raster_warn(const raster_settings *s, const char *path, const raster
     if (s->common.quiet) return;
     if (angles && w->mesh.crs && crs_is_lonlat(w->mesh.crs))
         complain("%s: warning: it is in longitudes and latitudes, so its slopes are heights over "
-                 "degrees: bring it to a plane first",
+                 "degrees: transform it to a projected coordinate system first",
                  path);
     if (!s->mean && w->mesh.crs && crs_is_lonlat(w->mesh.crs)) raster_warn_of_seam(path, w);
     if (b->filled == 0)
@@ -355,9 +354,9 @@ const command raster_command = {
     .operands = "MESH -o RASTER",
     .operand_count = 1,
     .summary = "make a raster of a mesh: heights, slopes, a hillshade",
-    .description = "Writes the value that MESH has at the centre of each pixel, as 'sample' "
-                   "interpolates it, to RASTER: a GeoTIFF, or what else GDAL writes. '-' is "
-                   "standard input.",
+    .description =
+        "Writes the value that MESH has at the centre of each pixel, as 'sample' interpolates it, "
+        "to RASTER: a GeoTIFF, or another format that GDAL writes. '-' is standard input.",
     .options = tables,
     .essential = "resolution like field derive output",
     .settings_size = sizeof(raster_settings),

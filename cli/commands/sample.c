@@ -198,7 +198,7 @@ static bool sample_is_series(const sample_settings *s)
 
 static int sample_fail_wide(void)
 {
-    complain("option '--wide' is for values over time: --time");
+    complain("option '--wide' needs --time: it is for values over time");
     return END_USAGE;
 }
 
@@ -211,7 +211,7 @@ static int sample_series(const sample_settings *s, const char *const *operands)
                         : s->nodata  ? "nodata"
                                      : NULL;
     if (wrong || s->query.stream.stats) {
-        complain("option '--%s' is not for values over time", wrong ? wrong : "stats");
+        complain("option '--%s' cannot be used with values over time", wrong ? wrong : "stats");
         return END_USAGE;
     }
     if (series.wide && series.time_column) {
@@ -288,7 +288,7 @@ static int sample_star(const sample_settings *s, const char *const *operands)
         .nearest = s->missing == MISSING_NEAREST,
     };
     if (unfit) {
-        complain("option '--%s' is not for --as star", unfit);
+        complain("option '--%s' cannot be used with --as star", unfit);
         return END_USAGE;
     }
     if (sample_is_series(s)) return sample_globe_series(s, operands);

@@ -89,9 +89,8 @@ static const option star_options[] = {
      NULL},
     {"columns", 0, OPTION_TEXT, offsetof(star_settings, stream.source.columns), "LIST",
      "columns of DIRECTIONS that hold x, y and z, or longitude and latitude, as names or numbers "
-     "from 1: u,v,w or "
-     "3,4,5 (default: those that a header calls so, by names that the manual page lists, or the "
-     "only ones)",
+     "from 1: u,v,w or 3,4,5 (default: those that the header names so, in one of the ways that the "
+     "manual page lists, or the only ones)",
      NULL},
     {"remesh", 0, OPTION_TEXT, offsetof(star_settings, remesh.level), "LEVEL",
      "instead of finding facets: sample POLYHEDRON on an icosphere of 20 * 4^LEVEL triangles about "
@@ -215,7 +214,8 @@ static int star_check_open(const star_settings *s)
 {
     const char *unfit = s->open ? star_option_of_walks(s) : NULL;
     if (!unfit) return star_input_check_open(s->open, &s->centre);
-    complain("option '--%s' is for walks, and --open finds facets by boxes", unfit);
+    complain("option '--%s' cannot be used with --open, which finds facets by boxes, not by a walk",
+             unfit);
     return END_USAGE;
 }
 
@@ -288,7 +288,7 @@ static int star_run(const void *settings, const char *const *operands)
                                             : NULL;
     if (s->remesh.level || s->remesh.onto) return star_remesh(s, operands);
     if (unfit) {
-        complain("option '--%s' is for --remesh and --onto", unfit);
+        complain("option '--%s' needs --remesh or --onto", unfit);
         return END_USAGE;
     }
     if (!operands[1]) return options_fail_operands(&star_command, 1);

@@ -77,9 +77,8 @@ static const option triangulate_options[] = {
      "they cross constraints",
      NULL},
     {"max-edge", 0, OPTION_LENGTH, offsetof(triangulate_settings, max_edge), "L",
-     "peel triangles off the border while they have a border edge longer than L; constraints hold "
-     "them (default: keep "
-     "the convex hull)",
+     "remove triangles from the border as long as one has a border edge longer than L; none is "
+     "removed over a constrained edge (default: keep the convex hull)",
      NULL},
     {"from", 0, OPTION_TEXT, offsetof(triangulate_settings, from), "RASTER",
      "in place of POINTS, those pixels of a raster that are needed to keep to --tolerance", NULL},
@@ -181,8 +180,8 @@ static void triangulate_warn_of_points(const triangulate_settings *s, const char
     if (s->common.quiet || !points) return;
     const mw_mesh_file *file = &w->vertices.file;
     if (w->peel.points > 0)
-        complain("%s: %zu of its %zu points belong to no triangle any more: --max-edge peeled "
-                 "theirs off",
+        complain("%s: %zu of its %zu points belong to no triangle any more: --max-edge removed "
+                 "their triangles",
                  points, w->peel.points, file->point_count);
     uint8_t *used = w->constrained.triangles_removed ? calloc(file->point_count + 1, 1) : NULL;
     if (!used) return;
@@ -280,9 +279,9 @@ static void triangulate_warn_if_local(const triangulate_settings *s, const char 
     const char *name = kind_name(s->kind);
     if (kind->optimal || s->common.quiet) return;
     if (kind->local_faces > 0)
-        complain("%s: warning: this %s triangulation is a local optimum: of %zu faces, the largest "
-                 "of %zu corners, %zu "
-                 "are too large or hold points; --limit N takes larger ones",
+        complain("%s: warning: this %s triangulation is a local optimum: of %zu faces (the largest "
+                 "has %zu corners) %zu are too large or contain points; --limit N also fills "
+                 "larger faces optimally",
                  path, name, kind->faces, kind->largest_face, kind->local_faces);
     else
         complain("%s: warning: this %s triangulation is a local optimum: there are too many points "
@@ -516,7 +515,8 @@ static int triangulate_read_raster(const triangulate_settings *s, triangulate_wo
     vertex_table *v = &w->vertices;
     int end = dem_read(&w->dem, s->from, s->band ? s->band : 1);
     if (end == 0 && w->dem.crs && s->crs.mesh && !crs_same(w->dem.crs, s->crs.mesh)) {
-        complain("%s: is in another system than --crs says; gdalwarp transforms it", s->from);
+        complain("%s: is in another coordinate system than --crs says; gdalwarp transforms it",
+                 s->from);
         end = END_INPUT;
     }
     if (end == 0) end = dem_begin(&w->dem, &v->file.points, &v->file.point_count);
@@ -572,10 +572,9 @@ static int triangulate_refine(const triangulate_settings *s, triangulate_work *w
     }
     mw_mesh_destroy(fine);
     if (end == 0 && w->greedy.left_out > 0 && !options.bounded && !s->common.quiet)
-        complain(
-            "%s: warning: %zu of its pixels have a height, but lie in no triangle: none beside "
-            "them make one",
-            s->from, w->greedy.left_out);
+        complain("%s: warning: %zu of its pixels have a height, but lie in no triangle: too few "
+                 "pixels beside them have a height",
+                 s->from, w->greedy.left_out);
     return end;
 }
 
@@ -635,17 +634,14 @@ const command triangulate_command = {
     .operand_count = 1,
     .optional_operands = 1,
     .summary = "make a triangulation of points, lines and polygons",
-    .description = "Writes a triangulation of POINTS to MESH, Delaunay unless --kind says "
-                   "otherwise. Vertex i of the mesh "
-                   "is point i, from 0. A point equal to an earlier one is counted in the report, "
-                   "and belongs to no "
-                   "triangle. A column z, or height, is the height; further columns of numbers "
-                   "become fields. With --constraints, "
-                   "the lines and polygons of a file are edges of the mesh; its points follow "
-                   "POINTS, with heights and "
-                   "fields interpolated where the file has none. With --from "
-                   "and --tolerance, a raster "
-                   "of heights in place of POINTS. '-' is standard input.",
+    .description =
+        "Writes a triangulation of POINTS to MESH, Delaunay unless --kind says otherwise. Vertex i "
+        "of the mesh is point i, from 0. A point equal to an earlier one is counted in the report, "
+        "and belongs to no triangle. A column z, or height, is the height; further columns of "
+        "numbers become fields. With --constraints, the lines and polygons of a file are edges of "
+        "the mesh; its points follow POINTS, with heights and fields interpolated where the file "
+        "has none. With --from and --tolerance, a raster of heights is triangulated instead of "
+        "POINTS. '-' is standard input.",
     .options = tables,
     .essential = "columns constraints boundary max-edge output",
     .settings_size = sizeof(triangulate_settings),

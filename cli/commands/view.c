@@ -24,8 +24,8 @@ static const option view_options[] = {
     {"points", 0, OPTION_TEXT, offsetof(view_settings, points), "FILE",
      "show the points of FILE too, coloured by where they lie", NULL},
     {"columns", 0, OPTION_TEXT, offsetof(view_settings, columns), "LIST",
-     "columns of --points that hold x and y, as names or numbers from 1 (default: those that a "
-     "header calls so, or the only two)",
+     "columns of --points that hold x and y, as names or numbers from 1 (default: those that the "
+     "header names so, or the only two)",
      NULL},
     {0},
 };

@@ -139,7 +139,7 @@ static void visible_warn_of_degrees(const visible_settings *s, const char *path,
 {
     if (crs && crs_is_lonlat(crs) && !s->query.stream.common.quiet)
         complain("%s: warning: it is in longitudes and latitudes, and lines of sight are straight "
-                 "in them: bring it to a plane first",
+                 "in them: transform it to a projected coordinate system first",
                  path);
 }
 
@@ -356,15 +356,13 @@ static int visible_run(const void *settings, const char *const *operands)
     if (!s->from == !s->between)
         return visible_refuse(s->from ? "--from cannot be used with --between, whose lines have "
                                         "the viewpoints"
-                                      : "where is the viewpoint? --from X,Y,Z tells");
+                                      : "where is the viewpoint? Give --from X,Y,Z");
     if (s->between ? s->to || s->raster : !s->to == !s->raster)
-        return visible_refuse(
-            "look at what? either --to POINTS, --between LINES or --raster tells");
-    if (s->between && s->query.stream.source.columns)
-        return visible_refuse("--columns is for --to");
+        return visible_refuse("what is looked at? Give --to POINTS, --between LINES or --raster");
+    if (s->between && s->query.stream.source.columns) return visible_refuse("--columns needs --to");
     if (of_raster && !s->raster)
-        return visible_refuse("--resolution, --like, --extent, --driver and --creation are for "
-                              "--raster");
+        return visible_refuse(
+            "--resolution, --like, --extent, --driver and --creation need --raster");
     if (s->like && (grid->extent || grid->resolution > 0))
         return visible_refuse(
             "--resolution and --extent cannot be used with --like, which sets the pixels");

@@ -21,7 +21,7 @@ static const option volume_options[] = {
     {"base", 0, OPTION_TEXT, offsetof(volume_settings, base), "Z",
      "the volume above and below the height Z", NULL},
     {"against", 0, OPTION_TEXT, offsetof(volume_settings, against), "MESH2",
-     "the volume between MESH and MESH2, where both are", NULL},
+     "the volume between MESH and MESH2, where both have heights", NULL},
     {"field", 0, OPTION_TEXT, offsetof(volume_settings, field), "NAME",
      "the height: z or a field of MESH (default: z)", NULL},
     {"against-field", 0, OPTION_TEXT, offsetof(volume_settings, against_field), "NAME",
@@ -54,13 +54,13 @@ static int volume_check(const volume_settings *s, const char *mesh, volume_meshe
     char *stop;
     const char *inputs[2] = {mesh, s->against};
     if (!s->base == !s->against) {
-        complain("volume: against what? --base Z or --against MESH2, one of them");
+        complain("volume: give either --base Z or --against MESH2");
         return END_USAGE;
     }
     if (!s->against && (s->against_field || s->against_crs || s->strict)) {
-        complain("option '--%s' is for --against", s->against_field ? "against-field"
-                                                   : s->against_crs ? "against-crs"
-                                                                    : "strict");
+        complain("option '--%s' needs --against", s->against_field ? "against-field"
+                                                  : s->against_crs ? "against-crs"
+                                                                   : "strict");
         return END_USAGE;
     }
     m->base = s->base ? strtod(s->base, &stop) : 0;
@@ -79,8 +79,8 @@ static int volume_check_plane(const volume_meshes *m, int k)
 {
     char name[CRS_NAME];
     if (!m->mesh[k].crs || !crs_is_lonlat(m->mesh[k].crs)) return 0;
-    complain("%s: is in longitudes and latitudes (%s), in which there are no areas: bring it to a "
-             "plane first",
+    complain("%s: is in longitudes and latitudes (%s), in which areas have no unit: transform it "
+             "to a projected coordinate system first",
              m->path[k], crs_name(m->mesh[k].crs, name));
     return END_INPUT;
 }
@@ -94,7 +94,7 @@ static int volume_check_systems(const volume_settings *s, const volume_meshes *m
     end = volume_check_plane(m, 1);
     if (end) return end;
     if (a && b && !crs_same(a, b)) {
-        complain("%s is in %s, %s in %s: bring one to the other first", m->path[0],
+        complain("%s is in %s, but %s is in %s: transform one of them first", m->path[0],
                  crs_name(a, names[0]), m->path[1], crs_name(b, names[1]));
         return END_INPUT;
     }
@@ -187,11 +187,10 @@ const command volume_command = {
     .operands = "MESH",
     .operand_count = 1,
     .summary = "cut and fill between a mesh and a height, or another mesh",
-    .description =
-        "Prints the volume of what MESH has above a height or another mesh (cut), what it lacks "
-        "below (fill), and the areas of the plane where that is so. Triangles are clipped by "
-        "those of the other mesh exactly. Where only one of two meshes has a height there is no "
-        "volume: the report tells these areas.",
+    .description = "Prints the volume of what MESH has above a height or another mesh (cut), what "
+                   "it lacks below (fill), and the areas of both in the plane. Triangles are "
+                   "clipped by those of the other mesh exactly. Places where only one of two "
+                   "meshes has a height add no volume; the report has their area.",
     .options = tables,
     .essential = "base against field strict output",
     .settings_size = sizeof(volume_settings),

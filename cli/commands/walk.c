@@ -60,7 +60,9 @@ static const option walk_options[] = {
      "goes through, or with --lonlat LON,LAT",
      NULL},
     {"to", 0, OPTION_XY_OR_XYZ, offsetof(walk_settings, to), "X,Y",
-     "where it is to end, likewise; --as surface: a point that the probe's motion points at", NULL},
+     "where the walk ends, in the same form; --as surface: a point that the probe's motion points "
+     "at",
+     NULL},
     {"walk", 0, OPTION_CHOICE, offsetof(walk_settings, walk), "NAME",
      "how to walk (default: auto). --as plane takes all of these, and --as star auto, stochastic, "
      "forgetful, barycentric, orthogonal and straight; a probe has one walk:",

@@ -155,7 +155,7 @@ static int weights_check_points(const weights_settings *s)
 {
     const char *unfit = s->lonlat ? point_query_option_of_plane(&s->query) : NULL;
     if (s->values || s->norm)
-        complain("option '--%s' is for --method conservative", s->values ? "values" : "norm");
+        complain("option '--%s' needs --method conservative", s->values ? "values" : "norm");
     else if (s->open && !s->lonlat)
         complain("option '--open' needs --lonlat");
     else if (unfit)

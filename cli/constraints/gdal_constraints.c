@@ -181,7 +181,7 @@ static int collector_add_feature(constraint_collector *c, OGRFeatureH feature, c
     gdal.OGR_G_DestroyGeometry(linear);
     if (!added) return fail_memory();
     if (c->file->point_count <= MW_MAX_VERTICES && c->file->segment_count < MW_NONE) return 0;
-    complain("%s: more than %" PRIu32 " points, or than %" PRIu32 " segments", path,
+    complain("%s: has more than %" PRIu32 " points, or more than %" PRIu32 " segments", path,
              (uint32_t)MW_MAX_VERTICES, MW_NONE - 1);
     return END_RESOURCE;
 }

@@ -127,14 +127,14 @@ static void polygon_file_warn(const polygon_file *f, const mw_constraint_file *c
         uint32_t feature = f->feature[crossing[i]];
         if (feature != last && named++ < NAMED)
             complain("%s: warning: the border of %s %" PRIu32
-                     " crosses itself or runs along itself; inside is what it goes round an odd "
-                     "number of times",
+                     " crosses itself or runs along itself; a point is inside if the border goes "
+                     "round it an odd number of times",
                      path, c->record_name, feature);
         else if (feature != last)
             more++;
         last = feature;
     }
-    if (more > 0) complain("%s: warning: so do %zu others", path, more);
+    if (more > 0) complain("%s: warning: the borders of %zu others do so, too", path, more);
     free(crossing);
 }
 

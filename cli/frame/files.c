@@ -66,7 +66,7 @@ int files_check_output(const char *output, const char *const *inputs, int count)
     for (int i = 0; i < count; i++) {
         streams += files_is_standard(inputs[i]);
         if (!file_is_same(output, inputs[i])) continue;
-        complain("%s: is input and output: choose another output", inputs[i]);
+        complain("%s: is both input and output: choose another output", inputs[i]);
         return END_USAGE;
     }
     if (streams <= 1) return 0;
@@ -213,8 +213,8 @@ int files_read_mesh(const char *path, mw_mesh_file *file)
                  "of them",
                  path, path);
     if (file_is_tiles(path))
-        complain("%s: holds a mesh in tiles, which meshwalk.Tiles of the Python module takes; "
-                 "here give the mesh in one file",
+        complain("%s: holds a mesh in tiles, which meshwalk.Tiles of the Python module reads; give "
+                 "this command the mesh in one file",
                  path);
     return end;
 }

@@ -149,7 +149,7 @@ static void help_essential_options(text *t, const command *c)
 static void help_other_options(text *t, const command *c)
 {
     text names = {0};
-    text_printf(&names, "'meshwalk %s --help all' tells about the others:", c->name);
+    text_printf(&names, "'meshwalk %s --help all' describes the other options:", c->name);
     for (const option *const *table = c->options; *table; table++)
         for (const option *o = *table; o->name; o++)
             if (!option_is_overruled(c, o) && !list_has(c->essential, o->name))

@@ -308,7 +308,7 @@ int options_parse(const command *c, char **arguments, void *settings,
     if (end || common->help) return end;
     for (int i = 0; i < found && i < c->operand_count; i++)
         if (!*operands[i]) {
-            complain("a file has the empty name");
+            complain("the name of a file is empty");
             return END_USAGE;
         }
     if (found <= c->operand_count && found >= c->operand_count - c->optional_operands) return 0;

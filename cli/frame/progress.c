@@ -21,11 +21,11 @@ static struct {
     uint64_t done;
     double rate;    /* points or lines per second */
     char stage[64]; /* of a call of the library; "": none */
-    /* of the phase, that the calls of the library are */
+    /* the part of the phase that calls of the library make up: from, to */
     double part[2];
-    /* of the phase or the call that is done; -1: not known */
+    /* how much of the phase or the call is done; -1: not known */
     double fraction;
-    struct timespec begin, phase_begin, part_begin; /* part: of what the fraction is of */
+    struct timespec begin, phase_begin, part_begin; /* part: the phase or call of `fraction` */
 } watch;
 
 static double seconds_since(const struct timespec *begin)

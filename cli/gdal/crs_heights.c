@@ -61,20 +61,20 @@ void crs_warn_of_heights(const char *path, const char *from, const char *to)
     char names[2][CRS_NAME];
     crs_heights a = heights_of(from), b = heights_of(to);
     if (a.known && b.known && (strcmp(a.name, b.name) != 0 || units_differ(&a, &b)))
-        complain("%s: warning: heights are not transformed: they stay '%s' in %s, where %s has "
-                 "'%s' in %s",
+        complain("%s: warning: heights are not transformed: they stay '%s' in %s, but heights in "
+                 "%s are '%s' in %s",
                  path, a.name, a.unit, crs_name(to, names[0]), b.name, b.unit);
     else if (a.known && !b.known)
-        complain("%s: warning: heights are not transformed: they stay '%s' in %s, and %s tells "
-                 "nothing of heights",
+        complain("%s: warning: heights are not transformed: they stay '%s' in %s; %s does not "
+                 "define heights",
                  path, a.name, a.unit, crs_name(to, names[0]));
     else if (!a.known && b.known)
-        complain("%s: warning: heights are not transformed: %s tells nothing of them, %s has '%s' "
-                 "in %s",
+        complain("%s: warning: heights are not transformed: %s does not define them; heights in %s "
+                 "are '%s' in %s",
                  path, crs_name(from, names[0]), crs_name(to, names[1]), b.name, b.unit);
     else if (a.plane && b.plane && units_differ(&a, &b))
-        complain("%s: warning: heights are not transformed: if they are in %s, as %s counts, they "
-                 "stay so, where %s counts in %s",
+        complain("%s: warning: heights are not transformed: they stay in %s if that is their unit, "
+                 "as it is of x and y in %s; the unit of %s is %s",
                  path, a.unit, crs_name(from, names[0]), crs_name(to, names[1]), b.unit);
 }
 
@@ -84,13 +84,13 @@ int crs_check_heights(const char *a_path, const char *a, const char *b_path, con
     crs_heights of_a = heights_of(a), of_b = heights_of(b);
     if (of_a.known && of_b.known &&
         (strcmp(of_a.name, of_b.name) != 0 || units_differ(&of_a, &of_b))) {
-        complain("%s has heights '%s' in %s, %s '%s' in %s: bring one to the other first", a_path,
-                 of_a.name, of_a.unit, b_path, of_b.name, of_b.unit);
+        complain("%s has heights '%s' in %s, but %s has '%s' in %s: transform one of them first",
+                 a_path, of_a.name, of_a.unit, b_path, of_b.name, of_b.unit);
         return END_INPUT;
     }
     if (of_a.known != of_b.known && !quiet)
-        complain("%s: warning: tells nothing of its heights, and those of %s are '%s' in %s: they "
-                 "are taken to be the same",
+        complain("%s: warning: its coordinate system does not define heights, and those of %s are "
+                 "'%s' in %s: they are taken to be the same",
                  of_a.known ? b_path : a_path, of_a.known ? a_path : b_path,
                  of_a.known ? of_a.name : of_b.name, of_a.known ? of_a.unit : of_b.unit);
     return 0;

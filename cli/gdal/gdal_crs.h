@@ -1,4 +1,5 @@
-/* gdal_crs.h - coordinate systems: what a text names, and whether two are one. GDAL knows.
+/* gdal_crs.h - coordinate systems: what a text names, and whether two texts name the same system.
+ * GDAL decides.
  *
  * A system is a text: "EPSG:2056", or WKT. Its first two coordinates are easting and northing, or
  * longitude and latitude, in this order, whatever its definition says. Heights do not count.

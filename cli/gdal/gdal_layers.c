@@ -52,7 +52,7 @@ static int layers_report_set(const gdal_functions *gdal, GDALDatasetH set, const
     free(names);
     if (found >= 0) layer_report(gdal, set, gdal->GDALDatasetGetLayer(set, found), r);
     if (found >= 0 || !wanted) return 0;
-    complain("%s: has no layer '%s'; without --layer they are listed", path, wanted);
+    complain("%s: has no layer '%s'; without --layer this command lists them", path, wanted);
     return END_INPUT;
 }
 

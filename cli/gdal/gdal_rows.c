@@ -214,11 +214,12 @@ static int rows_check_lonlat(const gdal_rows *r)
 {
     char name[CRS_NAME];
     if (r->form.polygons) {
-        complain("%s: %s holds no polygons; .gpkg does", r->target.path, r->format->driver);
+        complain("%s: %s cannot hold polygons; .gpkg can", r->target.path, r->format->driver);
         return END_USAGE;
     }
     if (!r->form.crs || crs_is_lonlat(r->form.crs)) return 0;
-    complain("%s: %s holds longitudes and latitudes, and the points are in %s; .gpkg holds both",
+    complain("%s: %s can hold longitudes and latitudes only, but the points are in %s; .gpkg can "
+             "hold both",
              r->target.path, r->format->driver, crs_name(r->form.crs, name));
     return END_USAGE;
 }
@@ -401,7 +402,8 @@ static void rows_warn_of_lonlat(gdal_rows *r, const double *p)
     if (r->form.crs || r->warned || r->form.quiet || (fabs(p[0]) <= 360 && fabs(p[1]) <= 90))
         return;
     if (!r->format->lonlat_meant) return;
-    complain("%s: warning: %s means longitudes and latitudes, and row %" PRIu64 " has others",
+    complain("%s: warning: %s holds longitudes and latitudes, but row %" PRIu64
+             " has other numbers",
              r->target.path, r->format->driver, r->written + 1);
     r->warned = true;
 }

@@ -39,7 +39,7 @@ int mesh_seam_cut(mw_mesh_file *file, const char *path, mw_seam_pieces *pieces)
 
 void mesh_seam_explain(const char *path, const mw_seam_pieces *pieces)
 {
-    complain("%s: goes round the globe. Its triangles are counted as they were cut at the meridian "
-             "of %g degrees; edges are straight in longitude and latitude",
+    complain("%s: goes round the globe and was cut at the meridian of %g degrees. Numbers of "
+             "triangles are those of the pieces; edges are straight in longitude and latitude",
              path, pieces->west);
 }

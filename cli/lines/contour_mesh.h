@@ -1,7 +1,7 @@
-/* contour_mesh.h - of the mesh of a file, the triangles that levels cross, as a mesh of their own.
+/* contour_mesh.h - the triangles of a file's mesh that levels cross, as a mesh of their own.
  *
- * The lines of the levels pass through no others. They are often few, and to make a mesh of all of
- * them costs more than to trace the lines. */
+ * The lines of the levels pass through these triangles only. They are often few, and making a mesh
+ * of all triangles would take longer than tracing the lines. */
 #ifndef MW_CLI_LINES_CONTOUR_MESH_H
 #define MW_CLI_LINES_CONTOUR_MESH_H
 

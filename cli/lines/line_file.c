@@ -83,9 +83,9 @@ static void table_remark_columns(const char *path, const query_source *source,
     }
     int size = names.size < 1000 ? (int)names.size : 1000;
     if (names.size > 0 && !names.failed)
-        complain("%s: remark: a table is one line; what it tells of its points is not kept: "
-                 "columns %.*s",
-                 files_is_standard(path) ? "standard input" : path, size, names.bytes);
+        complain(
+            "%s: remark: a table is one line, so values of its points are not kept: columns %.*s",
+            files_is_standard(path) ? "standard input" : path, size, names.bytes);
     text_release(&names);
 }
 

@@ -42,8 +42,8 @@ int prj_output_check(const char *output, const char *crs, bool quiet)
     if (mw_read_prj(output, &beside, &error) != MW_OK) return fail_reading(&error);
     int end = 0;
     if (beside && !crs && !quiet) {
-        complain("%s: warning: %s beside it says %s, and its own system is not known", output, name,
-                 crs_name(beside, names[0]));
+        complain("%s: warning: its coordinate system is not known, and %s beside it says %s",
+                 output, name, crs_name(beside, names[0]));
     } else if (beside && crs && !crs_same(beside, crs) && !output_owns_prj(output)) {
         complain("%s: is in %s, but %s, which is there already, says %s: choose another output",
                  output, crs_name(crs, names[0]), name, crs_name(beside, names[1]));
@@ -66,8 +66,8 @@ int prj_output_write(const char *output, const char *crs, bool quiet)
     char *wkt = same ? NULL : crs_wkt(crs);
     if (!wkt) {
         if (!same && !quiet)
-            complain("%s: remark: its system, %.60s, is not written beside it: it cannot be "
-                     "written as WKT",
+            complain("%s: remark: its coordinate system, %.60s, is not written beside it: it "
+                     "cannot be written as WKT",
                      output, crs);
         return 0;
     }

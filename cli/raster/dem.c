@@ -15,7 +15,8 @@ int dem_read(dem *d, const char *path, uint32_t band)
     int end = gdal_raster_describe(path, &form, &d->crs);
     if (end) return end;
     if (band < 1 || band > form.bands) {
-        complain("%s: has %u bands, so no band %u", path, (unsigned)form.bands, (unsigned)band);
+        complain("%s: has %u bands; there is no band %u", path, (unsigned)form.bands,
+                 (unsigned)band);
         return END_INPUT;
     }
     d->grid = (raster_grid){.west = form.corner[0],

@@ -39,8 +39,8 @@ double raster_grid_resolution(double area, uint64_t vertices)
 
 static int grid_fail_size(const raster_grid_wish *wish)
 {
-    complain("a raster with pixels of %g has too many, or they are too small for its coordinates; "
-             "--resolution sets their size",
+    complain("a raster with pixels of %g would have too many pixels, or pixels too small for its "
+             "coordinates; --resolution sets their size",
              wish->resolution);
     return END_RESOURCE;
 }

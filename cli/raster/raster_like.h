@@ -1,4 +1,4 @@
-/* raster_like.h - a raster whose pixels another one gets. */
+/* raster_like.h - an existing raster whose pixels the new one takes. */
 #ifndef MW_CLI_RASTER_RASTER_LIKE_H
 #define MW_CLI_RASTER_RASTER_LIKE_H
 

@@ -31,7 +31,7 @@ static int remap_check_systems(remap_run *r)
     bool quiet = r->settings->common->quiet;
     r->degrees = (a && crs_is_lonlat(a)) || (!a && b && crs_is_lonlat(b));
     if (a && b && !crs_same(a, b)) {
-        complain("%s is in %s, %s in %s: bring one to the other first", r->path[0],
+        complain("%s is in %s, but %s is in %s: transform one of them first", r->path[0],
                  crs_name(a, names[0]), r->path[1], crs_name(b, names[1]));
         return END_INPUT;
     }

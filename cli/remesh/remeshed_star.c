@@ -110,7 +110,7 @@ static int remeshing_project(remeshing *r, const mw_mesh_file *other)
     return 0;
 }
 
-/* Warn of what OTHER has and the result has not. */
+/* Warn about the fields of OTHER, which the result does not have. */
 static void remeshing_warn_of_other(const remeshing *r, const mw_mesh_file *other)
 {
     const size_t n = other->field_count + other->triangle_field_count;
@@ -169,8 +169,8 @@ static void remeshing_warn_of_given(const remeshing *r)
     const mw_mesh_file *g = &r->given;
     if (r->common->quiet) return;
     if (g->step_count > 1)
-        complain("%s: warning: has values at %zu times; those of the first are written", r->path,
-                 g->step_count);
+        complain("%s: warning: has values at %zu times; only those of the first are written",
+                 r->path, g->step_count);
     if (g->triangle_field_count)
         complain("%s: warning: values of triangles are not written, '%s'%s: the triangles are new "
                  "ones",

@@ -126,8 +126,8 @@ void extent_warn_of_seam(const char *mesh_path, const extent_box *extent, const 
     for (uint32_t t = 0; t < count; t++) wide += triangle_is_wide(mesh, t);
     if (wide == 0 || wide > count / 10) return;
     complain("%s: warning: %" PRIu32
-             " of its triangles are wider than 180 degrees: in the plane a mesh "
-             "cannot cross that meridian; 'meshwalk star --lonlat' locates on the sphere, with "
-             "--open where the mesh does not cover all of it",
+             " of its triangles are wider than 180 degrees: in the plane a mesh cannot cross the "
+             "meridian of 180 degrees; 'meshwalk star --lonlat' locates on the sphere, and with "
+             "--open if the mesh does not cover all of it",
              mesh_path, wide);
 }

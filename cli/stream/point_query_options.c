@@ -110,8 +110,8 @@ const option point_query_options[] = {
      "a point outside, at most D away from the mesh, is 'near' (default: 0)", NULL},
     {"columns", 0, OPTION_TEXT, offsetof(point_query_settings, stream.source.columns), "LIST",
      "columns of POINTS that hold x and y, as names or numbers from 1: lon,lat or 3,4 (default: "
-     "those that a header "
-     "calls so, by names that the manual page lists, or the only two)",
+     "those that the header names so, in one of the ways that the manual page lists, or the only "
+     "two)",
      NULL},
     {"crs", 0, OPTION_TEXT, offsetof(point_query_settings, crs), "CRS",
      "the coordinate system of MESH, or of polygons, as EPSG:2056 (default: what their file tells)",

@@ -17,7 +17,7 @@ static int probed_surface_fail(const probed_surface *p, const char *path, const 
     int end = fail_mesh(path, error);
     if (end == END_INPUT && !p->settings->any)
         complain("'meshwalk check --as surface%s %s' lists every defect, 'meshwalk view' shows "
-                 "it; --any probes all the same",
+                 "it; --any answers probes all the same",
                  p->settings->weld ? " --weld" : "", path);
     return end;
 }

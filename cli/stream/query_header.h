@@ -1,4 +1,4 @@
-/* query_header.h - the first row of what answers to queries are written to. */
+/* query_header.h - the first row of the output of a query command. */
 #ifndef MW_CLI_STREAM_QUERY_HEADER_H
 #define MW_CLI_STREAM_QUERY_HEADER_H
 

@@ -199,7 +199,8 @@ static int pipeline_choose_decimal(query_pipeline *p)
     if (!p->decimal) p->decimal = p->table.decimal;
     if (p->decimal == p->table.decimal || p->stream->settings->only_answers) return 0;
     complain("%s: has its first decimal comma after %" PRIu64
-             " rows, whose answers are written with points; --only-answers writes no table",
+             " rows, whose answers are already written with decimal points; --only-answers writes "
+             "no table",
              p->path, p->statistics.queries);
     return END_INPUT;
 }

@@ -10,7 +10,8 @@
  * `threads` gives the number: 1 creates none, 0 means one per processor available to the process.
  * If the system refuses a thread, fewer threads do the work. Results never depend on the number.
  * Between calls the library has no threads, so a child created by fork() can use it like its
- * parent.
+ * parent. Functions that return a constant text, such as a name, are thread-safe and take O(1).
+ * While an object is destroyed or released, no other thread may use it.
  *
  * Options: initialise structures of options with = {0}, which selects the defaults, then set the
  * members that differ. Members named `reserved` must stay zero; otherwise the call returns
@@ -88,10 +89,23 @@ typedef struct mw_progress {
     void *context;              /**< for `report` */
 } mw_progress;
 
-/** A short English text for a status; never NULL, owned by the library. Thread-safe. */
+/**
+ * Tell what a status means.
+ *
+ * @param status  any number
+ * @return a short English text, such as "out of memory"; never NULL, owned by the library.
+ *
+ * Thread-safe. O(1).
+ */
 MW_API const char *mw_status_text(mw_status status);
 
-/** The version of the linked library, "MAJOR.MINOR.PATCH". Thread-safe. */
+/**
+ * Tell the version of the linked library.
+ *
+ * @return "MAJOR.MINOR.PATCH", owned by the library.
+ *
+ * Thread-safe. O(1).
+ */
 MW_API const char *mw_version(void);
 
 #ifdef __cplusplus

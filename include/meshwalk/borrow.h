@@ -4,13 +4,13 @@
  *
  * A walk needs points, triangles and the neighbours of triangles. Many libraries already have all
  * three: SciPy's Delaunay, Triangle, matplotlib, most mesh generators. A borrowed mesh is a view of
- * such arrays. Nothing is copied or built, so without a check a view costs no time, and it takes a
- * hundred bytes. The arrays are only read. They must not change or move while the view is used;
- * after a change make a new view.
+ * such arrays. Nothing is copied or built: a view takes a hundred bytes, and without a check no
+ * time. The arrays are only read. They must not change or move while the view is used; after a
+ * change make a new view.
  *
- * The answers are those of mw_locate in a mesh of the same arrays, bit for bit: the lowest-numbered
- * triangle that contains the point, decided exactly. Only holes differ: a point in a hole is
- * MW_OUTSIDE.
+ * The answers are those of mw_locate() in a mesh of the same arrays, bit for bit: the
+ * lowest-numbered triangle that contains the point, decided exactly. There is one exception: a
+ * point in a hole is MW_OUTSIDE.
  *
  * Queries are slower than in an ordinary mesh, because a borrowed mesh lacks three things: a layout
  * along a curve in memory, a guide to the first triangle, and ghost triangles that fill pockets and
@@ -41,8 +41,8 @@ typedef enum mw_neighbour_layout {
 /** The caller's arrays. */
 typedef struct mw_borrowed_arrays {
     mw_arrays mesh; /**< points and triangles, as for mw_mesh_create() */
-    /** 3 triangles per triangle, of mesh.integer_type, from 0, packed. A number that is no
-     * triangle's, such as -1, means that there is no neighbour. */
+    /** The 3 neighbours of each triangle, of mesh.integer_type, from 0, packed. A number that no
+     * triangle has, such as -1, means that there is no neighbour. */
     const void *neighbours;
     mw_neighbour_layout layout;
 } mw_borrowed_arrays;
@@ -68,21 +68,23 @@ typedef struct mw_borrow_options {
  * The check decides whether all numbers are in range, used vertices are finite, and neighbours
  * share their two vertices, name each other and lie on different sides of their edge. It also
  * decides whether the triangles fill their convex hull; if so, they are an embedding. In other
- * meshes it does not look for crossing borders, as mw_check_arrays() does. If triangles overlap
- * there, any triangle that contains a point may be reported.
+ * meshes it does not look for crossing borders; mw_check_arrays() does. If triangles of such a mesh
+ * overlap, any triangle that contains a point may be reported.
  *
  * @param arrays   the caller's arrays, which must outlive *out; the structure itself need not
- * @param options  NULL = all zero: checked
- * @param out      the view, owned by the caller (mw_borrowed_release); NULL on failure
- * @return MW_OK; MW_ERROR_ARGUMENT; MW_ERROR_INPUT for wrong arrays (the error names the triangle);
- *         MW_ERROR_LIMIT for more than MW_MAX_TRIANGLES; MW_ERROR_MEMORY; MW_CANCELLED
+ * @param options  NULL selects the defaults: the arrays are checked
+ * @param out      receives the view, owned by the caller (mw_borrowed_release()); NULL on failure
+ * @param error    NULL, or receives the message of a failure
+ * @return MW_OK; MW_ERROR_ARGUMENT for NULL, an unknown layout, or `convex` without `unchecked`;
+ *         MW_ERROR_INPUT for wrong arrays (the error names the triangle); MW_ERROR_LIMIT for more
+ *         than MW_MAX_TRIANGLES; MW_ERROR_MEMORY; MW_CANCELLED
  *
- * Cost: O(n) time for the check, else O(1); O(1) memory in either case.
+ * Thread-safe. O(n) time for the check, else O(1); O(1) memory in either case.
  */
 MW_API mw_status mw_mesh_borrow(const mw_borrowed_arrays *arrays, const mw_borrow_options *options,
                                 mw_borrowed **out, mw_error *error);
 
-/** Release a view; the arrays are not touched. NULL is allowed. */
+/** Release a view. The arrays are not touched. NULL is allowed. */
 MW_API void mw_borrowed_release(mw_borrowed *mesh);
 
 /** Properties of a view. */
@@ -94,7 +96,7 @@ typedef struct mw_borrowed_info {
     uint32_t clockwise_triangles; /**< 0 if unchecked */
 } mw_borrowed_info;
 
-/** Describe a view. Thread-safe; O(1). */
+/** Fill `info` with the properties of a view. Thread-safe. O(1). */
 MW_API void mw_borrowed_describe(const mw_borrowed *mesh, mw_borrowed_info *info);
 
 /** How to answer queries. Zero-initialised options select the defaults. */
@@ -125,8 +127,12 @@ typedef struct mw_borrowed_cursor {
 /**
  * Initialise a cursor.
  *
- * @param options  NULL = all zero
- * @return MW_OK; MW_ERROR_ARGUMENT for a walk that mw_borrowed_query_options does not list
+ * @param options  NULL selects the defaults
+ * @param cursor   receives the initial state
+ * @param error    NULL, or receives the message of a failure
+ * @return MW_OK; MW_ERROR_ARGUMENT for NULL, or a walk that mw_borrowed_query_options does not list
+ *
+ * Thread-safe. O(1).
  */
 MW_API mw_status mw_borrowed_cursor_init(const mw_borrowed_query_options *options,
                                          mw_borrowed_cursor *cursor, mw_error *error);
@@ -135,9 +141,14 @@ MW_API mw_status mw_borrowed_cursor_init(const mw_borrowed_query_options *option
  * Locate one point. The walk begins at the triangle found last if the point is near it, else at the
  * nearest of a random sample. The size of the sample is the cube root of the number of vertices.
  *
- * @return as mw_locate, but MW_OUTSIDE for a point in a hole; MW_BAD for a point that is not finite
+ * @param mesh    the view
+ * @param cursor  a cursor, initialised or all zero
+ * @param x, y    any doubles
+ * @return as mw_locate(), but MW_OUTSIDE for a point in a hole; MW_BAD for a point that is not
+ *         finite
  *
- * Thread-safe with one cursor per thread; no allocation, no failure.
+ * Thread-safe with one cursor per thread. No allocation, no failure. Time: the sample and the walk;
+ * O(n) if the triangles do not fill their convex hull and the query meets the border.
  */
 MW_API mw_location mw_borrowed_locate(const mw_borrowed *mesh, mw_borrowed_cursor *cursor, double x,
                                       double y);
@@ -146,13 +157,17 @@ MW_API mw_location mw_borrowed_locate(const mw_borrowed *mesh, mw_borrowed_curso
  * Locate n points. Queries are sorted along a Hilbert curve, and each walk begins where the
  * previous one ended.
  *
+ * @param mesh       the view
  * @param points     x, y of point i at points[i * stride] and the double after it
- * @param stride     in doubles; 0 = 2
- * @param options    NULL = all zero
- * @param locations  n results, in input order, the same for any number of threads
- * @param counters   NULL, or receives the sum over the batch
- * @return MW_OK; MW_ERROR_ARGUMENT as mw_borrowed_cursor_init; MW_ERROR_MEMORY, MW_CANCELLED: then
- *         locations is unspecified
+ * @param n          number of points
+ * @param stride     doubles from one point to the next; 0 means 2
+ * @param options    NULL selects the defaults
+ * @param locations  receives n results, in the order of the points, equal for every number of
+ *                   threads; unspecified on failure
+ * @param counters   NULL, or receives the sums over the batch
+ * @param error      NULL, or receives the message of a failure
+ * @return MW_OK; MW_ERROR_ARGUMENT for NULL, a stride of 1, and as mw_borrowed_cursor_init();
+ *         MW_ERROR_MEMORY, MW_CANCELLED
  *
  * Thread-safe. Takes 32 bytes a query for the sort, which handles at most 4 million queries at a
  * time.

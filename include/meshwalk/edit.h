@@ -9,8 +9,8 @@
  * Numbers of vertices and triangles are handles. An edit renumbers only what it touches. Freed
  * numbers are not used again before mw_editor_compact().
  *
- * Threads: any number of threads may query the editor's locator, each with its own cursor, while no
- * edit is running. Edits and queries must not overlap.
+ * Threads: any number of threads may read the editor and query its locator, each with its own
+ * cursor, while no edit is running. An edit must not overlap with any other call.
  */
 #ifndef MESHWALK_EDIT_H
 #define MESHWALK_EDIT_H
@@ -142,7 +142,8 @@ typedef struct mw_change {
  *         some); MW_ERROR_MEMORY.
  *
  * If the mesh is kept Delaunay, edges that are no longer Delaunay are flipped, decided exactly
- * [Lawson 1977]. Not thread-safe: no other call on the editor or its locator may run.
+ * [Lawson 1977]. Not thread-safe: no other call on the editor or its locator may run. Time: that of
+ * the kind's function.
  */
 MW_API mw_status mw_edit_apply(mw_editor *editor, const mw_edit *edit, mw_change *change,
                                mw_error *error);
@@ -173,8 +174,9 @@ MW_API mw_status mw_edit_insert(mw_editor *editor, double x, double y, mw_change
 /**
  * Remove a vertex. Its triangles are replaced by two fewer, which keep the lowest numbers.
  *
- * On the hull of a mesh that fills its convex hull the hull shrinks. A vertex on the border or on
- * constrained edges can be removed only if it has exactly two such edges and they are collinear.
+ * If the mesh fills its convex hull, a vertex of the hull can be removed: the hull shrinks. Any
+ * other vertex on the border or on constrained edges can be removed only if it has exactly two such
+ * edges and they are collinear.
  *
  * @param editor  the editor
  * @param vertex  the vertex
@@ -192,7 +194,7 @@ MW_API mw_status mw_edit_remove(mw_editor *editor, uint32_t vertex, mw_change *c
  *
  * The vertex moves in place as long as no triangle round it turns over; otherwise it is removed and
  * inserted again. A vertex on a constrained edge or on a fixed border takes its triangles along. If
- * the hull of a mesh that fills its convex hull would not stay convex, new triangles fill the gap.
+ * a mesh that fills its convex hull would no longer do so, new triangles fill the gap.
  *
  * @param editor  the editor
  * @param vertex  the vertex
@@ -276,11 +278,11 @@ MW_API mw_status mw_edit_value(mw_editor *editor, uint32_t field, uint32_t verte
 /**
  * Insert n points as one edit. Faster than inserting them one by one.
  *
- * Points that come along a curve, each near the previous one, are inserted in that order. Other
- * points are inserted along a Hilbert curve. The result, numbers included, is that of single
- * insertions in that order. The whole is one edit to undo and n entries of the log. All fields are
- * interpolated. It is fastest without a change report: `change` NULL, no undo, and no index except
- * the locator's guide.
+ * If each point is near the one before, points are inserted in the order given; otherwise along a
+ * Hilbert curve. The result, numbers included, is that of single insertions in the same order. All
+ * points together are one edit to undo, and n entries of the log. All fields are interpolated. The
+ * call is fastest without a change report: `change` NULL, no undo, and no index except the
+ * locator's guide.
  *
  * @param editor    the editor
  * @param points    x and y of each point, in mesh units
@@ -294,7 +296,7 @@ MW_API mw_status mw_edit_value(mw_editor *editor, uint32_t field, uint32_t verte
  *         MW_ERROR_ARGUMENT if a pointer is NULL or the stride is 1; MW_CANCELLED. On failure the
  *         mesh is unchanged and `vertices` is unspecified.
  *
- * Not thread-safe.
+ * Time: n insertions with short walks, and the sort along the curve. Not thread-safe.
  */
 MW_API mw_status mw_edit_insert_points(mw_editor *editor, const double *points, size_t n,
                                        size_t stride, uint32_t *vertices, mw_change *change,
@@ -314,16 +316,16 @@ MW_API mw_status mw_edit_insert_points(mw_editor *editor, const double *points, 
 MW_API mw_status mw_edit_undo(mw_editor *editor, mw_change *change, mw_error *error);
 
 /**
- * The edits since the editor was created or compacted, without those that were undone.
+ * List the edits since the editor was created or compacted, without those that were undone.
  *
  * Applied in this order to the same mesh, they give the same mesh with the same numbers.
  *
  * @param editor  the editor
  * @param count   receives the number of edits
- * @return the edits, owned by the editor and valid until its next edit; NULL and 0 without
- *         mw_editor_options.log.
+ * @return the edits, owned by the editor and valid until its next edit; NULL, and a count of 0,
+ *         without mw_editor_options.log.
  *
- * Time: O(1).
+ * Thread-safe while no edit runs. O(1).
  */
 MW_API const mw_edit *mw_editor_log(const mw_editor *editor, size_t *count);
 
@@ -331,8 +333,8 @@ MW_API const mw_edit *mw_editor_log(const mw_editor *editor, size_t *count);
  * Renumber vertices and triangles without gaps, in the same order, and lay them out along a curve
  * in memory.
  *
- * Undo and log start again. Cursors and indices stay valid; a cursor's next query starts anew.
- * Holes are renumbered.
+ * Earlier edits cannot be undone afterwards, and the log begins anew. Cursors and indices stay
+ * valid; a cursor forgets the triangle of its last query. Holes are renumbered.
  *
  * @param editor     the editor
  * @param triangles  NULL, or an array of mw_editor_info.triangle_range numbers: receives the new
@@ -350,9 +352,9 @@ MW_API mw_status mw_editor_compact(mw_editor *editor, uint32_t *triangles, uint3
 
 /** Sizes and counts of an editor. */
 typedef struct mw_editor_info {
-    uint32_t vertices, triangles;          /**< existing ones */
+    uint32_t vertices, triangles;          /**< without freed ones */
     uint32_t vertex_range, triangle_range; /**< all numbers are below these */
-    uint32_t constrained_edges;            /**< constrained edges, without the border */
+    uint32_t constrained_edges;            /**< constrained edges, without a fixed border */
     int delaunay;                          /**< 1: the mesh is kept Delaunay */
     /** 1: the mesh fills its convex hull, which grows and shrinks. 0: its border is fixed. Decided
      * when the editor is created. */
@@ -366,40 +368,48 @@ typedef struct mw_editor_info {
     uint32_t reserved[8];
 } mw_editor_info;
 
-/** Fill `info` with sizes and counts of the editor. O(1), or O(indices) for the bytes. */
+/** Fill `info` with sizes and counts of the editor. Thread-safe while no edit runs. O(indices). */
 MW_API void mw_editor_describe(const mw_editor *editor, mw_editor_info *info);
 
 /**
- * The vertices of a triangle: counter-clockwise, unless the triangle was clockwise in the caller's
- * mesh.
+ * Copy the vertices of a triangle: counter-clockwise, unless the triangle was clockwise in the
+ * caller's mesh.
  *
  * @param editor    the editor
  * @param triangle  any number
  * @param vertices  receives three vertices; unchanged if there is no such triangle
  * @return 1, or 0 if no triangle has that number.
  *
- * Time: O(1).
+ * Thread-safe while no edit runs. O(1).
  */
 MW_API int mw_editor_triangle(const mw_editor *editor, uint32_t triangle, uint32_t vertices[3]);
 
 /**
- * The coordinates of a vertex.
+ * Copy the coordinates of a vertex.
  *
  * @param editor  the editor
  * @param vertex  any number
  * @param point   receives x and y; unchanged if there is no such vertex
  * @return 1, or 0 if no vertex has that number.
  *
- * Time: O(1).
+ * Thread-safe while no edit runs. O(1).
  */
 MW_API int mw_editor_vertex(const mw_editor *editor, uint32_t vertex, double point[2]);
 
-/** The lowest triangle that has a vertex as a corner; MW_NONE if none has. O(degree). */
+/**
+ * Find the lowest triangle that has a vertex as a corner.
+ *
+ * @param editor  the editor
+ * @param vertex  any number
+ * @return the triangle; MW_NONE if no triangle has this vertex.
+ *
+ * Thread-safe while no edit runs. O(degree).
+ */
 MW_API uint32_t mw_editor_triangle_of(const mw_editor *editor, uint32_t vertex);
 
 /**
- * The vertices that edges join to a vertex, counter-clockwise; on a border from the first to the
- * last.
+ * List the vertices that edges join to a vertex, counter-clockwise. For a vertex on a border the
+ * list begins and ends with a border edge.
  *
  * @param editor      the editor
  * @param vertex      any number
@@ -408,7 +418,7 @@ MW_API uint32_t mw_editor_triangle_of(const mw_editor *editor, uint32_t vertex);
  * @return how many there are, also if `capacity` is less; 0 if the vertex does not exist or
  *         belongs to no triangle.
  *
- * Time: O(degree).
+ * Thread-safe while no edit runs. O(degree).
  */
 MW_API size_t mw_editor_adjacent_vertices(const mw_editor *editor, uint32_t vertex,
                                           uint32_t *neighbours, size_t capacity);
@@ -421,13 +431,38 @@ typedef enum mw_edge_kind {
     MW_EDGE_BORDER         /**< an edge of one triangle */
 } mw_edge_kind;
 
-/** What kind of edge joins two vertices, given by any two numbers. O(degree). */
+/**
+ * Tell what kind of edge joins two vertices.
+ *
+ * @param editor    the editor
+ * @param from, to  any two numbers
+ * @return the kind; MW_EDGE_NONE also if a vertex does not exist.
+ *
+ * Thread-safe while no edit runs. O(degree).
+ */
 MW_API mw_edge_kind mw_editor_edge(const mw_editor *editor, uint32_t from, uint32_t to);
 
-/** The number of a field by its name; MW_NONE if there is none. O(fields). */
+/**
+ * Find a field by its name.
+ *
+ * @param editor  the editor
+ * @param name    the name, not NULL
+ * @return the number of the field, from 0; MW_NONE if no field has that name.
+ *
+ * Thread-safe while no edit runs. O(fields).
+ */
 MW_API uint32_t mw_editor_field_by_name(const mw_editor *editor, const char *name);
 
-/** The value of a field at a vertex; NaN if the field or the vertex does not exist. O(1). */
+/**
+ * Tell the value of a field at a vertex.
+ *
+ * @param editor  the editor
+ * @param field   number of a field
+ * @param vertex  any number
+ * @return the value; NaN if the field or the vertex does not exist.
+ *
+ * Thread-safe while no edit runs. O(1).
+ */
 MW_API double mw_editor_value(const mw_editor *editor, uint32_t field, uint32_t vertex);
 
 /**
@@ -437,7 +472,9 @@ MW_API double mw_editor_value(const mw_editor *editor, uint32_t field, uint32_t 
  * @param field      number of a field
  * @param locations  n locations from the editor's locator, made since its last edit
  * @param n          number of locations
- * @param result     receives n values; NaN without a triangle
+ * @param result     receives n values; NaN for a location without a triangle
+ *
+ * Thread-safe while no edit runs. O(n), without allocation.
  */
 MW_API void mw_editor_interpolate(const mw_editor *editor, uint32_t field,
                                   const mw_location *locations, size_t n, double *result);
@@ -454,33 +491,37 @@ MW_API void mw_editor_interpolate(const mw_editor *editor, uint32_t field,
  * @param error      NULL, or receives the message of a failure
  * @return MW_OK, MW_ERROR_MEMORY, MW_CANCELLED.
  *
- * Time: O(n).
+ * Thread-safe while no edit runs. O(n).
  */
 MW_API mw_status mw_editor_mesh(const mw_editor *editor, uint32_t *triangles, uint32_t *vertices,
                                 mw_mesh **out, mw_error *error);
 
 /**
- * The constrained edges, two vertices each.
+ * Copy the constrained edges. A fixed border is not among them.
  *
  * @param editor  the editor
  * @param count   receives the number of edges
- * @return an array that the caller releases with free(); NULL if memory runs out.
+ * @return two vertices per edge, packed, released by the caller with free(); NULL if memory runs
+ *         out.
  *
- * Time: O(n).
+ * Thread-safe while no edit runs. O(n).
  */
 MW_API uint32_t *mw_editor_constrained_edges(const mw_editor *editor, size_t *count);
 
 /* --- location between edits ------------------------------------------------------------------- */
 
 /**
- * The locator of the present mesh: the same object as long as the editor lives.
+ * Give the locator of the present mesh. It is the same object as long as the editor exists.
  *
  * Its cursors survive edits: if a cursor's last triangle is gone, the next query starts in a
  * triangle that replaced it. Pockets and holes are filled; holes keep their numbers until
  * mw_editor_compact(). The locator has no border index and no stored areas. Its locations have the
  * editor's triangle numbers.
  *
- * @return the locator, owned by the editor. Queries are thread-safe while no edit runs.
+ * @param editor  the editor
+ * @return the locator, owned by the editor.
+ *
+ * Thread-safe, as its queries are, while no edit runs. O(1).
  */
 MW_API const mw_locator *mw_editor_locator(const mw_editor *editor);
 
@@ -491,9 +532,10 @@ MW_API const mw_locator *mw_editor_locator(const mw_editor *editor);
  * expected cost; they are rebuilt when the number of vertices has doubled or halved since they were
  * built. In layers a new vertex rises with the usual chance [Devillers 2002], and a removed vertex
  * leaves all layers. MW_START_CURVE and the published starts (buckets, k-d tree) are rebuilt only
- * by this function; after edits their start is less near, and answers stay exact. The locator's own
- * guide is rebuilt when the number of vertices has tripled or halved, when a quarter as many lie
- * outside its extent, and after two insertions per vertex; other edits count twice.
+ * by this function; after edits walks from them get longer, and answers stay exact. The locator's
+ * own guide is rebuilt when the number of vertices has tripled or halved, when the vertices outside
+ * its extent are a quarter of all, and after two insertions per vertex, where any other edit counts
+ * as two.
  *
  * @param editor   the editor
  * @param start    the start to build an index for; one index per start
@@ -502,7 +544,7 @@ MW_API const mw_locator *mw_editor_locator(const mw_editor *editor);
  * @param error    NULL, or receives the message of a failure
  * @return as mw_index_create().
  *
- * Not thread-safe.
+ * Not thread-safe. Cost as mw_index_create().
  */
 MW_API mw_status mw_editor_index(mw_editor *editor, mw_start_kind start,
                                  const mw_index_options *options, const mw_index **index,

@@ -40,7 +40,8 @@ typedef struct mw_marked_edge {
  *
  * @param text  receives the version, ended by NUL; empty if libnetcdf is not found; NULL is allowed
  * @param size  bytes of `text`
- * @return the length of the whole version; 0: libnetcdf is not found, and netCDF files are refused
+ * @return the length of the whole version; 0 if libnetcdf is not found: then netCDF files are
+ *         refused
  *
  * Thread-safe.
  */
@@ -63,7 +64,7 @@ typedef struct mw_mesh_file {
     char **field_names; /**< other values per vertex: attributes of .node, properties of PLY */
     double **fields;    /**< field_count arrays of point_count values */
     size_t field_count;
-    size_t welded; /**< STL: vertices merged because their coordinates are equal */
+    size_t welded; /**< STL: how many vertices were merged because their coordinates are equal */
     /** The coordinate system of x and y, as WKT or "EPSG:n"; NULL: unknown. PLY has it in a line
      * "comment crs ...", netCDF in a grid mapping, other files in a .prj file beside them. */
     char *crs;
@@ -125,9 +126,9 @@ typedef struct mw_file_options {
  *   becomes the triangle field "material"
  * - Selafin of TELEMAC (.slf): either byte order, single and double precision; the variables at the
  *   first time become fields
- * - MSH of Gmsh, 2.2, 4.0 and 4.1: text and binary; physical groups of faces become the triangle
- *   field "physical", those of lines mark edges; $NodeData and $ElementData of the first time
- *   become fields and triangle fields
+ * - MSH of Gmsh: 2.2 and 4.1 as text and binary, 4.0 as text; physical groups of faces become the
+ *   triangle field "physical", those of lines mark edges; $NodeData and $ElementData of the first
+ *   time become fields and triangle fields
  * - VTK: legacy unstructured grids and polydata, text and binary; VTU: text, base64 and raw, with
  *   zlib or without. Values of points become fields, those of cells triangle fields
  * - SU2 in the plane; markers mark edges
@@ -144,7 +145,7 @@ typedef struct mw_file_options {
  *         malformed, truncated or of an unknown format; MW_ERROR_LIMIT, MW_ERROR_MEMORY,
  *         MW_CANCELLED.
  *
- * O(size of the file).
+ * Thread-safe. O(size of the file), unpacked.
  */
 MW_API mw_status mw_read_mesh(const char *path, const mw_file_options *options, mw_mesh_file *file,
                               mw_error *error);
@@ -152,8 +153,14 @@ MW_API mw_status mw_read_mesh(const char *path, const mw_file_options *options, 
 /** Release a mesh that was read. NULL and an empty file are allowed. */
 MW_API void mw_mesh_file_release(mw_mesh_file *file);
 
-/** The mesh of a file as arrays, for mw_mesh_create() and mw_check_arrays(). They belong to the
- * file. */
+/**
+ * View the mesh of a file as arrays, for mw_mesh_create() and mw_check_arrays().
+ *
+ * @param file  the mesh as read
+ * @return the arrays, owned by the file. Points have a stride of 3.
+ *
+ * Thread-safe. O(1).
+ */
 MW_API mw_arrays mw_mesh_file_arrays(const mw_mesh_file *file);
 
 /** A ring that was skipped because it has fewer than three different points. */
@@ -195,8 +202,8 @@ typedef struct mw_constraint_file {
 
 /**
  * Read constraints. Formats, recognised by content:
- * - .poly of Triangle: with its points inside, or in a .node file of the same name; numbered from
- *   0 or 1; holes. Every segment bounds; there are no polygons, so polygon[i] is MW_NONE
+ * - .poly of Triangle: segments, and points of holes; its points stand inside it or in a .node file
+ *   of the same name, numbered from 0 or 1. It has no polygons, so polygon[i] is MW_NONE
  * - GeoJSON: Point, MultiPoint, LineString, MultiLineString, Polygon, MultiPolygon,
  *   GeometryCollection, Feature and FeatureCollection; each polygon of a MultiPolygon counts. Open
  *   rings are closed; null and empty geometries are ignored; rings of fewer than three different
@@ -209,15 +216,21 @@ typedef struct mw_constraint_file {
  * @param error    NULL, or receives the message of a failure
  * @return as mw_read_mesh().
  *
- * O(size of the file).
+ * Thread-safe. O(size of the file), unpacked.
  */
 MW_API mw_status mw_read_constraints(const char *path, const mw_file_options *options,
                                      mw_constraint_file *file, mw_error *error);
 /** Release constraints that were read. NULL and an empty file are allowed. */
 MW_API void mw_constraint_file_release(mw_constraint_file *file);
 
-/** 1 if mw_read_constraints() would recognise the format of a file, correct or not; 0 if not, or
- * if the file cannot be opened. Uses up the beginning of standard input. */
+/**
+ * Decide whether mw_read_constraints() recognises the format of a file, correct or not.
+ *
+ * @param path  the file. From standard input ("-") bytes are read that later calls do not see
+ * @return 1; 0 also if the file cannot be opened.
+ *
+ * Thread-safe. Reads the beginning of the file.
+ */
 MW_API int mw_constraints_known(const char *path);
 
 /**
@@ -253,8 +266,8 @@ MW_API int mw_constraints_known(const char *path);
  * of STL and csv, which have corners only. Names of fields become single words, except in vtu and
  * msh.
  *
- * The two files of "node" are complete before .ele and then .node get their names. A program that
- * is stopped between these two steps leaves a new .ele without a .node, or with an old one.
+ * Both files of "node" are complete before they get their names, first .ele, then .node. A program
+ * that is stopped between these two steps leaves a new .ele without a .node, or with an old one.
  *
  * @param path     the file; "-": standard output
  * @param file     the mesh
@@ -263,22 +276,27 @@ MW_API int mw_constraints_known(const char *path);
  * @param error    NULL, or receives the message of a failure
  * @return MW_OK; MW_ERROR_ARGUMENT for an unknown format or a path that ends in .gz;
  *         MW_ERROR_INPUT if a triangle names a vertex that does not exist; MW_ERROR_SYSTEM if the
- *         file cannot be written; MW_CANCELLED. On failure no file is left, except that .ele if
- *         only .node cannot get its name.
+ *         file cannot be written; MW_CANCELLED. On failure no file is left. Exception: .ele is left
+ *         if only .node cannot get its name.
  *
- * O(size of the file).
+ * Thread-safe. O(size of the file).
  */
 MW_API mw_status mw_write_mesh(const char *path, const mw_mesh_file *file, const char *format,
                                const mw_file_options *options, mw_error *error);
-/** The name of format i of mw_write_mesh(), i from 0; NULL beyond the last. */
+/** The name of format i of mw_write_mesh(), i from 0; NULL beyond the last. Thread-safe. O(1). */
 MW_API const char *mw_mesh_format_name(size_t i);
-/** The format that mw_write_mesh() chooses by the ending of a name.
+/**
+ * Tell which format mw_write_mesh() chooses by the ending of a name.
+ *
  * @param path  name of the file, which need not exist
- * @return name of the format, a constant; NULL if the ending tells none. Thread-safe. */
+ * @return name of the format, a constant; NULL if no format has this ending.
+ *
+ * Thread-safe. O(1).
+ */
 MW_API const char *mw_mesh_format_of_path(const char *path);
 
-/** The names of the layouts that meshes in netCDF files can have, from 0; NULL after the last.
- * Thread-safe. */
+/** The name of layout i of meshes in netCDF files, such as "fvcom", i from 0; NULL beyond the last.
+ * Thread-safe. O(1). */
 MW_API const char *mw_layout_name(size_t i);
 
 /** Options of a point reader. Zero-initialised options read everything. */
@@ -305,27 +323,37 @@ typedef struct mw_point_reader_options {
  * @param error  NULL, or receives the message of a failure
  * @return MW_OK; MW_ERROR_ARGUMENT for NULL; MW_ERROR_MEMORY.
  *
- * Thread-safe.
+ * Thread-safe. O(size of the .prj file).
  */
 MW_API mw_status mw_read_prj(const char *path, char **crs, mw_error *error);
 
 /** Names that files give to the coordinates of a point, as "lon", "lat" and "z". */
 typedef struct mw_axis_names {
     const char *axis[3];
-    int lonlat; /* 1 = the first two are longitude and latitude */
+    int lonlat; /**< 1: the first two are longitude and latitude */
     uint32_t reserved;
 } mw_axis_names;
 
-/** Tell a set of names that columns of coordinates are known by.
+/**
+ * Tell a set of names by which columns of coordinates are recognised.
+ *
  * @param i  number of the set, from 0
- * @return the set, a constant; NULL beyond the last. Thread-safe. */
+ * @return the set, a constant; NULL beyond the last.
+ *
+ * Thread-safe. O(1).
+ */
 MW_API const mw_axis_names *mw_axis_names_at(size_t i);
 
-/** Decide whether a column's name means a coordinate. Case, blanks, '_', '-', '.' and a unit in
+/**
+ * Decide whether a column's name means a coordinate. Case, blanks, '_', '-', '.' and a unit in
  * brackets at the end are ignored: "Point X (m)" means "point_x".
+ *
  * @param column  name of the column
- * @param name    one of a set of mw_axis_names_at
- * @return 1 or 0. Thread-safe. */
+ * @param name    a name of a set of mw_axis_names_at()
+ * @return 1 or 0.
+ *
+ * Thread-safe. O(1).
+ */
 MW_API int mw_axis_name_matches(const char *column, const char *name);
 
 /** A stream of points, read block by block in constant memory. Opaque. */
@@ -357,15 +385,33 @@ typedef struct mw_point_reader mw_point_reader;
  * @return MW_OK, also for a file without rows, a stream of no points; MW_ERROR_SYSTEM;
  *         MW_ERROR_INPUT, also for a column that the file does not have; MW_ERROR_MEMORY;
  *         MW_ERROR_ARGUMENT for a selection of fewer than two columns or of one column twice.
+ *
+ * Thread-safe. Reads the beginning of the file.
  */
 MW_API mw_status mw_point_reader_open(const char *path, const mw_point_reader_options *options,
                                       mw_point_reader **out, mw_error *error);
 
-/** Values per point: the columns of the file, or the selected ones; at least 2. */
+/**
+ * Tell how many values each point has.
+ *
+ * @param reader  the reader
+ * @return the number of columns of the file, or of selected columns: at least 2. 0 for a reader
+ *         with `table` and without `columns` before mw_point_reader_select().
+ *
+ * One thread at a time may use a reader. O(1).
+ */
 MW_API size_t mw_point_reader_width(const mw_point_reader *reader);
 
-/** The name of a column: from the header, else "x", "y", "z", "c4", ... Owned by the reader; NULL
- * beyond the last. */
+/**
+ * Tell the name of a column.
+ *
+ * @param reader  the reader
+ * @param column  number of the value within a point, from 0
+ * @return the name from the header, else "x", "y", "z", "c4", ...; owned by the reader. NULL beyond
+ *         the last.
+ *
+ * One thread at a time may use a reader. O(1).
+ */
 MW_API const char *mw_point_reader_column(const mw_point_reader *reader, size_t column);
 
 /**
@@ -376,22 +422,32 @@ MW_API const char *mw_point_reader_column(const mw_point_reader *reader, size_t 
  * @param capacity  room in `values`, in points
  * @param count     receives the number of points; less than `capacity` only at the end, where it
  *                  becomes 0. A reader with `table` also ends a block early if its text is long
- * @param error     NULL, or receives the message of a failure
+ * @param error     NULL, or receives the message of a failure, with file and line
  * @return MW_OK; MW_ERROR_INPUT, MW_ERROR_SYSTEM, MW_ERROR_MEMORY. On failure *count points before
  *         the faulty one are valid, and the reader can only be closed.
+ *
+ * One thread at a time may use a reader. O(size of what is read).
  */
 MW_API mw_status mw_point_reader_read(mw_point_reader *reader, double *values, size_t capacity,
                                       size_t *count, mw_error *error);
 
-/** The coordinate system of the points: from the records of LAS (WKT, or the EPSG code of its
+/**
+ * Tell the coordinate system of the points: from the records of LAS (WKT, or the EPSG code of its
  * GeoTIFF keys), else from a .prj file beside the points.
+ *
  * @param reader  not NULL
- * @return WKT or "EPSG:n", owned by the reader; NULL = not known. Thread-safe on different
- *         readers. */
+ * @return WKT or "EPSG:n", owned by the reader; NULL if the system is not known.
+ *
+ * One thread at a time may use a reader. O(1).
+ */
 MW_API const char *mw_point_reader_crs(const mw_point_reader *reader);
 /**
- * How much of the file has been read, for display: from 0 to 1, or -1 if the size is unknown, as
- * for a pipe. Not safe while another thread uses the same reader.
+ * Tell how much of the file has been read, to show progress.
+ *
+ * @param reader  the reader
+ * @return from 0 to 1; -1 if the size is unknown, as of a pipe.
+ *
+ * One thread at a time may use a reader. O(1).
  */
 MW_API double mw_point_reader_fraction(const mw_point_reader *reader);
 
@@ -400,53 +456,89 @@ MW_API void mw_point_reader_close(mw_point_reader *reader);
 
 /** All columns of a file, also those that are not read as numbers. Texts belong to the reader. */
 typedef struct mw_point_table {
-    /* of the columns, "" for one without a name; NULL = the file has no header */
+    /** Names of the columns, "" for a column without a name; NULL: the file has no header. */
     const char *const *names;
-    const char *header; /* the header as it stands in the file; NULL = it has none */
+    const char *header; /**< the header as it stands in the file; NULL: there is none */
     size_t column_count;
-    /* separator in the texts of rows: ',', ';' or a tab. Blanks in the file become commas */
+    /** Separator in the texts of rows: ',', ';' or a tab. Blanks in the file become commas. */
     char separator;
-    char decimal; /* '.'; ',' once a number with a decimal comma was read */
+    char decimal; /**< '.'; ',' once a number with a decimal comma was read */
     uint32_t reserved[4];
 } mw_point_table;
 
-/** Describe the table that a reader reads. A line that begins with # is a row, not a comment, if
- * three things hold: it has as many columns as the header, its first column is not read as a
- * number, and columns are not separated by blanks. Then #12 is an id. LAS is a table of all values
- * of its points, separated by commas.
- * @param table  receives the description; its texts are valid until mw_point_reader_close()
- * @return MW_OK; MW_ERROR_ARGUMENT: NULL. Thread-safe on different readers. */
+/**
+ * Describe the table that a reader reads.
+ *
+ * A line that begins with # is a row, not a comment, if three things hold: it has as many columns
+ * as the header, its first column is not read as a number, and columns are not separated by blanks.
+ * Then #12 is an id. LAS is a table of all values of its points, separated by commas.
+ *
+ * @param reader  the reader
+ * @param table   receives the description; its texts are valid until mw_point_reader_close()
+ * @param error   NULL, or receives the message of a failure
+ * @return MW_OK; MW_ERROR_ARGUMENT for NULL.
+ *
+ * One thread at a time may use a reader. O(1).
+ */
 MW_API mw_status mw_point_reader_table(const mw_point_reader *reader, mw_point_table *table,
                                        mw_error *error);
 
-/** Choose the columns to read as numbers. Replaces an earlier choice. A reader opened with `table`
+/**
+ * Choose the columns to read as numbers. Replaces an earlier choice. A reader opened with `table`
  * and without `columns` reads no column before this call.
- * @param columns  numbers of columns, from 0, at least two, each once
- * @return MW_OK; MW_ERROR_ARGUMENT: NULL, no such column, one twice, a reader without `table`, or
- * after the first mw_point_reader_read; MW_ERROR_MEMORY. Thread-safe on different readers. */
+ *
+ * @param reader   a reader with mw_point_reader_options.table
+ * @param columns  numbers of columns, from 0, each once
+ * @param count    how many, at least 2
+ * @param error    NULL, or receives the message of a failure
+ * @return MW_OK; MW_ERROR_ARGUMENT for NULL, a column that does not exist or is named twice, a
+ *         reader without `table`, or a call after the first mw_point_reader_read();
+ *         MW_ERROR_MEMORY.
+ *
+ * One thread at a time may use a reader. O(columns).
+ */
 MW_API mw_status mw_point_reader_select(mw_point_reader *reader, const size_t *columns,
                                         size_t count, mw_error *error);
 
-/** The column of the file that a value comes from.
+/**
+ * Tell from which column of the file a value comes.
+ *
+ * @param reader  the reader
  * @param column  number of the value within a point, from 0
- * @return the number of the column in mw_point_table, from 0; SIZE_MAX = no such value.
- *         Thread-safe. */
+ * @return the number of the column in mw_point_table, from 0; SIZE_MAX if points have no such
+ *         value.
+ *
+ * One thread at a time may use a reader. O(1).
+ */
 MW_API size_t mw_point_reader_column_number(const mw_point_reader *reader, size_t column);
 
-/** How many cells read so far held a text instead of a number. With mw_point_reader_options.texts
- * such a cell in a column other than x, y and z is a missing value, NaN; elsewhere it is an error,
- * and reading ends.
+/**
+ * Count the cells of a column that held a text instead of a number, so far.
+ *
+ * With mw_point_reader_options.texts such a cell in a column other than x, y and z is a missing
+ * value, NaN; elsewhere it is an error, and reading ends.
+ *
+ * @param reader  the reader
  * @param column  number of the value within a point, from 0
- * @param line    line of the first of these cells, from 1; unchanged if there is none. NULL is
- *                allowed
- * @return how many; 0 also if there is no such value. Thread-safe on different readers. */
+ * @param line    NULL, or receives the line of the first of these cells, from 1; unchanged if there
+ *                is none
+ * @return how many; 0 also if points have no such value.
+ *
+ * One thread at a time may use a reader. O(1).
+ */
 MW_API uint64_t mw_point_reader_texts(const mw_point_reader *reader, size_t column, int64_t *line);
 
-/** The text of a row as it stands in the file, without its line end.
- * @param row     number of the row in the block that mw_point_reader_read gave last, from 0
- * @param length  bytes of the text, which no NUL ends; 0 on failure
- * @return the text, valid until the next read or close; NULL = no such row, or a reader without
- * `table`. Several threads may call this at a time. */
+/**
+ * Give the text of a row as it stands in the file, without its line end.
+ *
+ * @param reader  a reader with mw_point_reader_options.table
+ * @param row     number of the row in the latest block of mw_point_reader_read(), from 0
+ * @param length  receives the bytes of the text, which no NUL ends; 0 if there is no such row
+ * @return the text, owned by the reader, valid until the next read; NULL if there is no such row,
+ *         or the reader has no table.
+ *
+ * Several threads may call this at a time. O(1).
+ */
 MW_API const char *mw_point_reader_row(const mw_point_reader *reader, size_t row, size_t *length);
 
 /** What a line of a stream of edits requests. */
@@ -476,8 +568,8 @@ typedef struct mw_edit_text_options {
     uint32_t reserved[4]; /**< must be zero */
 } mw_edit_text_options;
 
-/** "insert", "remove", "move", "flip", "constrain", "release" or "value"; NULL for any other
- * number. */
+/** The word of a kind: "insert", "remove", "move", "flip", "constrain", "release" or "value"; NULL
+ * for any other number. Thread-safe. O(1). */
 MW_API const char *mw_edit_name(mw_edit_kind kind);
 
 /**
@@ -491,7 +583,7 @@ MW_API const char *mw_edit_name(mw_edit_kind kind);
  * Words may be in any case and in double quotes. V is a vertex number from 0; 17.0 is accepted.
  * FIELD is a name or a number; without it the field z is meant if fields have names, else field 0.
  * At an insertion a VALUE that is missing or "nan" is interpolated. "#" begins a comment. Empty
- * cells at the end of a line are ignored. Whether an edit is possible, the editor decides.
+ * cells at the end of a line are ignored. The editor decides later whether an edit is possible.
  *
  * @param text     one line, ended by NUL
  * @param options  NULL selects the defaults
@@ -500,7 +592,7 @@ MW_API const char *mw_edit_name(mw_edit_kind kind);
  * @return MW_OK; MW_ERROR_INPUT for an unknown word or field, too few or too many words, or a word
  *         that is not a number; MW_ERROR_ARGUMENT for NULL.
  *
- * Thread-safe.
+ * Thread-safe. O(length of the line).
  */
 MW_API mw_status mw_edit_parse(const char *text, const mw_edit_text_options *options,
                                mw_edit_line *line, mw_error *error);
@@ -519,7 +611,7 @@ MW_API mw_status mw_edit_parse(const char *text, const mw_edit_text_options *opt
  * @param text     receives the line, ended by NUL
  * @return the length; 0, and an empty text, for MW_EDIT_LINE_NONE and unknown kinds.
  *
- * Thread-safe.
+ * Thread-safe. O(1).
  */
 MW_API size_t mw_edit_format(const mw_edit_line *line, const mw_edit_text_options *options,
                              char text[MW_EDIT_TEXT_SIZE]);
@@ -535,7 +627,10 @@ typedef struct mw_edit_reader mw_edit_reader;
  * @param out      receives the reader, owned by the caller (mw_edit_reader_close()); NULL on
  *                 failure
  * @param error    NULL, or receives the message of a failure
- * @return MW_OK, MW_ERROR_SYSTEM, MW_ERROR_MEMORY; MW_ERROR_ARGUMENT for NULL.
+ * @return MW_OK; MW_ERROR_SYSTEM if the file cannot be opened; MW_ERROR_MEMORY; MW_ERROR_ARGUMENT
+ *         for NULL.
+ *
+ * Thread-safe. O(1).
  */
 MW_API mw_status mw_edit_reader_open(const char *path, const mw_edit_text_options *options,
                                      mw_edit_reader **out, mw_error *error);
@@ -546,13 +641,15 @@ MW_API mw_status mw_edit_reader_open(const char *path, const mw_edit_text_option
  * @param reader  the reader
  * @param line    receives the request; its kind is MW_EDIT_LINE_NONE at the end of the stream. On
  *                failure line->line is the number of the faulty line, and the next call continues
- *                behind it; 0 if the file cannot be read further, and the reader can only be closed
+ *                after it. If line->line is 0, the file cannot be read further: close the reader
  * @param error   NULL, or receives the message of a failure, with file and line
  * @return as mw_edit_parse(); also MW_ERROR_SYSTEM, MW_ERROR_MEMORY.
+ *
+ * One thread at a time may use a reader. O(length of the line).
  */
 MW_API mw_status mw_edit_reader_read(mw_edit_reader *reader, mw_edit_line *line, mw_error *error);
 
-/** As mw_point_reader_fraction. */
+/** The part of the stream that has been read, as mw_point_reader_fraction(). */
 MW_API double mw_edit_reader_fraction(const mw_edit_reader *reader);
 
 /** Close a reader. NULL is allowed. */
@@ -596,7 +693,10 @@ typedef struct mw_surface_edit_reader mw_surface_edit_reader;
  * @param out    receives the reader, owned by the caller (mw_surface_edit_reader_close()); NULL on
  *               failure
  * @param error  NULL, or receives the message of a failure
- * @return MW_OK; MW_ERROR_SYSTEM, MW_ERROR_MEMORY; MW_ERROR_ARGUMENT for NULL. Thread-safe.
+ * @return MW_OK; MW_ERROR_SYSTEM if the file cannot be opened; MW_ERROR_MEMORY; MW_ERROR_ARGUMENT
+ *         for NULL.
+ *
+ * Thread-safe. O(1).
  */
 MW_API mw_status mw_surface_edit_reader_open(const char *path, mw_surface_edit_reader **out,
                                              mw_error *error);
@@ -604,19 +704,21 @@ MW_API mw_status mw_surface_edit_reader_open(const char *path, mw_surface_edit_r
 /**
  * Read the next request. Blank lines and comments are skipped.
  *
- * After MW_ERROR_INPUT that names a line (line->line > 0) reading may go on with the next one.
+ * If the call fails with MW_ERROR_INPUT and names a line (line->line > 0), the next call continues
+ * after that line.
  *
  * @param reader  the reader
  * @param line    receives the request; MW_SURFACE_EDIT_LINE_NONE at the end, with line 0
  * @param error   NULL, or receives the message of a failure, with the line
- * @return MW_OK, also at the end; MW_ERROR_INPUT, MW_ERROR_SYSTEM, MW_ERROR_MEMORY.
+ * @return MW_OK, also at the end; MW_ERROR_INPUT for a line that is no request; MW_ERROR_SYSTEM,
+ *         MW_ERROR_MEMORY.
  *
- * Thread-safe on different readers.
+ * One thread at a time may use a reader. O(length of the line).
  */
 MW_API mw_status mw_surface_edit_reader_read(mw_surface_edit_reader *reader,
                                              mw_surface_edit_line *line, mw_error *error);
 
-/** As mw_point_reader_fraction. */
+/** The part of the stream that has been read, as mw_point_reader_fraction(). */
 MW_API double mw_surface_edit_reader_fraction(const mw_surface_edit_reader *reader);
 
 /** Close a reader. NULL is allowed. */
@@ -632,40 +734,77 @@ MW_API void mw_surface_edit_reader_close(mw_surface_edit_reader *reader);
  */
 typedef struct mw_output mw_output;
 
-/** Open an output. "-": standard output. MW_ERROR_SYSTEM if that is impossible; MW_ERROR_MEMORY. */
+/**
+ * Open an output.
+ *
+ * @param path   the file; "-": standard output
+ * @param out    receives the output, owned by the caller (mw_output_close() releases it); NULL on
+ *               failure
+ * @param error  NULL, or receives the message of a failure
+ * @return MW_OK; MW_ERROR_SYSTEM if the file cannot be made; MW_ERROR_ARGUMENT for NULL;
+ *         MW_ERROR_MEMORY.
+ *
+ * Thread-safe. O(1).
+ */
 MW_API mw_status mw_output_open(const char *path, mw_output **out, mw_error *error);
 
 /**
- * Find the name under which the output of a path appears: its symbolic links are followed to the
- * end. The file need not exist.
+ * Find the name under which the output of a path appears. Symbolic links are followed to the end.
  *
- * @param path   the path
+ * @param path   the path; the file need not exist
  * @param name   receives the name, released by the caller with free(); NULL on failure
  * @param error  NULL, or receives the message of a failure
- * @return MW_OK; MW_ERROR_SYSTEM for links that lead to one another; MW_ERROR_MEMORY,
- *         MW_ERROR_ARGUMENT.
+ * @return MW_OK; MW_ERROR_SYSTEM for links that lead to one another; MW_ERROR_ARGUMENT for NULL;
+ *         MW_ERROR_MEMORY.
+ *
+ * Thread-safe. O(length of the path) for each link.
  */
 MW_API mw_status mw_output_resolve(const char *path, char **name, mw_error *error);
 
-/** Write bytes. mw_output_close() reports a failure. */
+/**
+ * Write bytes. mw_output_close() reports a failure.
+ *
+ * @param output  the output
+ * @param bytes   what to write
+ * @param size    how many bytes
+ *
+ * One thread at a time may use an output.
+ */
 MW_API void mw_output_write(mw_output *output, const void *bytes, size_t size);
 
-/** Write as printf() does: text and integers only, because decimals follow the locale. */
+/**
+ * Write as printf() does. mw_output_close() reports a failure.
+ *
+ * @param output  the output
+ * @param format  for text and integers only: printf() writes decimals as the locale has them, so
+ *                write doubles with mw_output_double()
+ *
+ * One thread at a time may use an output.
+ */
 MW_API void mw_output_printf(mw_output *output, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
-/** Format a double: the shortest of %.15g, %.16g and %.17g in the "C" locale that reads back as
- * the same double; "nan", "inf", "-inf". Returns its length, at most 24. Thread-safe. */
+/**
+ * Format a double as in the "C" locale: the shortest of %.15g, %.16g and %.17g that reads back as
+ * the same double; "nan", "inf", "-inf".
+ *
+ * @param value  any double
+ * @param text   receives the text, ended by NUL
+ * @return its length, at most 24.
+ *
+ * Thread-safe. O(1).
+ */
 MW_API size_t mw_format_double(double value, char text[32]);
 
-/** Write a double as mw_format_double() formats it. */
+/** Write a double as mw_format_double() formats it. One thread at a time may use an output. */
 MW_API void mw_output_double(mw_output *output, double value);
 
-/** 1 if a write has failed: a long job can stop. */
+/** 1 if a write has failed, so that a long job can stop early; else 0. One thread at a time may use
+ * an output. O(1). */
 MW_API int mw_output_failed(const mw_output *output);
 
-/** The temporary file that an interrupted program should remove, owned by the output; NULL if
- * there is none. */
+/** The name of the temporary file, which a program that is interrupted should remove; owned by the
+ * output; NULL if there is none. O(1). */
 MW_API const char *mw_output_temporary(const mw_output *output);
 
 /**
@@ -674,7 +813,10 @@ MW_API const char *mw_output_temporary(const mw_output *output);
  * @param output  the output
  * @param commit  1: give the file its name; 0: remove it
  * @param error   NULL, or receives the first failure of a write: "FILE: No space left on device"
- * @return MW_OK; MW_ERROR_SYSTEM, and no file is left.
+ * @return MW_OK; MW_ERROR_SYSTEM if a write failed or the file cannot get its name: then no file
+ *         is left.
+ *
+ * One thread at a time may use an output.
  */
 MW_API mw_status mw_output_close(mw_output *output, int commit, mw_error *error);
 

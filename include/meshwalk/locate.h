@@ -41,24 +41,27 @@ typedef enum mw_start_kind {
  * their way in doubles either way. MW_DOUBLE is for measurements. */
 typedef enum mw_arithmetic { MW_EXACT = 0, MW_DOUBLE } mw_arithmetic;
 
-/** The name of a walk, as on the command line ("straight"); NULL for any other number. */
+/** The name of a walk, as on the command line ("straight"); NULL for any other number.
+ * Thread-safe. */
 MW_API const char *mw_walk_name(mw_walk_kind walk);
-/** Where a walk was published, "Authors Year"; NULL for any other number. */
+/** Where a walk was published, "Authors Year"; NULL for any other number. Thread-safe. O(1). */
 MW_API const char *mw_walk_source(mw_walk_kind walk);
-/** One line of help for a walk; NULL for any other number. */
+/** One line of help for a walk; NULL for any other number. Thread-safe. O(1). */
 MW_API const char *mw_walk_help(mw_walk_kind walk);
-/** The name of a start, as on the command line ("sorted"); NULL for any other number. */
+/** The name of a start, as on the command line ("sorted"); NULL for any other number. Thread-safe.
+ * O(1). */
 MW_API const char *mw_start_name(mw_start_kind start);
-/** One line of help for a start; NULL for any other number. */
+/** One line of help for a start; NULL for any other number. Thread-safe. O(1). */
 MW_API const char *mw_start_help(mw_start_kind start);
-/** 1 if a start needs an index (mw_index_create()); 0 if not, or for any other number. */
+/** 1 if a start needs an index (mw_index_create()); 0 if not, or for any other number. Thread-safe.
+ * O(1). */
 MW_API int mw_start_has_index(mw_start_kind start);
-/** The walk with a name (not NULL); MW_WALK_COUNT if there is none. */
+/** The walk with a name (not NULL); MW_WALK_COUNT if there is none. Thread-safe. O(1). */
 MW_API mw_walk_kind mw_walk_by_name(const char *name);
-/** The start with a name (not NULL); MW_START_COUNT if there is none. */
+/** The start with a name (not NULL); MW_START_COUNT if there is none. Thread-safe. O(1). */
 MW_API mw_start_kind mw_start_by_name(const char *name);
 
-/** Where a point lies, in words. */
+/** The kinds of places where a point can lie. */
 typedef enum mw_where {
     MW_INSIDE = 0, /**< inside `triangle` */
     MW_ON_EDGE,    /**< on local edge `local` of `triangle` */
@@ -71,7 +74,8 @@ typedef enum mw_where {
     MW_WHERE_COUNT
 } mw_where;
 
-/** "inside", "edge", "vertex", "outside", "hole", "near" or "bad"; NULL for any other number. */
+/** The name of a place: "inside", "edge", "vertex", "outside", "hole", "near" or "bad"; NULL for
+ * any other number. Thread-safe. O(1). */
 MW_API const char *mw_where_name(mw_where where);
 
 /** Where a point lies. */
@@ -82,8 +86,8 @@ typedef struct mw_location {
     double weight[3];
     uint32_t triangle; /**< the caller's number, or MW_NONE */
     /** The hole, for MW_IN_HOLE and for MW_NEAR in a hole; else MW_NONE. Holes are numbered from 0
-     * by the lowest triangle at their border. For several holes at the same triangle the order
-     * depends on the mesh only. */
+     * in the order of the lowest triangle at their border. If several holes have the same lowest
+     * triangle, their order depends on the mesh only. */
     uint32_t hole;
     uint8_t where; /**< mw_where */
     uint8_t local; /**< MW_ON_EDGE, MW_NEAR: local edge; MW_ON_VERTEX: local vertex; else 255 */
@@ -162,9 +166,9 @@ typedef struct mw_locator_info {
      * long. MW_START_AUTO: no guide is built. */
     mw_start_kind guide;
     size_t guide_bytes; /**< of the bytes, for the guide and chains */
-    /** Of these, for chains. They are the guide, or they end long walks beside another guide that
-     * leads far to a few triangles; 0: the locator has none. Queries may make more, once: then this
-     * and the sums above grow (mw_locate()). */
+    /** Of these, for chains; 0: the locator has none. Chains are the guide, or they end long walks
+     * if another guide starts far from a few triangles. Queries may make more chains, once: then
+     * this number and the sums above grow (mw_locate()). */
     size_t chain_bytes;
 } mw_locator_info;
 
@@ -191,7 +195,7 @@ typedef struct mw_hole_edge {
 MW_API mw_status mw_locator_holes(const mw_locator *locator, mw_hole_edge *edges, mw_error *error);
 
 /** Which promise does not hold because the mesh is not an embedding (mw_locator_options.any), as a
- * text owned by the library; NULL for an embedding. O(1). */
+ * text owned by the library; NULL for an embedding. Thread-safe. O(1). */
 MW_API const char *mw_locator_void_promise(const mw_locator *locator);
 
 /**
@@ -222,7 +226,8 @@ typedef struct mw_index_options {
     /** MW_START_LAYERS: layers, the mesh included, 1 to MW_MAX_LAYERS; 0: chosen by the size of
      * the mesh. */
     uint32_t layers;
-    /** MW_START_LAYERS: chance of a vertex to be in the next layer; 0: 0.025 [Devillers 2002]. */
+    /** MW_START_LAYERS: probability of a vertex to be in the next layer; 0: 0.025 [Devillers
+     * 2002]. */
     double ratio;
     mw_descent descent;          /**< MW_START_LAYERS: where a search goes down */
     uint64_t seed;               /**< MW_START_LAYERS: seed of the random vertices */
@@ -349,7 +354,8 @@ typedef struct mw_counters {
     uint64_t handovers;
 } mw_counters;
 
-/** Add `more` to `sum`, for instance the counts of several threads. */
+/** Add `more` to `sum`, for instance the counts of several threads. Thread-safe on different sums.
+ * O(1). */
 MW_API void mw_counters_add(mw_counters *sum, const mw_counters *more);
 
 /**
@@ -405,27 +411,28 @@ MW_API mw_status mw_cursor_init(const mw_locator *locator, const mw_query_option
  *
  * @param locator  the locator
  * @param cursor   a cursor of this locator
- * @param x, y     any doubles; MW_BAD if one is not finite
- * @return where the point lies.
+ * @param x, y     any doubles, in mesh units
+ * @return where the point lies; MW_BAD if x or y is not finite.
  *
- * Thread-safe with one cursor per thread.
+ * Thread-safe with one cursor per thread. Sources: mw_walk_source() names that of each walk.
  *
  * Time: with MW_START_AUTO m queries of a mesh of n triangles take O(m log n + n log n), whatever
  * the mesh and the points, if the mesh is an embedding whose pockets and holes are filled and no
  * editor changes it (docs/proofs/queries.md); almost always a query takes O(1).
  *
- * No allocation, except once in the life of a locator, and only where its guide leads badly: walks
- * of more than 128 triangles are added up. When they have visited 16 times as many triangles as the
- * mesh has, the query that does so makes chains for all triangles (MW_START_CHAINS), 68 to 88 bytes
- * each, which takes O(n log n): 0.1 to 0.5 seconds for a million triangles. Other threads do not
- * wait. From then on chains end long walks. If memory lacks, walks go on being long. No
- * query reports that, and answers are the same; mw_locator_info.chain_bytes tells.
- * mw_locator_options.no_late_chains forbids it. Batches, segments and lines of sight do the same.
+ * No allocation, with one exception in the life of a locator, for meshes in which its guide leads
+ * to long walks. The triangles of walks of more than 128 triangles are added up. The query with
+ * which the sum reaches 16 times the triangles of the mesh makes chains for all triangles
+ * (MW_START_CHAINS): 68 to 88 bytes each, in O(n log n), 0.1 to 0.5 seconds for a million
+ * triangles. Other threads do not wait. From then on chains end long walks. If there is not enough
+ * memory, walks stay long; no query reports that, and answers are the same.
+ * mw_locator_info.chain_bytes tells whether there are chains, and mw_locator_options.no_late_chains
+ * forbids them. Batches, segments and lines of sight do the same.
  */
 MW_API mw_location mw_locate(const mw_locator *locator, mw_cursor *cursor, double x, double y);
 
 /**
- * The triangles that one query visits, in order.
+ * List the triangles that one query visits, in order.
  *
  * The first triangle is where the walk starts; each later one is entered over an edge of the
  * previous one. The list omits ghost triangles and the layers of an index: consecutive triangles
@@ -469,7 +476,8 @@ typedef struct mw_walk_way {
 } mw_walk_way;
 
 /**
- * As mw_walk_path(), with the stage of each triangle and the line that the walk follows.
+ * List the triangles that one query visits, as mw_walk_path() does, with the stage of each triangle
+ * and the line that the walk follows.
  *
  * @param locator   the locator
  * @param cursor    a cursor of this locator
@@ -497,10 +505,11 @@ MW_API size_t mw_walk_follow(const mw_locator *locator, mw_cursor *cursor, doubl
  *
  * Hints, for particles: options->hints holds the triangle where each query starts. With
  * MW_START_AUTO query i starts at triangle hints[i] if that is near; with any other start it
- * always does. MW_NONE, and a number of no triangle, is no hint: the query starts as `start` says,
- * or at the nearest of a sample for MW_START_LAST and MW_START_SORTED. Afterwards hints[i] is the
- * triangle of locations[i]; it is unchanged if that has none. Hints change the time, never the
- * answer. For an editor's locator the number of a removed triangle leads to one that replaced it.
+ * always does. MW_NONE, and a number that no triangle has, is no hint: the query starts as `start`
+ * says, or at the nearest of a sample for MW_START_LAST and MW_START_SORTED. Afterwards hints[i] is
+ * the triangle of locations[i], and is unchanged if that location has none. Hints change the time,
+ * never the answer. For an editor's locator the number of a removed triangle leads to one that
+ * replaced it.
  *
  * @param locator    the locator
  * @param points     x, y of point i at points[i * stride] and the double after it
@@ -511,9 +520,10 @@ MW_API size_t mw_walk_follow(const mw_locator *locator, mw_cursor *cursor, doubl
  *                   threads; unspecified on failure, as hints are
  * @param counters   NULL, or receives the sums over the batch (if enabled by the options)
  * @param error      NULL, or receives the message of a failure
- * @return MW_OK; MW_ERROR_ARGUMENT as mw_cursor_init(); MW_ERROR_MEMORY, MW_CANCELLED.
+ * @return MW_OK; MW_ERROR_ARGUMENT for NULL, a stride of 1, and as mw_cursor_init();
+ *         MW_ERROR_MEMORY, MW_CANCELLED.
  *
- * Thread-safe.
+ * Thread-safe. Time: n walks, and the sort if queries are sorted.
  */
 MW_API mw_status mw_locate_batch(const mw_locator *locator, const double *points, size_t n,
                                  size_t stride, const mw_query_options *options,
@@ -522,10 +532,10 @@ MW_API mw_status mw_locate_batch(const mw_locator *locator, const double *points
 /**
  * A border edge and its point nearest to a query.
  *
- * A border edge has a triangle with an area on one side, and nothing that the mesh covers on the
- * other. Flat triangles do not count, and where two parts of the mesh lie along each other there
- * is no border. If vertices inside an edge divide it and a part is covered, the other parts are
- * border.
+ * A border edge has a triangle with an area on one side, and no part of the mesh on the other. Flat
+ * triangles do not count, and where two parts of the mesh lie along each other there is no border.
+ * If vertices inside an edge divide it and the mesh covers one of the parts on the other side, the
+ * other parts are border.
  */
 typedef struct mw_nearest_border_point {
     uint32_t triangle; /**< the caller's number */
@@ -623,7 +633,8 @@ typedef struct mw_interpolate_options {
  * @return MW_OK; MW_ERROR_ARGUMENT for NULL, an unknown type, or a stride less than count without
  *         a step; MW_CANCELLED.
  *
- * Thread-safe. The same bits for any number of threads. Allocates memory for threads only.
+ * Thread-safe. The same bits for any number of threads. O(n) for each value. Allocates memory for
+ * threads only.
  */
 MW_API mw_status mw_interpolate_table(const mw_mesh *mesh, const mw_value_table *table,
                                       const mw_location *locations, size_t n,

@@ -11,14 +11,15 @@
 extern "C" {
 #endif
 
-/** What to mend. Add the repairs that you want; they are done in the order of this list. */
+/** What to mend. Add the values of several repairs; they are done in the order of this list. */
 typedef enum mw_repair_kind {
     MW_REPAIR_WELD = 1, /**< coincident vertices, or those within the tolerance, become one */
-    /** unusable and duplicate triangles are removed; with SPLIT flat ones, too */
+    /** unusable and duplicate triangles are removed; with MW_REPAIR_SPLIT also flat ones */
     MW_REPAIR_DROP = 2,
-    MW_REPAIR_SPLIT = 4,  /**< a triangle with another vertex inside a border edge is split there */
-    MW_REPAIR_ORIENT = 8, /**< triangles turn counter-clockwise; in space like their neighbours, so
-                               that the fewest of each component are turned */
+    MW_REPAIR_SPLIT = 4, /**< a triangle with another vertex inside a border edge is split there */
+    /** clockwise triangles are turned; in space the fewest of each component, so that neighbours
+     * agree */
+    MW_REPAIR_ORIENT = 8,
     MW_REPAIR_ALL = 15
 } mw_repair_kind;
 
@@ -58,7 +59,7 @@ typedef struct mw_mended {
     uint32_t *triangles; /**< 3 per triangle: new vertex numbers */
     size_t triangle_count;
     size_t vertex_count;
-    uint32_t *vertex_from; /**< per new vertex its old number, for instance to copy its values */
+    uint32_t *vertex_from; /**< per new vertex its old number: use it to copy values */
     /** per old vertex its new number, or that of the vertex it was welded to */
     uint32_t *vertex_to;
     uint32_t *triangle_from; /**< per new triangle the old one that it is or was part of */
@@ -96,7 +97,15 @@ MW_API mw_status mw_mend_arrays(const mw_arrays *arrays, const mw_mend_options *
 /** Release a mended mesh. NULL and an empty one are allowed. */
 MW_API void mw_mended_release(mw_mended *mended);
 
-/** Write "triangle 17: ..." for one change into text[size], always terminated. Thread-safe. */
+/**
+ * Describe one change in words: "triangle 17: ...".
+ *
+ * @param change  the change
+ * @param text    receives the description, always terminated
+ * @param size    room in `text`, in bytes; a longer description is cut off
+ *
+ * Thread-safe. O(1).
+ */
 MW_API void mw_mend_change_describe(const mw_mend_change *change, char *text, size_t size);
 
 #ifdef __cplusplus

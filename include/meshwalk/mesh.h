@@ -86,7 +86,7 @@ typedef struct mw_check {
     int valid; /**< 1: no defect except flat triangles, so the mesh is an embedding */
 } mw_check;
 
-/** A short English text for a kind of defect; never NULL, owned by the library. */
+/** A short English text for a kind of defect; never NULL, owned by the library. Thread-safe. */
 MW_API const char *mw_defect_text(mw_defect_kind kind);
 
 /**
@@ -95,6 +95,8 @@ MW_API const char *mw_defect_text(mw_defect_kind kind);
  * @param defect  the defect
  * @param text    receives the description, always terminated
  * @param size    room in `text`, in bytes; a longer description is cut off
+ *
+ * Thread-safe. O(1).
  */
 MW_API void mw_defect_describe(const mw_defect *defect, char *text, size_t size);
 
@@ -111,15 +113,16 @@ typedef struct mw_check_options {
  *
  * If two border edges cross, or run along each other on the same side, at least one of them is
  * listed, with one edge that it crosses. So the length of the list is linear in the mesh. If
- * thousands of long edges cross, some are not listed. If borders cross, other defects of these
- * parts may be found only after the crossing is mended. Equal arrays give equal lists.
+ * thousands of long edges cross, some are not listed. Where borders cross, some defects can be
+ * found only after the crossing is mended. Equal arrays give equal lists.
  *
  * @param arrays   the mesh
  * @param options  NULL selects the defaults
  * @param check    receives the defects; release with mw_check_release()
  * @param error    NULL, or receives the message of a failure
- * @return MW_OK, also if defects were found; MW_ERROR_ARGUMENT, MW_ERROR_LIMIT, MW_ERROR_MEMORY,
- *         MW_CANCELLED.
+ * @return MW_OK, also if defects were found; MW_ERROR_ARGUMENT for NULL, a stride of 1 or an
+ *         unknown integer type; MW_ERROR_LIMIT for more than MW_MAX_TRIANGLES or MW_MAX_VERTICES;
+ *         MW_ERROR_MEMORY, MW_CANCELLED.
  *
  * Thread-safe. O(n) for local defects; O(b log^2 b) expected for b border edges, whether they
  * cross or not (docs/proofs/tilings.md).
@@ -164,7 +167,9 @@ typedef struct mw_mesh_options {
  * @param out      receives the mesh, owned by the caller (mw_mesh_destroy()); NULL on failure
  * @param error    NULL, or receives the message of a failure
  * @return MW_OK; MW_ERROR_INPUT if the arrays are unusable (the error names the first defect);
- *         MW_ERROR_ARGUMENT, MW_ERROR_LIMIT, MW_ERROR_MEMORY, MW_CANCELLED.
+ *         MW_ERROR_ARGUMENT for NULL, a stride of 1, an unknown integer type or layout;
+ *         MW_ERROR_LIMIT for more than MW_MAX_TRIANGLES or MW_MAX_VERTICES; MW_ERROR_MEMORY,
+ *         MW_CANCELLED.
  *
  * Thread-safe. O(n) for n triangles.
  */
@@ -173,28 +178,43 @@ MW_API mw_status mw_mesh_create(const mw_arrays *arrays, const mw_mesh_options *
 /** Destroy a mesh. Its locators must be destroyed before. NULL is allowed. */
 MW_API void mw_mesh_destroy(mw_mesh *mesh);
 
-/** Number of vertices, unused ones included. O(1). */
+/** Number of vertices, unused ones included. Thread-safe. O(1). */
 MW_API uint32_t mw_mesh_vertex_count(const mw_mesh *mesh);
 
-/** Number of triangles. O(1). */
+/** Number of triangles. Thread-safe. O(1). */
 MW_API uint32_t mw_mesh_triangle_count(const mw_mesh *mesh);
 
-/** Copy x, y of a vertex. `vertex` must be less than the number of vertices; it is not checked. */
+/**
+ * Copy x, y of a vertex.
+ *
+ * @param mesh    the mesh
+ * @param vertex  less than the number of vertices, not checked
+ * @param point   receives x, y
+ *
+ * Thread-safe. O(1).
+ */
 MW_API void mw_mesh_vertex(const mw_mesh *mesh, uint32_t vertex, double point[2]);
 
-/** Copy the vertices of a triangle, as given. `triangle` must be less than the number of
- * triangles; it is not checked. */
+/**
+ * Copy the vertices of a triangle, in the order given.
+ *
+ * @param mesh      the mesh
+ * @param triangle  less than the number of triangles, not checked
+ * @param vertices  receives three vertices
+ *
+ * Thread-safe. O(1).
+ */
 MW_API void mw_mesh_triangle(const mw_mesh *mesh, uint32_t triangle, uint32_t vertices[3]);
 
 /**
- * Copy triangles in the order of the mesh's memory, where neighbours mostly lie near each other: a
- * pass over all of them takes a fraction of the time that one by number takes, because it finds in
- * the cache what it needs. Triangles and vertices have places there, from 0.
+ * Copy triangles in the order in which the mesh stores them. Neighbours mostly lie near each other
+ * in this order, so a pass over all triangles takes a fraction of the time of a pass by number. The
+ * place of a triangle or vertex is its position in this order, from 0.
  *
  * @param mesh     the mesh
  * @param first    the place of the first triangle
  * @param count    how many; first + count is at most the number of triangles, not checked
- * @param corners  receives 3 * count places of vertices, of each triangle as given
+ * @param corners  receives 3 * count places of vertices: those of each triangle, as given
  * @param numbers  NULL, or receives the number of each triangle
  *
  * Thread-safe. O(count).
@@ -203,7 +223,7 @@ MW_API void mw_mesh_stored_triangles(const mw_mesh *mesh, uint32_t first, uint32
                                      uint32_t *corners, uint32_t *numbers);
 
 /**
- * Copy vertices in the order of the mesh's memory, as mw_mesh_stored_triangles().
+ * Copy vertices in the order in which the mesh stores them: see mw_mesh_stored_triangles().
  *
  * @param mesh     the mesh
  * @param first    the place of the first vertex
@@ -217,7 +237,7 @@ MW_API void mw_mesh_stored_vertices(const mw_mesh *mesh, uint32_t first, uint32_
                                     double *points, uint32_t *numbers);
 
 /**
- * The triangle on the other side of a local edge.
+ * Find the triangle on the other side of a local edge.
  *
  * @param mesh        the mesh
  * @param triangle    less than the number of triangles, not checked
@@ -225,12 +245,12 @@ MW_API void mw_mesh_stored_vertices(const mw_mesh *mesh, uint32_t first, uint32_
  * @param edge        NULL, or receives the local edge in the neighbour
  * @return the neighbour; MW_NONE on a border.
  *
- * O(1).
+ * Thread-safe. O(1).
  */
 MW_API uint32_t mw_mesh_neighbour(const mw_mesh *mesh, uint32_t triangle, unsigned local_edge,
                                   unsigned *edge);
 
-/** Memory used by a mesh with its fields, in bytes. O(fields). */
+/** Memory used by a mesh with its fields, in bytes. Thread-safe. O(1). */
 MW_API size_t mw_mesh_bytes(const mw_mesh *mesh);
 
 /**
@@ -248,13 +268,23 @@ MW_API size_t mw_mesh_bytes(const mw_mesh *mesh);
 MW_API mw_status mw_mesh_set_field(mw_mesh *mesh, const char *name, const double *values,
                                    size_t stride, mw_error *error);
 
-/** The values of a field, one per vertex, owned by the mesh; NULL if no field has that name. */
+/**
+ * Find the values of a field.
+ *
+ * @param mesh  the mesh
+ * @param name  the name, not NULL
+ * @return one double per vertex, owned by the mesh, valid until the field is set again; NULL if no
+ *         field has that name.
+ *
+ * Thread-safe. O(fields).
+ */
 MW_API const double *mw_mesh_field(const mw_mesh *mesh, const char *name);
 
-/** Number of fields. */
+/** Number of fields. Thread-safe. O(1). */
 MW_API size_t mw_mesh_field_count(const mw_mesh *mesh);
 
-/** The name of a field by its index, owned by the mesh; NULL beyond the last. */
+/** The name of field `index`, from 0, owned by the mesh; NULL beyond the last. Thread-safe. O(1).
+ * */
 MW_API const char *mw_mesh_field_name(const mw_mesh *mesh, size_t index);
 
 /** Counts and properties of a mesh. Holes, convexity and the embedding are decided exactly. */
@@ -292,8 +322,8 @@ MW_API mw_status mw_mesh_describe(const mw_mesh *mesh, const mw_check_options *o
                                   mw_mesh_info *info, mw_error *error);
 
 /**
- * Orders of triangles and vertices along a Hilbert curve: for arrays whose neighbours lie near each
- * other in memory.
+ * Order triangles and vertices along a Hilbert curve. Arrays in this order have neighbours near
+ * each other in memory.
  *
  * @param mesh       the mesh
  * @param triangles  NULL, or an array with room for all triangles: receives the triangle that

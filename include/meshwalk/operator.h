@@ -1,6 +1,6 @@
 /**
  * @file operator.h
- * Interpolation at the same points again and again: weights kept as a sparse matrix.
+ * Weights kept as a sparse matrix, for interpolation at the same points again and again.
  *
  * An operator has a row for each point and a column for each vertex. Create it once, from locations
  * or from the entries of a file of weights, and apply it to any number of fields:
@@ -9,7 +9,8 @@
  *     mw_operator_create(mesh, locations, n, NULL, &weights, &error);
  *     for (each step) mw_operator_apply(weights, &table, NULL, result, &error);
  *
- * Answers of queries in space serve too: rays from the centre of a star, probes, nearest points.
+ * An operator can also be made from answers of queries in space: rays from the centre of a star,
+ * probes, nearest points.
  *
  *     mw_hits hits = mw_hits_of_touches(touches, n);
  *     mw_operator_create_on_surface(surface, &hits, NULL, &weights, &error);
@@ -69,11 +70,13 @@ typedef struct mw_hits {
     size_t count;             /**< number of records */
 } mw_hits;
 
-/** View n locations, as of mw_star_locate_batch(), as places. They stay the caller's. O(1). */
+/** View n locations, as of mw_star_locate_batch(), as places. They stay the caller's. Thread-safe.
+ * O(1). */
 MW_API mw_hits mw_hits_of_locations(const mw_location *locations, size_t n);
-/** View n touches, as of mw_probe_batch(), as places. They stay the caller's. O(1). */
+/** View n touches, as of mw_probe_batch(), as places. They stay the caller's. Thread-safe. O(1). */
 MW_API mw_hits mw_hits_of_touches(const mw_touch *touches, size_t n);
-/** View n nearest points (mw_nearest_on_surface()) as places. They stay the caller's. O(1). */
+/** View n nearest points, as of mw_nearest_on_surface_batch(), as places. They stay the caller's.
+ * Thread-safe. O(1). */
 MW_API mw_hits mw_hits_of_nearest(const mw_nearest_surface_point *points, size_t n);
 
 /**
@@ -101,7 +104,7 @@ MW_API mw_status mw_operator_create_on_surface(const mw_surface *surface, const 
  * Interpolate values at the vertices of a surface linearly: result[i] is the sum of weight[k] *
  * values[vertex k] over the weights that are not 0.
  *
- * For many fields, or missing values to be left out, use an operator: its results are the same.
+ * For many fields, or to leave out missing values, use an operator: its results are the same.
  *
  * @param surface  the surface in which the places were found
  * @param values   one value per vertex
@@ -173,7 +176,7 @@ typedef struct mw_operator_info {
     size_t bytes;        /**< memory in bytes, with what calls of mw_operator_apply() left to it */
 } mw_operator_info;
 
-/** Fill `info` with the size of an operator. O(1). */
+/** Fill `info` with the size of an operator. Thread-safe. O(1). */
 MW_API void mw_operator_describe(const mw_operator *weights, mw_operator_info *info);
 
 /**
@@ -191,7 +194,7 @@ MW_API void mw_operator_copy(const mw_operator *weights, uint64_t *first, uint32
 
 /** The result of a row if a value that it needs is missing (NaN). */
 typedef enum mw_missing_rule {
-    MW_MISSING_SPREADS = 0, /**< NaN, as mw_interpolate() does */
+    MW_MISSING_SPREADS = 0, /**< NaN, as of mw_interpolate() */
     /** The weighted mean of the values present, times the sum of all weights of the row; NaN if no
      * value is present. Next to missing values this is a guess. */
     MW_MISSING_LEFT_OUT
@@ -201,7 +204,7 @@ typedef enum mw_missing_rule {
 typedef struct mw_operator_apply_options {
     uint32_t threads;        /**< number of threads; 0: one per processor */
     mw_missing_rule missing; /**< what to do about values that are NaN */
-    /** result of a row without entries: 1: the number 0, as of a matrix; 0: NaN */
+    /** Result of a row without entries. 1: the number 0, as in matrix algebra; 0: NaN. */
     int zero_empty;
     const mw_progress *progress; /**< progress and cancelling, see base.h; NULL: none */
     uint32_t reserved[5];        /**< must be zero */
@@ -222,13 +225,13 @@ typedef struct mw_operator_apply_options {
  * @return MW_OK; MW_ERROR_ARGUMENT for NULL, an unknown type or rule, or a stride less than count
  *         without a step; MW_CANCELLED, after which some results are written.
  *
- * Thread-safe. The result is the same, bit for bit, for any number of threads. Memory is allocated
- * for threads, and for fields that are stored one after another: from eight fields on 2.6 MB and a
- * byte for 256 columns for each thread, in which values are brought side by side. From four fields
- * on, if rows or columns are scattered, it is instead 64 bytes for each row and column, and 4 for
- * each column and entry. The operator keeps this memory for the next call until it is destroyed; of
- * calls at the same time each has 64 bytes for each row and column. If memory is not available, the
- * call takes longer.
+ * Thread-safe. The result is the same, bit for bit, for any number of threads. O(entries) for each
+ * field. Memory is allocated for threads, and for fields that are stored one after another, whose
+ * values are brought side by side: from eight fields on 2.6 MB and a byte for 256 columns for each
+ * thread. From four fields on, if rows or columns are scattered, it is instead 64 bytes for each
+ * row and column, and 4 for each column and entry. The operator keeps this memory for the next call
+ * until it is destroyed; of calls that run at the same time, each has its own 64 bytes for each row
+ * and column. If memory is not available, the call takes longer.
  */
 MW_API mw_status mw_operator_apply(const mw_operator *weights, const mw_value_table *table,
                                    const mw_operator_apply_options *options, void *result,

@@ -49,34 +49,36 @@ typedef struct mw_point_series_layout {
 typedef struct mw_point_series mw_point_series;
 
 /**
- * Begin a file.
+ * Begin a file of values over time.
  *
  * @param path    the file, not a pipe; it appears under its name only when it is complete
  * @param layout  what the file holds. Characters that CF does not allow in names become "_"
- * @param out     receives the output, owned by the caller (mw_point_series_close()); NULL on
- *                failure
+ * @param out     receives the output, owned by the caller (mw_point_series_close() releases it);
+ *                NULL on failure
  * @param error   NULL, or receives the message of a failure
  * @return MW_OK; MW_ERROR_ARGUMENT for NULL, or a pipe; MW_ERROR_SYSTEM if the file cannot be
  *         written or there is no libnetcdf; MW_ERROR_MEMORY.
  *
- * Thread-safe; libnetcdf serves one call at a time.
+ * Thread-safe; libnetcdf serves one call at a time. O(points + times).
  */
 MW_API mw_status mw_point_series_open(const char *path, const mw_point_series_layout *layout,
                                       mw_point_series **out, mw_error *error);
 
 /**
- * Write the values of a field at a step: one for each point, NaN where it is missing.
- * mw_point_series_close() reports a failure.
+ * Write the values of a field at a step. mw_point_series_close() reports a failure.
  *
  * @param output  the output
  * @param field   number of the field, from 0
  * @param step    number of the time, from 0; ignored for a track
- * @param values  one for each point
+ * @param values  one for each point; NaN: the value is missing
+ *
+ * One thread at a time may use an output. O(points).
  */
 MW_API void mw_point_series_write(mw_point_series *output, size_t field, size_t step,
                                   const double *values);
 
-/** 1 if a write has failed, so that a long job can stop early; else 0. */
+/** 1 if a write has failed, so that a long job can stop early; else 0. One thread at a time may use
+ * an output. O(1). */
 MW_API int mw_point_series_failed(const mw_point_series *output);
 
 /**
@@ -85,7 +87,10 @@ MW_API int mw_point_series_failed(const mw_point_series *output);
  * @param output  the output; NULL is allowed
  * @param commit  1: give the file its name; 0: remove it
  * @param error   NULL, or receives the first failure of a write
- * @return MW_OK; MW_ERROR_SYSTEM, and no file is left.
+ * @return MW_OK; MW_ERROR_SYSTEM if a write failed or the file cannot get its name: then no file
+ *         is left.
+ *
+ * One thread at a time may use an output.
  */
 MW_API mw_status mw_point_series_close(mw_point_series *output, int commit, mw_error *error);
 

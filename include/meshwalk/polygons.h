@@ -12,8 +12,8 @@
  *     count = mw_polygons_at(polygons, &points[2 * i], &locations[i], hits, capacity);
  *
  * Answers are exact, also where polygons overlap and rings cross. Nothing is rounded: a segment
- * that crosses others is not divided. In the few triangles that it passes through, the query
- * decides on which side of it the point lies.
+ * that crosses others is not divided. In the few triangles that such a segment passes through, the
+ * query decides on which side of the segment the point lies.
  */
 #ifndef MESHWALK_POLYGONS_H
 #define MESHWALK_POLYGONS_H
@@ -32,7 +32,7 @@ typedef struct mw_polygons mw_polygons;
 typedef struct mw_polygons_options {
     uint32_t threads;            /**< for the Delaunay triangulation; 0: one per processor */
     const mw_progress *progress; /**< progress and cancelling, see base.h; NULL: none */
-    uint32_t reserved[5];
+    uint32_t reserved[5];        /**< must be zero */
 } mw_polygons_options;
 
 /**
@@ -67,9 +67,15 @@ MW_API mw_status mw_polygons_create(const mw_constraints *rings, const mw_polygo
 /** Destroy polygons. NULL is allowed. */
 MW_API void mw_polygons_destroy(mw_polygons *polygons);
 
-/** The triangulation in which points are located. It fills the convex hull; its vertex i is point
- * i.
- * @return owned by the polygons. Thread-safe. */
+/**
+ * Give the triangulation in which points are located. It fills the convex hull; its vertex i is
+ * point i of the rings.
+ *
+ * @param polygons  the polygons
+ * @return the mesh, owned by the polygons.
+ *
+ * Thread-safe. O(1).
+ */
 MW_API const mw_mesh *mw_polygons_mesh(const mw_polygons *polygons);
 
 /** A polygon that a point lies in. */
@@ -99,8 +105,13 @@ MW_API size_t mw_polygons_at(const mw_polygons *polygons, const double point[2],
 /**
  * List the polygons whose own segments cross or overlap.
  *
- * @param polygons_found  room for `capacity` numbers, or NULL if that is 0; ascending
- * @return how many there are, which may be more than `capacity`. Thread-safe.
+ * @param polygons        the polygons
+ * @param polygons_found  receives at most `capacity` polygons, in ascending order; may be NULL if
+ *                        `capacity` is 0
+ * @param capacity        room in `polygons_found`
+ * @return how many there are, which may be more than `capacity`.
+ *
+ * Thread-safe. O(polygons).
  */
 MW_API size_t mw_polygons_crossing(const mw_polygons *polygons, uint32_t *polygons_found,
                                    size_t capacity);
@@ -114,7 +125,7 @@ typedef struct mw_polygons_info {
     size_t bytes;             /**< memory in bytes, without the mesh */
     uint32_t reserved[6];
 } mw_polygons_info;
-/** Fill `info` with the sizes of prepared polygons. O(1). */
+/** Fill `info` with the sizes of prepared polygons. Thread-safe. O(1). */
 MW_API void mw_polygons_describe(const mw_polygons *polygons, mw_polygons_info *info);
 
 #ifdef __cplusplus

@@ -7,11 +7,11 @@
  * determinant. If a coordinate is NaN or infinite, the result is 0.
  *
  * A floating-point filter decides nearly every call. Exact expansion arithmetic decides the others
- * [Shewchuk 1997], and big integers decide where coordinates leave the range of expansions, which
- * docs/promises.md states.
+ * [Shewchuk 1997]; big integers decide if coordinates leave the range of expansions
+ * (docs/promises.md states it).
  *
- * The rounding mode must be to nearest and subnormal numbers must not be flushed to zero; both hold
- * unless a program changes them. Thread-safe. No allocation.
+ * The rounding mode must be to nearest, and subnormal numbers must not be flushed to zero; both
+ * hold unless a program changes them.
  */
 #ifndef MESHWALK_PREDICATES_H
 #define MESHWALK_PREDICATES_H
@@ -23,33 +23,39 @@ extern "C" {
 #endif
 
 /**
- * On which side of a directed line a point lies.
+ * Decide on which side of a directed line a point lies [Shewchuk 1997].
  *
  * @param a, b  two points of the line: x, y
  * @param c     the point to test: x, y
  * @return positive if c lies to the left of the line from a to b, negative if to the right, 0 if on
  *         the line. The magnitude approximates twice the area of the triangle a b c.
+ *
+ * Thread-safe. No allocation. O(1).
  */
 MW_API double mw_orient2d(const double a[2], const double b[2], const double c[2]);
 
 /**
- * On which side of a plane a point lies.
+ * Decide on which side of a plane a point lies [Shewchuk 1997].
  *
  * @param a, b, c  three points of the plane: x, y, z
  * @param d        the point to test: x, y, z
  * @return positive if d lies on the side from which a, b, c appear counter-clockwise, negative if
  *         on the other side, 0 if in the plane. Shewchuk's orient3d has the opposite sign.
+ *
+ * Thread-safe. No allocation. O(1).
  */
 MW_API double mw_orient3d(const double a[3], const double b[3], const double c[3],
                           const double d[3]);
 
 /**
- * Whether a point lies inside a circle.
+ * Decide whether a point lies inside a circle [Shewchuk 1997].
  *
  * @param a, b, c  three points of the circle, counter-clockwise: x, y
  * @param d        the point to test: x, y
  * @return positive if d lies inside the circle, negative if outside, 0 if on it. For clockwise
  *         a, b, c the sign is reversed.
+ *
+ * Thread-safe. No allocation. O(1).
  */
 MW_API double mw_incircle(const double a[2], const double b[2], const double c[2],
                           const double d[2]);

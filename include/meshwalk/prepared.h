@@ -1,13 +1,14 @@
 /**
  * @file prepared.h
- * A mesh and its locator in a file that is mapped: ready for queries at once, and one copy in
- * memory for all processes of a machine.
+ * A mesh and its locator in a file that is mapped into memory. It is ready for queries at once, and
+ * all processes of a machine share one copy.
  *
  * mw_write_prepared() writes the file (.mwm), mw_mesh_map() maps it. Answers are those of the
- * locator that was written, bit for bit. The format is described in docs/prepared.md.
+ * locator that was written, bit for bit. docs/prepared.md describes the format.
  *
- * A map reads the file when it is needed. So a mapped file must not be changed in place: to replace
- * it, write a new one, which takes its name in one step; old maps keep the old file.
+ * A map reads parts of the file when a query needs them, so a mapped file must not be changed in
+ * place. To replace it, call mw_write_prepared() again with its name: the new file takes the name
+ * in one step, and old maps keep the old file.
  */
 #ifndef MESHWALK_PREPARED_H
 #define MESHWALK_PREPARED_H
@@ -25,10 +26,10 @@ extern "C" {
 
 /** Options of a prepared file. Zero-initialised options select the defaults. */
 typedef struct mw_prepare_options {
-    /** What to keep beside the mesh, such as the file it was read from: heights (as the field "z"),
-     * fields, triangle fields, faces, marked edges, coordinate system. It has the vertices and
-     * triangles of the mesh; its coordinates and vertex numbers are not read. NULL: the fields of
-     * the mesh. */
+    /** Values to keep beside the mesh, for instance those of the file that it was read from:
+     * heights (as the field "z"), fields, triangle fields, faces, marked edges, coordinate system.
+     * Its vertices and triangles are those of the mesh; their coordinates and numbers are not read.
+     * NULL: the fields of the mesh. */
     const mw_mesh_file *values;
     const mw_progress *progress; /**< progress and cancelling, see base.h; NULL: none */
     uint32_t reserved[4];        /**< must be zero */
@@ -57,7 +58,7 @@ MW_API mw_status mw_write_prepared(const mw_locator *locator, const char *path,
 typedef struct mw_tile_options {
     uint32_t tiles;   /**< how many; 0: one. At most as many as triangles with an area */
     uint32_t threads; /**< number of threads; 0: one per processor */
-    /** What to keep beside the mesh, as mw_prepare_options.values; faces and marked edges are not
+    /** Values to keep beside the mesh, as mw_prepare_options.values; faces and marked edges are not
      * kept. NULL: the fields of the mesh. */
     const mw_mesh_file *values;
     const mw_progress *progress; /**< progress and cancelling, see base.h; NULL: none */
@@ -66,12 +67,12 @@ typedef struct mw_tile_options {
 
 /**
  * Write a mesh as a folder of prepared files: tiles that are mapped one by one, for machines with
- * less memory than the mesh takes. meshwalk.Tiles of the Python module reads it.
+ * less memory than the mesh takes. meshwalk.Tiles of the Python module reads the folder.
  *
  * Each triangle with an area is in one tile; all tiles have about equally many. Flat triangles are
- * in every tile that touches them. An overview has the triangles with a vertex of the border, which
- * tell about points in no tile; tiles.json is the index. docs/prepared.md describes the files. They
- * are the same on all machines and for any number of threads.
+ * in every tile that touches them. Another file, the overview, has the triangles with a vertex on
+ * the border; it answers for points in no tile. tiles.json is the index. docs/prepared.md describes
+ * the files. They are the same on all machines and for any number of threads.
  *
  * @param locator  a locator of an embedding, whose pockets and holes are filled, not edited
  * @param folder   the folder to be made; it gets its name when it is complete
@@ -93,9 +94,9 @@ typedef struct mw_prepared mw_prepared;
 
 /** Options of a map. Zero-initialised options select the defaults. */
 typedef struct mw_map_options {
-    /** 1: check only the header, so that nothing else is read before it is needed. For files of
-     * your own: queries in a damaged file may crash. 0: check all checksums, and that the contents
-     * are a mesh in which every query ends. */
+    /** 1: check the header only, so that nothing else is read before a query needs it. Use this for
+     * files of your own: queries in a damaged file may crash. 0: check all checksums, and that the
+     * contents are a mesh in which every query ends. */
     int trust;
     uint32_t threads;            /**< number of threads of the check; 0: one per processor */
     const mw_progress *progress; /**< progress and cancelling, see base.h; NULL: none */
@@ -114,32 +115,34 @@ typedef struct mw_map_options {
  * @param error    NULL, or receives the message of a failure
  * @return MW_OK; MW_ERROR_SYSTEM if the file cannot be opened or mapped; MW_ERROR_INPUT if it is no
  *         prepared file, of another version or byte order, incomplete or damaged;
- *         MW_ERROR_ARGUMENT, MW_ERROR_MEMORY, MW_CANCELLED.
+ *         MW_ERROR_ARGUMENT for NULL; MW_ERROR_MEMORY, MW_CANCELLED.
  *
  * Thread-safe. O(n) for n triangles; with `trust` O(1), and memory for the names of fields only.
  */
 MW_API mw_status mw_mesh_map(const char *path, const mw_map_options *options, mw_prepared **out,
                              mw_error *error);
-/** Unmap a file. Nothing of its mesh and locator may be used any more. NULL is allowed. */
+/** Unmap a file. Its mesh and its locator must not be used afterwards. NULL is allowed. */
 MW_API void mw_prepared_close(mw_prepared *prepared);
 
-/** The mesh of a map, owned by the map. Fields may be set (mw_mesh_set_field()), which does not
- * change the file. Not to be destroyed. O(1). */
+/** The mesh of a map, owned by the map; do not destroy it. Setting its fields with
+ * mw_mesh_set_field() does not change the file. Thread-safe. O(1). */
 MW_API mw_mesh *mw_prepared_mesh(mw_prepared *prepared);
 
-/** The locator of a map, owned by the map: as safe to share as any other. Not to be destroyed.
- * O(1). */
+/** The locator of a map, owned by the map; do not destroy it. Any number of threads may query it.
+ * Thread-safe. O(1). */
 MW_API const mw_locator *mw_prepared_locator(const mw_prepared *prepared);
 
-/** What is kept beside the mesh, owned by the map: fields (heights as "z"), triangle fields, faces,
- * marked edges, coordinate system. `points` and `triangles` are NULL, since the mesh has them. Not
- * to be changed or released. O(1). */
+/** The values that a map keeps beside the mesh: fields (heights as "z"), triangle fields, faces,
+ * marked edges, coordinate system. `points` and `triangles` are NULL, since the mesh has them.
+ * Owned by the map; do not change or release them. Thread-safe. O(1). */
 MW_API const mw_mesh_file *mw_prepared_values(const mw_prepared *prepared);
 
 /** What a map knows of its file. */
 typedef struct mw_prepared_info {
-    uint64_t bytes;         /**< size of the file */
-    uint64_t checksum;      /**< of the header, which has those of all parts: names the contents */
+    uint64_t bytes; /**< size of the file */
+    /** Checksum of the header. The header has the checksums of all parts, so this number
+     * identifies the contents. */
+    uint64_t checksum;
     double low[2], high[2]; /**< extent of the vertices of triangles with an area */
     uint32_t version;       /**< of the format */
     int border;             /**< 1: with the index of the border */
@@ -147,11 +150,17 @@ typedef struct mw_prepared_info {
     uint32_t reserved;
 } mw_prepared_info;
 
-/** Fill `info`. O(1). */
+/** Fill `info` with the sizes and the version of a map. Thread-safe. O(1). */
 MW_API void mw_prepared_describe(const mw_prepared *prepared, mw_prepared_info *info);
 
-/** 1 if a file begins like a prepared file, damaged or not; 0 if not, if it cannot be opened, or
- * for "-". Thread-safe. */
+/**
+ * Decide whether a file begins like a prepared file, damaged or not.
+ *
+ * @param path  the file
+ * @return 1; 0 also if the file cannot be opened, and for "-".
+ *
+ * Thread-safe. O(1).
+ */
 MW_API int mw_prepared_known(const char *path);
 
 #ifdef __cplusplus

@@ -10,11 +10,12 @@
  *
  * Two modes exist.
  * - *As published*: walks over the surface along planes through the line, from a few first
- *   triangles. Fast, and needs nothing but the surface. A reported touch is a touch, the first
- *   that was found. Without one the state is MW_TOUCH_LIMIT: there may still be one.
+ *   triangles. Fast, and needs nothing but the surface. The answer is the first touch that a walk
+ *   finds. If no walk finds one, the state is MW_TOUCH_LIMIT: the line may touch the surface all
+ *   the same.
  * - *Certain*: complete. Of several touches the answer is the one with the smallest absolute
- *   distance, then with the lowest triangle. MW_TOUCH_NONE means that there is none. Needs boxes
- *   over the triangles (mw_prober_options.boxes).
+ *   distance, then with the lowest triangle. MW_TOUCH_NONE means that the line touches nothing.
+ *   Needs boxes over the triangles (mw_prober_options.boxes).
  */
 #ifndef MESHWALK_PROBE_H
 #define MESHWALK_PROBE_H
@@ -35,7 +36,7 @@ typedef struct mw_prober_options {
     uint32_t threads;            /**< threads that build the boxes; 0: one per processor */
     const mw_progress *progress; /**< progress and cancelling, see base.h; NULL: none */
     /** 1: make a guide, a coarse grid that leads walks to their first triangle (2 bytes a
-     * triangle). It is made once, and stays good while the surface changes its shape little. */
+     * triangle). It is made once: if the surface changes its shape much, walks get longer. */
     int guide;
     uint32_t reserved[3]; /**< must be zero */
 } mw_prober_options;
@@ -60,15 +61,15 @@ MW_API void mw_prober_destroy(mw_prober *prober);
 /**
  * Bring the boxes up to date with a changed surface, during its update. Not needed without boxes.
  *
- * Until this is done, certain probes return MW_TOUCH_BAD. After edits (surface_edit.h) that the
- * boxes did not follow, they are made anew, in O(n log n); if memory runs out, they stay out of
- * date.
+ * Until this is done, certain probes return MW_TOUCH_BAD. If the surface was edited
+ * (surface_edit.h) and the prober was not attached to the editor, the boxes are made anew, in
+ * O(n log n); if memory runs out, they stay out of date.
  *
  * @param prober   the prober
  * @param moved    an upper bound of the distance that any vertex moved since the last update: the
  *                 boxes are enlarged by it, in O(1), and fitted again when the sum of enlargements
- *                 becomes too large. Negative or NaN: unknown, fit now, O(n). Use that after flips
- *                 of edges.
+ *                 becomes too large. Negative or NaN: the bound is unknown, and the boxes are
+ *                 fitted now, in O(n); use this after flips of edges
  * @param threads  number of threads; 0: one per processor
  *
  * Not thread-safe.
@@ -79,12 +80,12 @@ MW_API void mw_prober_update(mw_prober *prober, double moved, uint32_t threads);
 typedef struct mw_prober_info {
     size_t bytes;       /**< memory in bytes, without the surface */
     size_t box_bytes;   /**< of these, for the boxes */
-    size_t guide_bytes; /**< and for the guide */
+    size_t guide_bytes; /**< of these, for the guide */
     uint64_t fits;      /**< how often the boxes were fitted */
     double fit_seconds; /**< how long the last fit took */
 } mw_prober_info;
 
-/** Fill `info` with the sizes of a prober. O(1). */
+/** Fill `info` with the sizes of a prober. O(1). Not thread-safe while mw_prober_update() runs. */
 MW_API void mw_prober_describe(const mw_prober *prober, mw_prober_info *info);
 
 /** The outcome of a probe. */
@@ -96,7 +97,8 @@ typedef enum mw_touch_state {
     MW_TOUCH_STATE_COUNT
 } mw_touch_state;
 
-/** "hit", "none", "limit" or "bad"; NULL for any other number. */
+/** The name of an outcome: "hit", "none", "limit" or "bad"; NULL for any other number. Thread-safe.
+ * O(1). */
 MW_API const char *mw_touch_state_name(mw_touch_state state);
 
 /** What a probe touched. */
@@ -132,18 +134,20 @@ typedef enum mw_probe_start {
     MW_PROBE_START_COUNT
 } mw_probe_start;
 
-/** "auto", "last", "sample" or "random"; NULL for any other number. */
+/** The name of a start: "auto", "last", "sample" or "random"; NULL for any other number.
+ * Thread-safe. O(1). */
 MW_API const char *mw_probe_start_name(mw_probe_start start);
 
 /** Which faces of triangles count. */
 typedef enum mw_probe_faces {
     MW_PROBE_FRONT = 0, /**< triangles at whose front the motion points */
-    MW_PROBE_BACK,      /**< at whose back */
-    MW_PROBE_BOTH,      /**< either */
+    MW_PROBE_BACK,      /**< triangles at whose back the motion points */
+    MW_PROBE_BOTH,      /**< all triangles */
     MW_PROBE_FACES_COUNT
 } mw_probe_faces;
 
-/** "front", "back" or "both"; NULL for any other number. */
+/** The name of a choice of faces: "front", "back" or "both"; NULL for any other number.
+ * Thread-safe. O(1). */
 MW_API const char *mw_probe_faces_name(mw_probe_faces faces);
 
 /** Which part of the line through q along m counts. */
@@ -156,7 +160,8 @@ typedef enum mw_probe_extent {
     MW_PROBE_EXTENT_COUNT
 } mw_probe_extent;
 
-/** "line", "ray" or "segment"; NULL for any other number. */
+/** The name of an extent: "line", "ray" or "segment"; NULL for any other number. Thread-safe.
+ * O(1). */
 MW_API const char *mw_probe_extent_name(mw_probe_extent extent);
 
 /** How to answer probes. Zero-initialised options select the defaults. */
@@ -176,11 +181,10 @@ typedef struct mw_probe_options {
     uint64_t seed;               /**< seed of random choices */
     int counters;                /**< 1: count what probes do */
     const mw_progress *progress; /**< progress and cancelling, see base.h; NULL: none */
-    /** What is nearer to q than this does not count; mesh units. Certain probes only, as the two
-     * that follow. */
+    /** Touches nearer to q than this do not count; mesh units. Certain probes only. */
     double min_distance;
-    mw_probe_faces faces;
-    mw_probe_extent extent;
+    mw_probe_faces faces;   /**< certain probes only */
+    mw_probe_extent extent; /**< certain probes only */
     /** 1: of several triangles that a probe touches at one place, exactly, only the lowest counts:
      * a line through an edge touches once there. mw_probe_all_batch() only. */
     uint32_t one_per_place;
@@ -198,7 +202,8 @@ typedef struct mw_probe_counters {
     uint64_t boxes, box_triangles; /**< certain mode: boxes tested, and triangles in them */
 } mw_probe_counters;
 
-/** Add `more` to `sum`, for instance the counts of several threads. */
+/** Add `more` to `sum`, for instance the counts of several threads. Thread-safe on different sums.
+ * O(1). */
 MW_API void mw_probe_counters_add(mw_probe_counters *sum, const mw_probe_counters *more);
 
 /**
@@ -239,16 +244,18 @@ MW_API mw_status mw_probe_cursor_init(const mw_prober *prober, const mw_probe_op
  * @return what the probe touches.
  *
  * Thread-safe with one cursor per thread. No allocation. With mw_probe_options.race the call
- * creates that many threads, fewer if the system refuses them.
+ * creates that many threads, fewer if the system refuses them. Time: the walks; certain probes
+ * O(log n) typically. Source: [thesis App. G].
  */
 MW_API mw_touch mw_probe(const mw_prober *prober, mw_probe_cursor *cursor, const double point[3],
                          const double motion[3]);
 
 /**
- * Does a probe touch anything? Faster than mw_probe(), since the first touch found is enough.
+ * Decide whether a probe touches anything. Faster than mw_probe(), since the first touch found is
+ * enough.
  *
- * Always complete, as certain probes. With MW_PROBE_SEGMENT: is the straight way from q to m
- * blocked?
+ * The answer is always complete, as of certain probes. With MW_PROBE_SEGMENT it tells whether the
+ * straight way from q to m is blocked.
  *
  * @param prober  a prober with boxes
  * @param cursor  a cursor of this prober, whose options tell what counts
@@ -263,7 +270,7 @@ MW_API mw_touch_state mw_probe_any(const mw_prober *prober, mw_probe_cursor *cur
                                    const double point[3], const double motion[3]);
 
 /**
- * All triangles that a probe touches, in their order along m. Exact and complete.
+ * List all triangles that a probe touches, in their order along m. Exact and complete.
  *
  * The order is that of the signed distance; triangles touched at the same place are ordered by
  * their numbers. A line through an edge or a vertex touches all triangles there.
@@ -300,16 +307,18 @@ MW_API size_t mw_probe_all(const mw_prober *prober, mw_probe_cursor *cursor, con
  * @param touches   receives n answers; unspecified on failure
  * @param counters  NULL, or receives the sums over the batch (if enabled by the options)
  * @param error     NULL, or receives the message of a failure
- * @return MW_OK; MW_ERROR_ARGUMENT as mw_probe_cursor_init(); MW_ERROR_MEMORY, MW_CANCELLED.
+ * @return MW_OK; MW_ERROR_ARGUMENT for NULL, a stride below 6, and as mw_probe_cursor_init();
+ *         MW_ERROR_MEMORY, MW_CANCELLED.
  *
- * Thread-safe.
+ * Thread-safe. Time: n probes, as mw_probe().
  */
 MW_API mw_status mw_probe_batch(const mw_prober *prober, const double *queries, size_t n,
                                 size_t stride, const mw_probe_options *options, mw_touch *touches,
                                 mw_probe_counters *counters, mw_error *error);
 
 /**
- * Do n probes touch anything? Faster than mw_probe_batch(), since the first touch found is enough.
+ * Decide for n probes whether they touch anything. Faster than mw_probe_batch(), since the first
+ * touch found is enough.
  *
  * @param prober    a prober with boxes
  * @param queries   as for mw_probe_batch()
@@ -339,7 +348,7 @@ typedef struct mw_touch_lists {
 } mw_touch_lists;
 
 /**
- * All triangles that n probes touch, those of each probe in their order along its motion.
+ * List all triangles that n probes touch: for each probe in their order along its motion.
  *
  * @param prober    a prober with boxes
  * @param queries   as for mw_probe_batch()
@@ -364,13 +373,13 @@ MW_API mw_status mw_probe_all_batch(const mw_prober *prober, const double *queri
 MW_API void mw_touch_lists_release(mw_touch_lists *lists);
 
 /**
- * The triangles that the walks of one probe visit, in order. The query runs without a race.
+ * List the triangles that the walks of one probe visit, in order. The query runs without a race.
  *
  * Within a walk each triangle is linked to the previous one; where a border turned the walk back,
  * to the walk's first triangle. In certain mode the boxes answer. The only walk then is a short
- * one, of at most 64 triangles, from the triangle touched last; it need not contain the answer. It
- * is missing if nothing was touched yet, if m does not point at that triangle's front, or if the
- * start is SAMPLE or RANDOM.
+ * one, of at most 64 triangles, from the triangle touched last; it need not contain the answer.
+ * There is no such walk if nothing was touched yet, if m does not point at that triangle's front,
+ * or if the start is SAMPLE or RANDOM.
  *
  * @param prober     the prober
  * @param cursor     a cursor of this prober
@@ -382,7 +391,7 @@ MW_API void mw_touch_lists_release(mw_touch_lists *lists);
  * @param touch      NULL, or receives the answer
  * @return how many triangles were visited, also if `capacity` is less.
  *
- * Thread-safe with one cursor per thread.
+ * Thread-safe with one cursor per thread. No allocation. Time: as mw_probe().
  */
 MW_API size_t mw_probe_path(const mw_prober *prober, mw_probe_cursor *cursor, const double point[3],
                             const double motion[3], uint32_t *triangles, uint32_t *iteration,
@@ -391,15 +400,15 @@ MW_API size_t mw_probe_path(const mw_prober *prober, mw_probe_cursor *cursor, co
 /**
  * The point of a surface nearest to a point: the proxy of haptic rendering.
  *
- * The point is rounded to its own coordinates and lies in the box round its triangle; a corner is
- * exact.
+ * Each coordinate of the point is rounded. The point lies in the box round its triangle; if it is a
+ * corner, it is exact.
  */
 typedef struct mw_nearest_surface_point {
     /** The caller's number; MW_NONE if the query is not finite or no usable triangle is in reach.
      */
     uint32_t triangle;
-    /** In mesh units; infinite beyond the largest double. NaN, as what follows, without a
-     * triangle. */
+    /** In mesh units; infinite beyond the largest double. Without a triangle this number and those
+     * below are NaN. */
     double distance;
     double point[3];  /**< x, y, z */
     double weight[3]; /**< barycentric weights of the point in its triangle */
@@ -472,11 +481,12 @@ typedef enum mw_surface_side {
     MW_SURFACE_SIDE_COUNT
 } mw_surface_side;
 
-/** "outside", "inside", "on" or "bad"; NULL for any other number. */
+/** The name of a side: "outside", "inside", "on" or "bad"; NULL for any other number. Thread-safe.
+ * O(1). */
 MW_API const char *mw_surface_side_name(mw_surface_side side);
 
 /**
- * Which points are inside of a closed surface? Exact.
+ * Decide which points are inside a closed surface. Exact.
  *
  * A point is inside if a ray from it meets an odd number of triangles. The surface may have several
  * components, one in another, may touch or cross itself, and its triangles may have any

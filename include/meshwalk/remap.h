@@ -16,10 +16,10 @@
  * Areas are those of the plane, in units of the coordinates. With `degrees` the coordinates are
  * longitudes and latitudes, and areas are those of the unit sphere, in steradians as in ESMF's
  * files; edges are straight in longitude and latitude. Longitudes that differ by whole turns are
- * the same: a mesh from 170 to 190 degrees meets a raster from -180 to 180 at both of its ends. The
- * hat functions of vertices are then
- * weighted by the area of each common part as a whole. Sums are conserved, but the integral of a
- * hat function ignores how the cosine of the latitude varies within a triangle.
+ * the same: a mesh from 170 to 190 degrees meets a raster from -180 to 180 at both of its ends.
+ * With `degrees`, the hat function of a vertex is weighted by the area of each common part as a
+ * whole: sums are conserved, but the weights ignore how the cosine of the latitude varies within a
+ * triangle.
  */
 #ifndef MESHWALK_REMAP_H
 #define MESHWALK_REMAP_H
@@ -80,9 +80,9 @@ typedef struct mw_remap {
  * @param error    NULL, or receives the message of a failure
  * @return MW_OK, also if nothing overlaps; MW_ERROR_ARGUMENT for NULL, a locator whose pockets and
  *         holes are open or whose mesh is not an embedding, or a cell number out of range;
- *         MW_ERROR_INPUT for latitudes beyond 90 degrees, longitudes beyond 720 or that go round
- *         the sphere more than once, and a triangle whose longitudes differ by more than 180
- *         degrees, as one across the meridian of 180 may: mw_seam_cut() cuts it; MW_ERROR_LIMIT for
+ *         MW_ERROR_INPUT for latitudes beyond 90 degrees, longitudes beyond 720, longitudes that go
+ *         round the sphere more than once, and a triangle whose longitudes differ by more than 180
+ *         degrees (mw_seam_cut() cuts a mesh that crosses the meridian of 180); MW_ERROR_LIMIT for
  *         coordinates of 2^300 and more; MW_ERROR_MEMORY, MW_CANCELLED.
  *
  * Thread-safe. The result is the same, bit for bit, for any number of threads. Time is proportional
@@ -104,7 +104,7 @@ MW_API mw_status mw_remap_to_mesh(const mw_remap_mesh *source, const mw_remap_me
  * @return as mw_remap_to_mesh(); MW_ERROR_ARGUMENT also for pixels without a size; MW_ERROR_LIMIT
  *         for 2^32 - 1 or more pixels, or pixels too small for their coordinates.
  *
- * Thread safety and cost as mw_remap_to_mesh().
+ * Thread-safe. Time and memory: as mw_remap_to_mesh().
  */
 MW_API mw_status mw_remap_to_pixels(const mw_remap_mesh *source, const mw_remap_pixels *target,
                                     const mw_remap_options *options, mw_remap *remap,
@@ -114,25 +114,26 @@ MW_API mw_status mw_remap_to_pixels(const mw_remap_mesh *source, const mw_remap_
 MW_API void mw_remap_release(mw_remap *remap);
 
 /**
- * A mesh of longitudes and latitudes in pieces that lie in the plane: mw_seam_cut(). Release with
- * mw_seam_pieces_release().
+ * A mesh of longitudes and latitudes, cut by mw_seam_cut() into pieces that lie in the plane.
+ * Release with mw_seam_pieces_release().
  */
 typedef struct mw_seam_pieces {
     double *points;      /**< x, y of each vertex, packed: those of the mesh, then new ones */
     uint32_t *triangles; /**< 3 vertices of each piece */
     uint32_t *faces;     /**< of each piece, the face of the mesh that it is a part of */
     size_t point_count, triangle_count;
-    /** What a field has at `points`, from what it has at the mesh's vertices: a row for each of the
-     * former, a column for each of the latter (mw_operator_apply()). */
+    /** Turns values at the mesh's vertices into values at `points` (mw_operator_apply()): a column
+     * for each vertex of the mesh, a row for each of `points`. */
     mw_operator *values;
-    double west; /**< longitudes of the pieces are from here to 360 degrees more: -180 or 0 */
+    double west; /**< -180 or 0: longitudes of the pieces are from west to west + 360 */
 } mw_seam_pieces;
 
 /**
- * Does a triangle have longitudes that differ by more than 180 degrees, or a pole as a vertex? Then
- * the mesh has to be cut before it is remapped.
+ * Decide whether a mesh of longitudes and latitudes must be cut by mw_seam_cut() before it is
+ * remapped: whether a triangle has longitudes that differ by more than 180 degrees, or a pole as a
+ * vertex.
  *
- * @param mesh  longitudes and latitudes, in degrees; numbers of type uint32_t that exist
+ * @param mesh  longitudes and latitudes, in degrees; vertex numbers of type uint32_t, not checked
  * @return 1 or 0; 0 if a coordinate is not finite.
  *
  * Thread-safe. O(n).
@@ -144,16 +145,16 @@ MW_API int mw_seam_crosses(const mw_arrays *mesh);
  * if no longitude is negative, and at the poles, so that it can be remapped with `degrees`.
  *
  * Edges are straight in longitude and latitude, and go the short way round. A triangle with a pole
- * as a vertex, and a face with one inside, reaches up to the latitude of the pole over all its
- * longitudes. At the pole a field has what it has at that vertex, and inside of a face the mean of
- * the vertices round the face.
+ * as a vertex, or a face with a pole inside, reaches up to the latitude of the pole over all its
+ * longitudes. The value of a field at the pole is the value of that vertex, or the mean of the
+ * vertices round that face.
  *
  * @param mesh    longitudes from -180 to 180 or from 0 to 360, and latitudes; numbers of type
  *                uint32_t
- * @param faces   the face of each triangle; those of a face follow each other. NULL: each triangle
- *                is one
- * @param pieces  receives the pieces, which lie in the plane if the mesh's triangles do not overlap
- *                with such edges; empty on failure
+ * @param faces   the face of each triangle; the triangles of a face follow each other. NULL: each
+ *                triangle is a face
+ * @param pieces  receives the pieces, an embedding if the mesh's triangles do not overlap with
+ *                such edges; empty on failure
  * @param error   NULL, or receives the message of a failure
  * @return MW_OK; MW_ERROR_ARGUMENT for NULL or numbers of another type; MW_ERROR_INPUT for a
  *         vertex that does not exist or is not finite, and for longitudes out of range;

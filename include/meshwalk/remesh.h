@@ -1,7 +1,7 @@
 /**
  * @file remesh.h
- * Spherical remeshing: a star-shaped polyhedron sampled anew where rays from its centre meet it,
- * and how far two surfaces are apart.
+ * Spherical remeshing: sample a star-shaped polyhedron where rays from its centre meet it, and
+ * measure how far two surfaces are apart.
  *
  *     mw_icosphere_size(8, &vertices, &triangles, NULL);
  *     (allocate points, corners and locations)
@@ -25,7 +25,7 @@ extern "C" {
 #define MW_ICOSPHERE_MAX_LEVEL 12
 
 /**
- * The size of an icosphere: an icosahedron whose triangles were cut into four `level` times.
+ * Tell the size of an icosphere: an icosahedron whose triangles were cut into four, `level` times.
  *
  * @param level      0 to MW_ICOSPHERE_MAX_LEVEL
  * @param vertices   receives 10 * 4^level + 2
@@ -70,11 +70,11 @@ MW_API mw_status mw_icosphere_create(uint32_t level, const mw_remesh_options *op
  * Sample a star-shaped polyhedron on an icosphere about its centre.
  *
  * Vertex i is the point at which the ray from the centre through c + r * p meets the polyhedron: c
- * is the centre, p point i of mw_icosphere_create(), and r a power of two, at least 1 and half of
- * the centre's largest coordinate. That sum is rounded, and defines the ray exactly; about the
- * origin it is p. The meeting point is exact, each coordinate rounded once (mw_star_project()). So
- * the vertices lie on the polyhedron up to that rounding; edges and corners of the polyhedron are
- * cut off between them.
+ * is the centre, p point i of mw_icosphere_create(), and r a power of two, at least 1 and at least
+ * half of the centre's largest coordinate. The sum c + r * p is rounded, and defines the ray
+ * exactly; if the centre is the origin, it is p. The meeting point is exact, each coordinate
+ * rounded once (mw_star_project()). So the vertices lie on the polyhedron up to that rounding;
+ * edges and corners of the polyhedron between the vertices are cut off.
  *
  * @param star       the star
  * @param level      0 to MW_ICOSPHERE_MAX_LEVEL
@@ -114,16 +114,16 @@ typedef struct mw_deviation {
  * Measure how far a surface is from another one, by the nearest points of samples [Cignoni,
  * Rocchini, Scopigno 1998].
  *
- * Each triangle is cut into f * f equal pieces, none of which is much larger than the mean triangle
- * of the other surface (f is 64 at most). Samples are the corners of the pieces and their
- * centroids, rounded. The mean counts each piece by its area: three quarters of its centroid's
- * distance, and a twelfth of that of each corner, which is exact where the distance is a polynomial
- * of degree two.
+ * Each triangle is cut into f * f equal pieces. f is chosen so that no piece is much larger than
+ * the mean triangle of the other surface, and is at most 64. Samples are the corners of the pieces
+ * and their centroids, rounded. The mean weights each piece by its area; in a piece the centroid's
+ * distance counts three quarters, and each corner's a twelfth. That is exact where the distance is
+ * a polynomial of degree two.
  *
- * `at_most` is the larger for all pieces of a bound: the distance from one triangle is a convex
- * function, so no point of a piece is farther from the triangle nearest to its centroid than its
- * farthest corner is; nor is one farther than a corner's or the centroid's distance and the way
- * there.
+ * `at_most` is the largest bound of a piece. A piece has two bounds, and the smaller one counts.
+ * The first: the distance from one triangle is a convex function, so no point of the piece is
+ * farther from the triangle nearest to the centroid than the farthest corner. The second: no point
+ * is farther than the largest distance of a corner, plus the way to the nearest corner.
  *
  * This is one direction only: call it once more with the surfaces exchanged. The larger of the two
  * `largest` is a lower bound of the Hausdorff distance, the larger of the two `at_most` an upper

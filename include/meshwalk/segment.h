@@ -61,7 +61,7 @@ typedef struct mw_segment {
     uint8_t local; /* edge or vertex of that tile */
     uint8_t phase; /* what is reached */
     uint8_t gap;   /* 1: the last part was in no triangle */
-    uint8_t held;  /* 1: `piece` is to come */
+    uint8_t held;  /* 1: `piece` is the next result */
     uint8_t reserved[8];
     mw_segment_piece piece;
 } mw_segment;
@@ -94,19 +94,20 @@ MW_API mw_status mw_segment_begin(const mw_locator *locator, mw_cursor *cursor, 
  * @return MW_OK; MW_ERROR_ARGUMENT for NULL; MW_ERROR_INPUT if a coordinate is not finite: then the
  *         walk is unchanged.
  *
- * No allocation.
+ * Thread-safe on different walks. No allocation. Time: as mw_segment_begin(), but without the walk
+ * to the first triangle.
  */
 MW_API mw_status mw_segment_continue(mw_segment *segment, const double b[2], mw_error *error);
 
 /**
- * The next piece of a segment.
+ * Find the next piece of a segment.
  *
  * @param segment  a walk
  * @param piece    receives the piece; unchanged at the end
  * @return 1, or 0 at the end.
  *
- * No allocation. O(1) for each triangle, ghost triangles of pockets and holes included; at a vertex
- * on the segment, proportional to its degree.
+ * Thread-safe on different walks. No allocation. O(1) for each triangle, ghost triangles of pockets
+ * and holes included; at a vertex on the segment, proportional to its degree.
  */
 MW_API int mw_segment_next(mw_segment *segment, mw_segment_piece *piece);
 
@@ -127,7 +128,7 @@ typedef struct mw_segment_pieces {
 } mw_segment_pieces;
 
 /**
- * The pieces of n segments.
+ * List the pieces of n segments.
  *
  * @param locator   as for mw_segment_begin()
  * @param segments  x, y of the beginning and x, y of the end of segment i at segments[i * stride]
@@ -141,7 +142,8 @@ typedef struct mw_segment_pieces {
  * @return MW_OK, also if a coordinate is not finite (bad_count); MW_ERROR_ARGUMENT for NULL, a
  *         stride of 1 or 3, and as mw_segment_begin(); MW_ERROR_MEMORY, MW_CANCELLED.
  *
- * Thread-safe. A segment that begins where the one before it ends starts in the triangle reached.
+ * Thread-safe. Time: proportional to the triangles that the segments pass, and a query for each
+ * segment that does not begin where the previous one ends.
  */
 MW_API mw_status mw_segment_batch(const mw_locator *locator, const double *segments, size_t n,
                                   size_t stride, const mw_segment_options *options,
@@ -150,7 +152,7 @@ MW_API mw_status mw_segment_batch(const mw_locator *locator, const double *segme
 MW_API void mw_segment_pieces_release(mw_segment_pieces *pieces);
 
 /**
- * Where a piece begins or ends: the point, and its weights for interpolation.
+ * Compute the point where a piece begins or ends, and its weights for interpolation.
  *
  * A field interpolated by these weights has the same value, bit for bit, on both pieces that meet
  * at a point, because both use only the vertices of the edge or vertex between them. Exception: a

@@ -82,7 +82,7 @@ typedef struct mw_series_options {
  * "vel_max"; the mesh is in fort.14. SMS .dat, text and binary: one dataset over the vertices of a
  * .2dm, or over its faces if the name of the file contains "_els"; a vector becomes "NAME_x" and
  * "NAME_y"; flags of dry elements are skipped. Files of these kinds are read once for their times.
- * Reading a step before the latest one starts again at the beginning of the file. One step of all
+ * To read a step before the latest one, the file is read again from its beginning. One step of all
  * fields is kept in memory.
  *
  * @param path     the file; a file compressed by gzip is decompressed in memory
@@ -94,17 +94,30 @@ typedef struct mw_series_options {
  *         together; MW_ERROR_SYSTEM, also if libnetcdf is not found; MW_ERROR_ARGUMENT,
  *         MW_ERROR_MEMORY
  *
- * Thread-safe. Reads the times, but no values.
+ * Thread-safe; libnetcdf serves one call at a time. O(times) for netCDF, else O(size of the file).
  */
 MW_API mw_status mw_series_open(const char *path, const mw_series_options *options, mw_series **out,
                                 mw_error *error);
 
-/** Describe what a series holds.
- * @return owned by the series, never NULL. Thread-safe. */
+/**
+ * Describe what a series holds.
+ *
+ * @param series  the series
+ * @return the description, owned by the series, never NULL.
+ *
+ * Thread-safe. O(1).
+ */
 MW_API const mw_series_info *mw_series_describe(const mw_series *series);
 
-/** Find a field by its name.
- * @return its number, from 0; SIZE_MAX = there is none. Thread-safe. */
+/**
+ * Find a field by its name.
+ *
+ * @param series  the series
+ * @param name    the name, not NULL
+ * @return the number of the field, from 0; SIZE_MAX if no field has that name.
+ *
+ * Thread-safe. O(fields).
+ */
 MW_API size_t mw_series_find(const mw_series *series, const char *name);
 
 /**
@@ -118,8 +131,8 @@ MW_API size_t mw_series_find(const mw_series *series, const char *name);
  * @return MW_OK; MW_ERROR_ARGUMENT: no such field or step; MW_ERROR_INPUT, MW_ERROR_SYSTEM,
  *         MW_ERROR_MEMORY
  *
- * One thread at a time may read from one series. O(value_count) time. Allocates buffers for reading
- * only.
+ * One thread at a time may read from one series. O(value_count), but for an earlier step of a file
+ * that is not netCDF O(size of the file).
  */
 MW_API mw_status mw_series_read(mw_series *series, size_t field, size_t step, double *values,
                                 mw_error *error);

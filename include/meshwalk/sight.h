@@ -85,9 +85,9 @@ MW_API mw_status mw_viewpoint_init(const mw_locator *locator, const double *heig
                                    const mw_sight_end *from, mw_viewpoint *view, mw_error *error);
 
 /**
- * Is a target visible from a viewpoint?
+ * Decide whether a target is visible from a viewpoint.
  *
- * @param view  the viewpoint; it remembers where targets are, for speed only
+ * @param view  the viewpoint; it remembers where the last target was, for speed only
  * @param to    the target
  * @return the line of sight.
  *

@@ -36,21 +36,22 @@ typedef enum mw_star_start_kind {
     MW_STAR_START_COUNT
 } mw_star_start_kind;
 
-/** The name of a walk, as on the command line; NULL for any other number. */
+/** The name of a walk, as on the command line; NULL for any other number. Thread-safe. O(1). */
 MW_API const char *mw_star_walk_name(mw_star_walk_kind walk);
-/** Where a walk was published, "Authors Year"; NULL for any other number. */
+/** Where a walk was published, "Authors Year"; NULL for any other number. Thread-safe. O(1). */
 MW_API const char *mw_star_walk_source(mw_star_walk_kind walk);
-/** One line of help for a walk; NULL for any other number. */
+/** One line of help for a walk; NULL for any other number. Thread-safe. O(1). */
 MW_API const char *mw_star_walk_help(mw_star_walk_kind walk);
-/** The name of a start, as on the command line; NULL for any other number. */
+/** The name of a start, as on the command line; NULL for any other number. Thread-safe. O(1). */
 MW_API const char *mw_star_start_name(mw_star_start_kind start);
-/** One line of help for a start; NULL for any other number. */
+/** One line of help for a start; NULL for any other number. Thread-safe. O(1). */
 MW_API const char *mw_star_start_help(mw_star_start_kind start);
-/** 1 if a start needs an index (mw_star_index_create()); 0 if not, or for any other number. */
+/** 1 if a start needs an index (mw_star_index_create()); 0 if not, or for any other number.
+ * Thread-safe. O(1). */
 MW_API int mw_star_start_has_index(mw_star_start_kind start);
-/** The walk with a name (not NULL); MW_STAR_WALK_COUNT if there is none. */
+/** The walk with a name (not NULL); MW_STAR_WALK_COUNT if there is none. Thread-safe. O(1). */
 MW_API mw_star_walk_kind mw_star_walk_by_name(const char *name);
-/** The start with a name (not NULL); MW_STAR_START_COUNT if there is none. */
+/** The start with a name (not NULL); MW_STAR_START_COUNT if there is none. Thread-safe. O(1). */
 MW_API mw_star_start_kind mw_star_start_by_name(const char *name);
 
 /** A surface prepared for rays from a centre. Opaque; any number of threads may query one star. */
@@ -64,11 +65,11 @@ typedef struct mw_star_options {
     int angles;
     uint32_t threads;            /**< threads that prepare the star; 0: one per processor */
     const mw_progress *progress; /**< progress and cancelling, see base.h; NULL: none */
-    /** 1: keep nothing but the centre: rays walk on the surface's own triangles, as the thesis has
-     * it. The star takes a few hundred bytes, whatever the surface; see mw_star_create(). */
+    /** 1: keep nothing but the centre. Rays then walk on the surface's own triangles, as in the
+     * thesis, and the star takes a few hundred bytes; see mw_star_create(). */
     int borrow;
-    /** With `borrow`, 1: trust that the surface is star-shaped, now and after every change. Then
-     * making the star takes O(1), and it needs no update. */
+    /** With `borrow`, 1: trust that the surface is star-shaped, now and after every change.
+     * Creating the star then takes O(1), and the star needs no update. */
     int unchecked;
     uint32_t reserved[2]; /**< must be zero */
 } mw_star_options;
@@ -89,14 +90,14 @@ typedef struct mw_star_options {
  *         (the error names one offending facet; mw_star_check_arrays() finds all);
  *         MW_ERROR_ARGUMENT for NULL or a centre that is not finite; MW_ERROR_MEMORY, MW_CANCELLED.
  *
- * A star with mw_star_options.borrow gives the same answers, bit for bit. Each takes several times
- * as long: there is no guide, so a ray far from the one before begins at the nearest of a sample,
- * and facets are where the surface has them in memory. The walk is stochastic; the starts are
- * sample, last, sorted and random. A walk that has not come to its end after some thousand facets,
- * and a ray through an edge or a vertex of a flat facet, look at all facets. The check takes no
- * memory, unless facets are flat: then 38 bytes a facet while it runs. If an unchecked surface is
- * not star-shaped, queries end all the same: the facet of an answer meets the ray, but may not be
- * the lowest that does; MW_OUTSIDE says that there is none.
+ * A star with mw_star_options.borrow gives the same answers, bit for bit, but takes several times
+ * as long: it has no guide, so a ray far from the previous one starts at the nearest of a sample,
+ * and it visits facets in the order of the surface's memory. Its only walk is the stochastic one;
+ * its starts are sample, last, sorted and random. A query looks at all facets if its walk has not
+ * ended after some thousand facets, or if its ray passes through an edge or a vertex of a flat
+ * facet. The check takes no memory, unless facets are flat: then 38 bytes a facet while it runs. If
+ * an unchecked surface is not star-shaped, queries end all the same. The answer then is a facet
+ * that the ray meets, though perhaps not the lowest; MW_OUTSIDE means that the ray meets none.
  *
  * Thread-safe. O(n) time for n facets.
  */
@@ -121,10 +122,10 @@ typedef struct mw_star_update_options {
  * (mw_surface_begin_update()).
  *
  * Decides again whether the surface is star-shaped about the centre. Until this succeeds, all
- * queries return MW_BAD. Where mw_star_update_options.moved lists few vertices, only the facets
- * round these are decided again. All facets are decided if edges were flipped, if the last update
- * failed or one was left out, and where facets have no area. A star that is attached to an editor
- * (mw_surface_editor_attach_star()) follows edits by itself; an update of it with a list of no
+ * queries return MW_BAD. If mw_star_update_options.moved lists few vertices, only the facets round
+ * these are decided again. All facets are decided again if edges were flipped, if the last update
+ * failed or was left out, or if facets have no area. A star that is attached to an editor
+ * (mw_surface_editor_attach_star()) follows edits by itself; updating it with an empty list of
  * vertices takes O(1) if the surface is star-shaped.
  *
  * @param star     the star
@@ -133,9 +134,9 @@ typedef struct mw_star_update_options {
  * @return as mw_star_create(); also MW_ERROR_ARGUMENT if `moved` has a number that is no vertex.
  *         After a failure the star answers MW_BAD until an update succeeds.
  *
- * O(n), or O(k log k) for the k facets round the moved vertices; the first such update takes O(n),
- * 5 bytes a facet and 4 a vertex. A borrowed star is decided as a whole, in O(n); one that is
- * unchecked needs no update. Not thread-safe.
+ * O(n); with a list O(k log k) for the k facets round the listed vertices, but the first update
+ * with a list takes O(n), and 5 bytes a facet and 4 a vertex from then on. A borrowed star is
+ * always decided as a whole, in O(n); an unchecked one needs no update. Not thread-safe.
  */
 MW_API mw_status mw_star_update(mw_star *star, const mw_star_update_options *options,
                                 mw_error *error);
@@ -151,7 +152,7 @@ typedef struct mw_star_info {
     double centre[3];
 } mw_star_info;
 
-/** Fill `info` with the sizes of a star. O(1). */
+/** Fill `info` with the sizes of a star. Thread-safe while no update runs. O(1). */
 MW_API void mw_star_describe(const mw_star *star, mw_star_info *info);
 
 /**
@@ -180,7 +181,7 @@ MW_API mw_status mw_star_check_arrays(const mw_arrays *arrays, int weld,
 /* --- the unit sphere -------------------------------------------------------------------------- */
 
 /**
- * The direction of a longitude and a latitude.
+ * Compute the direction of a longitude and a latitude.
  *
  * x points to (0, 0), y to (90, 0), z to the north pole. Multiples of 90 degrees give exact
  * directions; longitudes that differ by 360 give equal ones. Other coordinates are off by less than
@@ -196,7 +197,7 @@ MW_API mw_status mw_star_check_arrays(const mw_arrays *arrays, int weld,
 MW_API void mw_lonlat_to_direction(double longitude, double latitude, double direction[3]);
 
 /**
- * The longitude and latitude of a direction, rounded. The longitude of a pole is 0.
+ * Compute the longitude and latitude of a direction, rounded. The longitude of a pole is 0.
  *
  * @param direction  x, y, z, not zero, of any length
  * @param longitude  receives degrees from -180 to 180; NaN for a zero or non-finite direction
@@ -260,7 +261,7 @@ typedef struct mw_star_index_info {
     uint32_t levels; /**< subdivisions of the octahedron; 0 for a grid */
 } mw_star_index_info;
 
-/** Fill `info` with the sizes of an index. O(1). */
+/** Fill `info` with the sizes of an index. Thread-safe. O(1). */
 MW_API void mw_star_index_describe(const mw_star_index *index, mw_star_index_info *info);
 
 /** How to answer queries. Zero-initialised options select the fastest way. */
@@ -326,7 +327,7 @@ MW_API mw_status mw_star_cursor_init(const mw_star *star, const mw_star_query_op
                                      mw_star_cursor *cursor, mw_error *error);
 
 /**
- * The facet that the ray from the centre through a point meets.
+ * Find the facet that the ray from the centre through a point meets.
  *
  * The result's `where` is MW_INSIDE, MW_ON_EDGE or MW_ON_VERTEX; MW_BAD if the point is the centre
  * or not finite, or the star is not up to date. The ray meets the facet's plane at the sum of
@@ -341,7 +342,8 @@ MW_API mw_status mw_star_cursor_init(const mw_star *star, const mw_star_query_op
  * @param point   x, y, z
  * @return the location, with the caller's facet number.
  *
- * Thread-safe with one cursor per thread. No allocation.
+ * Thread-safe with one cursor per thread. No allocation. Time: proportional to the facets that the
+ * walk visits. Source: [thesis App. F].
  */
 MW_API mw_location mw_star_locate(const mw_star *star, mw_star_cursor *cursor,
                                   const double point[3]);
@@ -360,9 +362,10 @@ MW_API mw_location mw_star_locate(const mw_star *star, mw_star_cursor *cursor,
  * @param locations  receives n locations; unspecified on failure
  * @param counters   NULL, or receives the sums over the batch (if enabled by the options)
  * @param error      NULL, or receives the message of a failure
- * @return MW_OK; MW_ERROR_ARGUMENT as mw_star_cursor_init(); MW_ERROR_MEMORY, MW_CANCELLED.
+ * @return MW_OK; MW_ERROR_ARGUMENT for NULL, a stride of 1 or 2, and as mw_star_cursor_init();
+ *         MW_ERROR_MEMORY, MW_CANCELLED.
  *
- * Thread-safe.
+ * Thread-safe. Time: n walks, and the sort if queries are sorted.
  */
 MW_API mw_status mw_star_locate_batch(const mw_star *star, const double *points, size_t n,
                                       size_t stride, const mw_star_query_options *options,
@@ -370,10 +373,10 @@ MW_API mw_status mw_star_locate_batch(const mw_star *star, const double *points,
                                       mw_error *error);
 
 /**
- * The point at which the ray from the centre through a point meets the polyhedron.
+ * Compute the point at which the ray from the centre through a point meets the polyhedron.
  *
- * Each coordinate is rounded once: it is the double nearest to the exact coordinate, and of two
- * equally near the one with an even last bit. So it does not depend on how it was found. A ray
+ * Each coordinate is rounded once: it is the double nearest to the exact coordinate; a tie goes to
+ * the double with an even last bit. So the result does not depend on how the facet was found. A ray
  * through a vertex ends exactly there.
  *
  * @param star     the star
@@ -382,7 +385,7 @@ MW_API mw_status mw_star_locate_batch(const mw_star *star, const double *points,
  * @param meeting  receives x, y, z; NaN if the location is MW_BAD
  * @return the location, as of mw_star_locate().
  *
- * Thread-safe with one cursor per thread. No allocation.
+ * Thread-safe with one cursor per thread. No allocation. Time: as mw_star_locate().
  */
 MW_API mw_location mw_star_project(const mw_star *star, mw_star_cursor *cursor,
                                    const double point[3], double meeting[3]);
@@ -401,15 +404,15 @@ MW_API mw_location mw_star_project(const mw_star *star, mw_star_cursor *cursor,
  * @param error      NULL, or receives the message of a failure
  * @return as mw_star_locate_batch().
  *
- * Thread-safe. Results are equal for every number of threads.
+ * Thread-safe. Results are equal for every number of threads. Time: as mw_star_locate_batch().
  */
 MW_API mw_status mw_star_project_batch(const mw_star *star, const double *points, size_t n,
                                        size_t stride, const mw_star_query_options *options,
                                        double *meetings, mw_location *locations, mw_error *error);
 
 /**
- * The facets that one query visits, in order, the first one included. Each is linked to the one
- * before, unless the walk has jumped round a vertex of many facets (mw_star_cursor_init()).
+ * List the facets that one query visits, in order, with the first one. Each is linked to the
+ * previous one, unless the walk has jumped round a vertex of many facets (mw_star_cursor_init()).
  *
  * @param star      the star
  * @param cursor    a cursor of this star
@@ -419,7 +422,7 @@ MW_API mw_status mw_star_project_batch(const mw_star *star, const double *points
  * @param location  NULL, or receives the answer
  * @return how many facets the query visited, also if `capacity` is less.
  *
- * Thread-safe with one cursor per thread.
+ * Thread-safe with one cursor per thread. No allocation. Time: as mw_star_locate().
  */
 MW_API size_t mw_star_path(const mw_star *star, mw_star_cursor *cursor, const double point[3],
                            uint32_t *facets, size_t capacity, mw_location *location);

@@ -68,23 +68,39 @@ MW_API mw_status mw_surface_create(const mw_arrays *arrays, const mw_surface_opt
 /** Destroy a surface. Stars and probers of it must be destroyed before. NULL is allowed. */
 MW_API void mw_surface_destroy(mw_surface *surface);
 
-/** Number of vertices, unused ones included; those that an editor (surface_edit.h) has freed, too:
- * all numbers are below it. O(1). */
+/** Number of vertices. Counts unused vertices, and vertices that an editor (surface_edit.h) has
+ * freed: all numbers of vertices are below it. Thread-safe. O(1). */
 MW_API uint32_t mw_surface_vertex_count(const mw_surface *surface);
 
-/** Number of triangles; those that an editor (surface_edit.h) has freed, too. O(1). */
+/** Number of triangles. Counts triangles that an editor (surface_edit.h) has freed: all numbers of
+ * triangles are below it. Thread-safe. O(1). */
 MW_API uint32_t mw_surface_triangle_count(const mw_surface *surface);
 
-/** Copy x, y, z of a vertex. `vertex` must be less than the number of vertices; it is not checked.
+/**
+ * Copy x, y, z of a vertex.
+ *
+ * @param surface  the surface
+ * @param vertex   less than the number of vertices, not checked
+ * @param point    receives x, y, z
+ *
+ * Thread-safe while no update runs. O(1).
  */
 MW_API void mw_surface_vertex(const mw_surface *surface, uint32_t vertex, double point[3]);
 
-/** Copy the vertices of a triangle, as given; of a freed one three times the same. `triangle` must
- * be less than the number of triangles; it is not checked. */
+/**
+ * Copy the vertices of a triangle, in the order given.
+ *
+ * @param surface   the surface
+ * @param triangle  less than the number of triangles, not checked
+ * @param vertices  receives three vertices; of a triangle that an editor has freed three equal
+ *                  numbers
+ *
+ * Thread-safe while no update runs. O(1).
+ */
 MW_API void mw_surface_triangle(const mw_surface *surface, uint32_t triangle, uint32_t vertices[3]);
 
 /**
- * The triangle on the other side of a local edge.
+ * Find the triangle on the other side of a local edge.
  *
  * @param surface     the surface
  * @param triangle    less than the number of triangles, not checked
@@ -92,12 +108,13 @@ MW_API void mw_surface_triangle(const mw_surface *surface, uint32_t triangle, ui
  * @param edge        NULL, or receives the local edge in the neighbour
  * @return the neighbour; MW_NONE on a border.
  *
- * O(1).
+ * Thread-safe while no update runs. O(1).
  */
 MW_API uint32_t mw_surface_neighbour(const mw_surface *surface, uint32_t triangle,
                                      unsigned local_edge, unsigned *edge);
 
-/** Memory used by a surface, in bytes, without borrowed points. O(1). */
+/** Memory used by a surface, in bytes, without borrowed points. Thread-safe while no update runs.
+ * O(1). */
 MW_API size_t mw_surface_bytes(const mw_surface *surface);
 
 /* --- change ----------------------------------------------------------------------------------- */
@@ -110,23 +127,24 @@ MW_API size_t mw_surface_bytes(const mw_surface *surface);
  * mw_prober_update(); end. A star or prober that has not been brought up to date refuses queries.
  *
  * No query may run between begin and end. Without mw_surface_options.shared the caller prevents
- * that, and these two functions only mark the surface as changed. With it these functions prevent
- * it: an update waits for running queries, not for later ones, and later ones wait for its end.
- * Queries are mw_star_locate(), mw_star_locate_batch(), mw_star_path(), mw_probe(),
- * mw_probe_batch(), mw_probe_path(), mw_nearest_on_surface() and mw_surface_describe(). Each query
- * of a batch is answered from one state of the surface; an update may come between two of them.
- * Everything else (creating stars, probers and indices, describing them, reading vertices) belongs
- * to the updating thread.
+ * this, and the two functions only mark the surface as changed. With `shared` the two functions
+ * prevent it: an update waits for running queries, and new queries wait for its end. Queries are
+ * mw_surface_describe() and the functions of star.h and probe.h that answer a ray, a probe or a
+ * point, one or many. Each query of a batch is answered from one state of the surface; an update
+ * may come between two of them. All other calls (creating stars, probers and indices, describing
+ * them, reading vertices) belong to the updating thread.
  *
- * O(1), without waiting.
+ * @param surface  the surface
+ *
+ * O(1), and the wait for running queries.
  */
 MW_API void mw_surface_begin_update(mw_surface *surface);
 
-/** End an update. Queries may run again. O(1). */
+/** End an update. Queries may run again. For the thread that began the update. O(1). */
 MW_API void mw_surface_end_update(mw_surface *surface);
 
 /**
- * The coordinates of all vertices, to be overwritten during an update.
+ * Give the coordinates of all vertices, which may be overwritten during an update.
  *
  * A vertex with a NaN or infinite coordinate makes its triangles contain no point, as in a tolerant
  * surface.
@@ -134,7 +152,7 @@ MW_API void mw_surface_end_update(mw_surface *surface);
  * @param surface  the surface
  * @return x, y, z per vertex, packed; owned by the surface, or the caller's own if borrowed.
  *
- * O(1).
+ * Not thread-safe, for the updating thread only. O(1).
  */
 MW_API double *mw_surface_points(mw_surface *surface);
 
@@ -151,12 +169,11 @@ MW_API double *mw_surface_points(mw_surface *surface);
  * @param local_edge  0, 1 or 2, not checked
  * @param error       NULL, or receives the message of a failure
  * @return MW_OK; MW_ERROR_INPUT, with the surface unchanged, if the edge has one triangle only, its
- *         triangles have opposite orientation, c equals d, or an edge already joins c and d. That
- *         edge is looked for among the triangles round c that hang together with `triangle`;
- *         another fan of a pinched vertex is not searched. MW_ERROR_ARGUMENT if the surface has an
- *         editor (mw_surface_edit_flip()).
+ *         triangles have opposite orientation, c equals d, or an edge already joins c and d (the
+ *         search covers the fan of `triangle` round c, not other fans of a pinched vertex).
+ *         MW_ERROR_ARGUMENT if the surface has an editor (mw_surface_edit_flip()).
  *
- * Time: proportional to the triangles round c.
+ * Not thread-safe, for the updating thread only. Time: proportional to the triangles round c.
  */
 MW_API mw_status mw_surface_flip(mw_surface *surface, uint32_t triangle, unsigned local_edge,
                                  mw_error *error);

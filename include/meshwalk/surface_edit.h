@@ -11,8 +11,8 @@
  * Numbers of vertices and triangles are handles. An edit renumbers only what it touches. Freed
  * numbers are not used again before mw_surface_editor_compact().
  *
- * An edit is refused if an edge would get a third triangle, or if its two triangles would have
- * opposite orientation that did not before. A refused edit leaves the surface as it was.
+ * An edit is refused if an edge would get a third triangle, or if the two triangles at an edge
+ * would newly get opposite orientation. A refused edit leaves the surface as it was.
  *
  * Threads: one thread edits a surface. On a surface with mw_surface_options.shared other threads
  * may query meanwhile: an edit waits for running queries, and new queries wait for its end.
@@ -59,24 +59,24 @@ typedef struct mw_surface_editor_options {
  *         NULL, a surface that was welded, borrows its points or has an editor already, or a prober
  *         of another surface; MW_ERROR_MEMORY.
  *
- * Belongs to the updating thread. O(n) time; 24 bytes a triangle and 8 a vertex, and room for half
- * as many of both more.
+ * Belongs to the updating thread. O(n) time; 24 bytes a triangle and 8 a vertex, with room for half
+ * as many more triangles and vertices.
  */
 MW_API mw_status mw_surface_editor_create(mw_surface *surface,
                                           const mw_surface_editor_options *options,
                                           mw_surface_editor **out, mw_error *error);
 
-/** Destroy an editor. The surface, its probers and its stars stay as they are, but freed vertices
- * count as vertices of no triangle from now on. NULL is allowed. */
+/** Destroy an editor. The surface, its probers and its stars stay as they are; freed vertices then
+ * count as unused. NULL is allowed. */
 MW_API void mw_surface_editor_destroy(mw_surface_editor *editor);
 
-/* --- what follows ----------------------------------------------------------------------------- */
+/* --- probers and stars that follow edits ------------------------------------------------------ */
 
 /**
  * Attach a prober: its boxes follow each edit from now on.
  *
  * Any number of probers may be attached. The cost of an edit grows with each. A prober without
- * boxes need not follow: it is always up to date. Attaching a prober twice changes nothing.
+ * boxes is always up to date and need not be attached. Attaching a prober twice changes nothing.
  *
  * @param editor  the editor
  * @param prober  a prober of its surface, which must outlive the editor or be detached before
@@ -84,28 +84,28 @@ MW_API void mw_surface_editor_destroy(mw_surface_editor *editor);
  * @return MW_OK; MW_ERROR_ARGUMENT for NULL or a prober of another surface; MW_ERROR_MEMORY, and
  *         nothing has changed.
  *
- * Belongs to the updating thread. On a shared surface other threads may query meanwhile. O(n);
- * O(n log n) if edits were made that the prober did not follow: its boxes are then made anew.
+ * Belongs to the updating thread. On a shared surface other threads may query meanwhile. O(n). If
+ * the prober missed edits, its boxes are made anew, in O(n log n).
  */
 MW_API mw_status mw_surface_editor_attach_prober(mw_surface_editor *editor, mw_prober *prober,
                                                  mw_error *error);
 
-/** Detach a prober. It is out of date after the next edit. A prober that is not attached is
- * allowed. Belongs to the updating thread. */
+/** Detach a prober. It is out of date after the next edit. Does nothing if the prober is not
+ * attached. Belongs to the updating thread. O(attached probers). */
 MW_API void mw_surface_editor_detach_prober(mw_surface_editor *editor, const mw_prober *prober);
 
 /**
  * Attach a star: it follows each edit from now on.
  *
- * After an edit the star answers as one made anew. If the surface is not star-shaped then, as when
- * a triangle has been removed, all queries of the star return MW_BAD until further edits make the
- * surface star-shaped again; mw_star_ready() tells, and mw_star_update() names a defect. A
- * surface with a facet without area is an exception. The star answers MW_BAD, though the surface
- * may be star-shaped: mw_star_update() then decides, in O(n). After that the star does not follow
- * until another call of it finds no such facet.
+ * After an edit the star answers as a new star would. If the surface is no longer star-shaped, for
+ * instance because a triangle was removed, all queries of the star return MW_BAD until further
+ * edits make the surface star-shaped again. mw_star_ready() tells this, and mw_star_update() names
+ * a defect. Exception: if an edit makes a facet without area, the star returns MW_BAD even if the
+ * surface is star-shaped. mw_star_update() then decides, in O(n), and must be called after each
+ * edit until the surface has no such facet.
  *
- * An edit within an update (mw_surface_begin_update()) is followed, too; call mw_star_update()
- * before the end, with the vertices that the edits did not move but the caller did.
+ * The star also follows edits within an update (mw_surface_begin_update()). Call mw_star_update()
+ * before the end of the update, with the vertices that the caller moved without an edit.
  *
  * @param editor  the editor
  * @param star    a star of its surface, which must outlive the editor or be detached before; it may
@@ -114,16 +114,16 @@ MW_API void mw_surface_editor_detach_prober(mw_surface_editor *editor, const mw_
  * @return MW_OK, also if the surface is not star-shaped; MW_ERROR_ARGUMENT for NULL, a star of
  *         another surface, or a borrowed one; MW_ERROR_MEMORY: the star does not follow.
  *
- * Belongs to the updating thread. On a shared surface other threads may query meanwhile. O(n), O(n
- * log n) for a star that is out of date; 5 bytes a facet and 4 a vertex, and room for half as many
- * facets and vertices more once edits make some. The cost of an edit then grows in proportion to
- * the facets that it touches, and to those round a vertex there that has 64 or more.
+ * Belongs to the updating thread. On a shared surface other threads may query meanwhile. O(n); for
+ * a star that is out of date O(n log n). Takes 5 bytes a facet and 4 a vertex, and room for half as
+ * many more once edits make some. Each edit then takes longer in proportion to the facets that it
+ * touches, and to all facets round a vertex of these that has 64 or more.
  */
 MW_API mw_status mw_surface_editor_attach_star(mw_surface_editor *editor, mw_star *star,
                                                mw_error *error);
 
-/** Detach a star. It is out of date after the next edit. A star that is not attached is allowed.
- * Belongs to the updating thread. */
+/** Detach a star. It is out of date after the next edit. Does nothing if the star is not attached.
+ * Belongs to the updating thread. O(attached stars). */
 MW_API void mw_surface_editor_detach_star(mw_surface_editor *editor, mw_star *star);
 
 /* --- edits ------------------------------------------------------------------------------------ */
@@ -144,7 +144,8 @@ typedef enum mw_surface_edit_kind {
     MW_SURFACE_EDIT_KIND_COUNT
 } mw_surface_edit_kind;
 
-/** The word of a kind in a stream of edits, as "split-edge"; NULL for any other number. */
+/** The word of a kind in a stream of edits, such as "split-edge"; NULL for any other number.
+ * Thread-safe. O(1). */
 MW_API const char *mw_surface_edit_name(mw_surface_edit_kind kind);
 
 /** One edit. Members that its kind does not name are ignored. */
@@ -170,8 +171,8 @@ typedef struct mw_changed_vertex {
 
 /** What an edit changed. The arrays are owned by the editor, and valid until its next edit. */
 typedef struct mw_surface_change {
-    /** First the made triangles, then the reused ones, which got other vertices or another order of
-     * vertices, then the freed ones; each in ascending order. */
+    /** First the made triangles, then the reused ones, then the freed ones; each in ascending
+     * order. A reused triangle got other vertices, or another order of its vertices. */
     const mw_changed_triangle *triangle;
     size_t made, reused, freed; /**< how many of each kind `triangle` holds */
     /** First the made vertices, then the freed ones, each in ascending order, then the moved one.
@@ -186,8 +187,8 @@ typedef struct mw_surface_change {
  *
  * Between mw_surface_begin_update() and mw_surface_end_update() an edit is a part of that update:
  * call mw_prober_update() before its end, with a distance of 0 if only edits moved vertices.
- * Elsewhere an edit is an update by itself, after which what is attached to the editor is up to
- * date if it was before.
+ * Elsewhere an edit is an update by itself: attached probers and stars that were up to date before
+ * the edit are up to date after it.
  *
  * @param editor  the editor
  * @param edit    the edit
@@ -200,8 +201,8 @@ typedef struct mw_surface_change {
  *         MW_ERROR_MEMORY.
  *
  * Not thread-safe, except for queries of a shared surface. Time: proportional to the triangles that
- * the edit touches, and to those round the less busy end of an edge that it names; memory grows now
- * and then, in O(n).
+ * the edit touches; for an edge also to the triangles round one of its ends, the one with fewer.
+ * Memory grows now and then, in O(n).
  */
 MW_API mw_status mw_surface_edit_apply(mw_surface_editor *editor, const mw_surface_edit *edit,
                                        mw_surface_change *change, mw_error *error);
@@ -274,7 +275,7 @@ MW_API mw_status mw_surface_edit_remove_triangle(mw_surface_editor *editor, uint
 /**
  * Split an edge by a new vertex, and with it the one or two triangles at the edge.
  *
- * A triangle keeps its number for the part at the lower end of the edge.
+ * Of the two parts of a triangle, the part at the lower-numbered end of the edge keeps the number.
  *
  * @param editor  the editor
  * @param a, b    the ends of the edge
@@ -282,7 +283,9 @@ MW_API mw_status mw_surface_edit_remove_triangle(mw_surface_editor *editor, uint
  * @param change  NULL, or receives what the edit changed
  * @param error   NULL, or receives the message of a failure
  * @return as mw_surface_edit_apply(); also MW_ERROR_INPUT if no edge joins the vertices, or both
- *         its triangles have the same vertices. Not thread-safe.
+ *         its triangles have the same vertices.
+ *
+ * Not thread-safe. Time: proportional to the lesser degree of the two ends.
  */
 MW_API mw_status mw_surface_edit_split_edge(mw_surface_editor *editor, uint32_t a, uint32_t b,
                                             const double point[3], mw_surface_change *change,
@@ -311,7 +314,9 @@ MW_API mw_status mw_surface_edit_split_triangle(mw_surface_editor *editor, uint3
  * @param error   NULL, or receives the message of a failure
  * @return as mw_surface_edit_apply(); also MW_ERROR_INPUT if no edge joins the vertices, it has one
  *         triangle only, its triangles have opposite orientation, or an edge joins the two opposite
- *         vertices already. Not thread-safe.
+ *         vertices already.
+ *
+ * Not thread-safe. Time: proportional to the degrees of the ends and of the opposite vertices.
  */
 MW_API mw_status mw_surface_edit_flip(mw_surface_editor *editor, uint32_t a, uint32_t b,
                                       mw_surface_change *change, mw_error *error);
@@ -320,10 +325,12 @@ MW_API mw_status mw_surface_edit_flip(mw_surface_editor *editor, uint32_t a, uin
  * Collapse the edge between two vertices: `gone` merges into `kept`, and the triangles at the edge
  * go.
  *
- * The link condition [Dey, Edelsbrunner, Guha, Nekhayev 1999] is checked, so that the surface
- * stays what it was: the two vertices may have no other common neighbours than the corners
- * opposite to the edge, no edge opposite to both in two triangles, may not both lie on a border
- * unless the edge does, and may not both be pinched.
+ * The link condition [Dey, Edelsbrunner, Guha, Nekhayev 1999] is checked, so that the surface keeps
+ * its topology:
+ * - the only common neighbours of the two vertices are the corners opposite to the edge;
+ * - no edge is opposite to `gone` in one triangle and to `kept` in another;
+ * - if both vertices lie on a border, so does the edge;
+ * - at most one of the two vertices is pinched.
  *
  * @param editor      the editor
  * @param gone, kept  the ends of the edge
@@ -342,8 +349,8 @@ MW_API mw_status mw_surface_edit_collapse(mw_surface_editor *editor, uint32_t go
 /**
  * Cut the surface along a path of edges, as a scalpel does: the edges become borders.
  *
- * Where the path goes through a vertex, or begins or ends on a border, the vertex is divided: the
- * lowest triangle round it keeps the vertex, the other sides get copies. A path may be closed and
+ * A vertex is divided if the path goes through it, or begins or ends there on a border. The side
+ * with the lowest triangle keeps the vertex; the other sides get copies. A path may be closed and
  * may cross itself.
  *
  * @param editor  the editor
@@ -353,8 +360,8 @@ MW_API mw_status mw_surface_edit_collapse(mw_surface_editor *editor, uint32_t go
  * @param error   NULL, or receives the message of a failure
  * @return as mw_surface_edit_apply(); also MW_ERROR_INPUT if no edge joins two successive vertices,
  *         an edge is a border already or comes twice, or both sides of an edge would keep the same
- *         ends: a cut that ends inside of the surface needs at least two edges. MW_ERROR_ARGUMENT
- *         for fewer than two vertices.
+ *         ends: a cut that ends inside the surface needs at least two edges. MW_ERROR_ARGUMENT for
+ *         fewer than two vertices.
  *
  * Not thread-safe. O(d log d) for the sum d of the degrees along the path.
  */
@@ -362,21 +369,22 @@ MW_API mw_status mw_surface_edit_cut(mw_surface_editor *editor, const uint32_t *
                                      mw_surface_change *change, mw_error *error);
 
 /**
- * Sew a chain of border edges to another one. Each vertex of `other` merges into that of `path`,
- * whose place it takes.
+ * Sew a chain of border edges to another one. Vertex i of `other` merges into vertex i of `path`,
+ * which stays in its place.
  *
- * Other border edges that get the same ends thereby become one edge, too. The chains may share
+ * If other border edges get the same ends by this, they become one edge, too. The chains may share
  * vertices, such as the end of a cut.
  *
  * @param editor  the editor
  * @param path    at least two vertices; each two in succession are joined by a border edge
- * @param other   as many, likewise
+ * @param other   as many vertices, joined in the same way
  * @param count   number of vertices in each
  * @param change  NULL, or receives what the edit changed
  * @param error   NULL, or receives the message of a failure
- * @return as mw_surface_edit_apply(); also MW_ERROR_INPUT if a chain is none, a vertex would merge
- *         into two, a triangle would have a vertex twice, an edge three triangles, or its two
- *         triangles opposite orientation. MW_ERROR_ARGUMENT for fewer than two vertices.
+ * @return as mw_surface_edit_apply(); also MW_ERROR_INPUT if no border edge joins two successive
+ *         vertices, a vertex would merge into two, a triangle would have a vertex twice, an edge
+ *         would have three triangles, or two triangles of opposite orientation. MW_ERROR_ARGUMENT
+ *         for fewer than two vertices.
  *
  * Not thread-safe. O(d log d) for the sum d of the degrees along both chains.
  */
@@ -402,7 +410,8 @@ MW_API mw_status mw_surface_edit_undo(mw_surface_editor *editor, mw_surface_chan
                                       mw_error *error);
 
 /**
- * Renumber vertices and triangles without gaps, in the same order. Undo starts again.
+ * Renumber vertices and triangles without gaps, in the same order. Earlier edits cannot be undone
+ * afterwards.
  *
  * The boxes of attached probers are made anew; attached stars get the new numbers.
  *
@@ -422,67 +431,73 @@ MW_API mw_status mw_surface_editor_compact(mw_surface_editor *editor, uint32_t *
 
 /** Sizes and counts of an editor. */
 typedef struct mw_surface_editor_info {
-    uint32_t vertices, triangles; /**< existing ones */
+    uint32_t vertices, triangles; /**< without freed ones */
     /** All numbers are below these: mw_surface_vertex_count() and mw_surface_triangle_count(). */
     uint32_t vertex_range, triangle_range;
     uint32_t border_edges; /**< edges of one triangle */
     size_t undoable;       /**< edits that can be undone */
-    /** Memory of the editor, with the room in the surface that edits will use, without probers and
-     * stars.
-     */
+    /** Memory of the editor and of the room in the surface that edits will use; without probers and
+     * stars. */
     size_t bytes;
     size_t undo_bytes; /**< of these, for undo */
     uint64_t edits;    /**< edits applied since the editor was created, undone ones included */
     uint32_t reserved[8];
 } mw_surface_editor_info;
 
-/** Fill `info` with sizes and counts of the editor. O(1). */
+/** Fill `info` with sizes and counts of the editor. Thread-safe while no edit runs. O(1). */
 MW_API void mw_surface_editor_describe(const mw_surface_editor *editor,
                                        mw_surface_editor_info *info);
 
 /**
- * The vertices of a triangle, as mw_surface_triangle() gives them.
+ * Copy the vertices of a triangle, as mw_surface_triangle() does.
  *
  * @param editor    the editor
  * @param triangle  any number
  * @param vertices  receives three vertices; unchanged if there is no such triangle
- * @return 1, or 0 if no triangle has that number. O(1).
+ * @return 1, or 0 if no triangle has that number.
+ *
+ * Thread-safe while no edit runs. O(1).
  */
 MW_API int mw_surface_editor_triangle(const mw_surface_editor *editor, uint32_t triangle,
                                       uint32_t vertices[3]);
 
 /**
- * The coordinates of a vertex.
+ * Copy the coordinates of a vertex.
  *
  * @param editor  the editor
  * @param vertex  any number
  * @param point   receives x, y, z; unchanged if there is no such vertex
- * @return 1, or 0 if no vertex has that number. O(1).
+ * @return 1, or 0 if no vertex has that number.
+ *
+ * Thread-safe while no edit runs. O(1).
  */
 MW_API int mw_surface_editor_vertex(const mw_surface_editor *editor, uint32_t vertex,
                                     double point[3]);
 
 /**
- * The triangles round a vertex, in ascending order.
+ * List the triangles round a vertex, in ascending order.
  *
  * @param editor     the editor
  * @param vertex     any number
  * @param triangles  receives at most `capacity` triangles, the lowest; may be NULL if `capacity` is
  *                   0
  * @param capacity   room in `triangles`
- * @return how many there are, also if `capacity` is less. O(d^2) for the degree d, at most d times
- *         `capacity`.
+ * @return how many there are, also if `capacity` is less.
+ *
+ * Thread-safe while no edit runs. O(d * min(d, capacity)) for the degree d.
  */
 MW_API size_t mw_surface_editor_triangles_of(const mw_surface_editor *editor, uint32_t vertex,
                                              uint32_t *triangles, size_t capacity);
 
 /**
- * The triangles at the edge between two vertices, given by any two numbers.
+ * Find the triangles at the edge between two vertices.
  *
  * @param editor     the editor
- * @param a, b       the ends of the edge
+ * @param a, b       the ends of the edge: any two numbers
  * @param triangles  receives the triangles, the lower one first; MW_NONE where there is none
- * @return how many there are: 0, 1 or 2. Time: the degree of the less busy end.
+ * @return how many there are: 0, 1 or 2.
+ *
+ * Thread-safe while no edit runs. Time: proportional to the lesser degree of the two ends.
  */
 MW_API unsigned mw_surface_editor_edge(const mw_surface_editor *editor, uint32_t a, uint32_t b,
                                        uint32_t triangles[2]);

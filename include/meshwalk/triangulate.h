@@ -71,11 +71,11 @@ typedef enum mw_triangulation_kind {
     MW_KIND_COUNT
 } mw_triangulation_kind;
 
-/** The name of a kind, as on the command line; NULL for any other number. */
+/** The name of a kind, as on the command line; NULL for any other number. Thread-safe. */
 MW_API const char *mw_kind_name(mw_triangulation_kind kind);
-/** Where a kind was published, "Authors Year"; NULL for any other number. */
+/** Where a kind was published, "Authors Year"; NULL for any other number. Thread-safe. O(1). */
 MW_API const char *mw_kind_source(mw_triangulation_kind kind);
-/** One line of help for a kind; NULL for any other number. */
+/** One line of help for a kind; NULL for any other number. Thread-safe. O(1). */
 MW_API const char *mw_kind_help(mw_triangulation_kind kind);
 
 /** Properties of a triangulation of any kind. */
@@ -89,7 +89,7 @@ typedef struct mw_kind_report {
     /** MW_KIND_MIN_WEIGHT: faces with more than three corners left by the skeleton. */
     size_t faces;
     size_t largest_face; /**< the most corners of one of them */
-    size_t local_faces;  /**< of them, too large or not simple: filled by a local optimum */
+    size_t local_faces;  /**< of them, those too large or not simple: filled by a local optimum */
     size_t hidden;       /**< MW_KIND_REGULAR: hidden points, without those equal to a vertex */
     uint32_t reserved[6];
 } mw_kind_report;
@@ -210,7 +210,8 @@ typedef struct mw_constrain_report {
     uint64_t triangles_crossed;  /**< by segments */
     /** After MW_ERROR_INPUT for crossing segments: the two segments; else MW_NONE. */
     uint32_t crossing_segments[2];
-    uint32_t idle_holes; /**< hole seeds that removed nothing: outside, or in what is removed */
+    /** Hole seeds that removed nothing: outside, or in a part that was removed already. */
+    uint32_t idle_holes;
     uint32_t first_idle_hole; /**< the first of them; MW_NONE without any */
     uint32_t reserved[4];
 } mw_constrain_report;
@@ -233,9 +234,10 @@ MW_API void mw_constrained_edges_release(mw_constrained_edges *edges);
  * Triangulate points and segments by the constrained Delaunay rule [Lee, Lin 1986; Chew 1989].
  * Exact.
  *
- * Every segment becomes an edge, or a chain of edges through the vertices on it. No vertex that a
- * triangle sees past the segments lies inside its circle. Segments end at the lowest point with
- * their end's coordinates. Segments that meet at their ends or at a vertex do not cross. With
+ * Every segment becomes an edge, or a chain of edges through the vertices on it. The circle of a
+ * triangle contains no vertex that the triangle sees past the segments. If several points have the
+ * coordinates of a segment's end, the segment ends at the lowest of them. Segments that meet at
+ * their ends or at a vertex do not cross. With
  * mw_constrain_options.split a crossing is rounded to doubles, and its segments may move by that
  * rounding; each remains an edge or chain of edges between its ends.
  *

@@ -7,7 +7,7 @@
  * are decided exactly. Areas and volumes are sums of doubles: each common part is off by at most
  * about 2^-45 of the smaller of its two triangles, nearly always by a few 2^-53.
  *
- * Where only one of the two has a height there is no volume; the area of these places is reported.
+ * Places where only one of the two surfaces has a height add no volume; their area is reported.
  */
 #ifndef MESHWALK_VOLUME_H
 #define MESHWALK_VOLUME_H
@@ -34,12 +34,12 @@ typedef struct mw_volume_info {
     double level_area;   /**< area of common parts of triangles where both are equal throughout */
     double area;         /**< area where both have a height: the sum of these three */
     double surface_only; /**< area where only the surface has a height */
-    double other_only;   /**< area where only the other one has */
+    double other_only;   /**< area where only the other one has a height */
     uint64_t parts;      /**< common parts of triangles that were added */
 } mw_volume_info;
 
 /**
- * The volume between a surface and another one.
+ * Compute the volume between a surface and another one.
  *
  * @param surface        a locator that fills pockets and holes, of an embedding
  * @param heights        the height of each vertex of its mesh; a triangle with one that is not

@@ -29,14 +29,16 @@ static mw_status piece_check_arguments(const mwp_piece *piece, mwp_error *error)
     if (a->triangle_count && (!a->triangles || !piece->triangle_numbers))
         return mwp__fail(error, MW_ERROR_ARGUMENT, "the triangles or their numbers are NULL");
     if (a->point_stride == 1)
-        return mwp__fail(error, MW_ERROR_ARGUMENT, "a stride of 1 double, but points have 2");
+        return mwp__fail(error, MW_ERROR_ARGUMENT,
+                         "the stride must be at least 2 (x and y), not 1");
     if ((unsigned)a->integer_type > MW_INT64)
         return mwp__fail(error, MW_ERROR_ARGUMENT, "unknown type of vertex numbers");
     if (a->triangle_count > MW_MAX_TRIANGLES || a->point_count > MW_MAX_VERTICES)
-        return mwp__fail(
-            error, MW_ERROR_LIMIT,
-            "%zu triangles and %zu vertices in a piece; at most %" PRIu32 " and %" PRIu32,
-            a->triangle_count, a->point_count, MW_MAX_TRIANGLES, (uint32_t)MW_MAX_VERTICES);
+        return mwp__fail(error, MW_ERROR_LIMIT,
+                         "a piece has %zu triangles and %zu vertices; at most %" PRIu32
+                         " and %" PRIu32 " are possible",
+                         a->triangle_count, a->point_count, MW_MAX_TRIANGLES,
+                         (uint32_t)MW_MAX_VERTICES);
     return MW_OK;
 }
 
@@ -93,8 +95,8 @@ static mw_status own_copy_triangles(mwp_own *own, const mwp_piece *piece, mwp_er
         own->given[i] = sorted[i].place;
         own->place[sorted[i].place] = i;
         if (i > 0 && number == sorted[i - 1].number)
-            status = mwp__fail_at(error, number, -1, "triangle %" PRId64 " is twice in the piece",
-                                  number);
+            status =
+                mwp__fail_at(error, number, -1, "the piece has triangle %" PRId64 " twice", number);
         for (uint32_t k = 0; k < 3 && !status; k++) {
             const int64_t v = piece_corner(&piece->arrays, sorted[i].place, k);
             if (v < 0)
@@ -117,7 +119,7 @@ static mw_status own_check_vertices(const mwp_own *own, mwp_error *error)
     for (uint32_t i = 1; i < own->vertex_count && !status; i++)
         if (sorted[i].number == sorted[i - 1].number)
             status = mwp__fail_at(error, -1, sorted[i].number,
-                                  "vertex %" PRId64 " is twice in the piece", sorted[i].number);
+                                  "the piece has vertex %" PRId64 " twice", sorted[i].number);
     free(sorted);
     return status;
 }
@@ -183,7 +185,8 @@ mw_status mwp__own_move(mwp_own *own, const mwp_own *from, const double *points,
     *own = (mwp_own){0};
     if (vertices && !points) return mwp__fail(error, MW_ERROR_ARGUMENT, "the points are NULL");
     if (stride == 1)
-        return mwp__fail(error, MW_ERROR_ARGUMENT, "a stride of 1 double, but points have 2");
+        return mwp__fail(error, MW_ERROR_ARGUMENT,
+                         "the stride must be at least 2 (x and y), not 1");
     if (!own_make_room(own, vertices, triangles)) return mwp__fail_memory(error);
     own_copy_points(own, points, stride);
     memcpy(own->vertex, from->vertex, vertices * sizeof *own->vertex);

@@ -57,7 +57,7 @@ static int locate_run(const void *settings, const char *const *operands)
     return end;
 }
 
-static const option *const tables[] = {locate_options, pieces_options, query_stream_options,
+static const option *const tables[] = {locate_options, point_query_options, query_stream_options,
                                        common_options, NULL};
 
 const command locate_pieces_command = {

@@ -12,18 +12,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-const option pieces_options[] = {
-    {"tolerance", 0, OPTION_LENGTH, offsetof(pieces_settings, tolerance), "D",
-     "a point outside, at most D away from the mesh, is 'near' (default: 0)", NULL},
-    {"columns", 0, OPTION_TEXT, offsetof(pieces_settings, stream.source.columns), "LIST",
-     "columns of POINTS that hold x and y, as names or numbers from 1", NULL},
-    {"crs", 0, OPTION_TEXT, offsetof(pieces_settings, crs), "CRS",
-     "the coordinate system of MESH (default: what its file tells)", NULL},
-    {"points-crs", 0, OPTION_TEXT, offsetof(pieces_settings, stream.source.crs), "CRS",
-     "that of POINTS, or 'same' as MESH (default: what POINTS tell)", NULL},
-    {0},
-};
-
 int pieces_query_fail(const pieces_query *q, const mwp_error *from)
 {
     const char *path = q->path;
@@ -83,13 +71,21 @@ static int file_take(pieces_query *q, mw_mesh_file *file, const mesh_field_choic
     return end;
 }
 
+static int settings_check(const pieces_settings *settings)
+{
+    if (!settings->any) return point_query_check_index(settings->cells, settings->layers);
+    complain("option '--any' is not for a mesh in pieces, which has to be an embedding");
+    return END_USAGE;
+}
+
 int pieces_query_open(pieces_query *q, service *s, const pieces_settings *settings,
                       const char *const *operands, const mesh_field_choice *field)
 {
     mw_mesh_file file;
     *q = (pieces_query){
         .settings = settings, .service = s, .path = operands[0], .begin = monotonic_seconds()};
-    int end = files_check_output(settings->stream.common.output, operands, 2);
+    int end = settings_check(settings);
+    if (end == 0) end = files_check_output(settings->stream.common.output, operands, 2);
     if (end == 0) end = point_layers_check(operands, 2);
     if (end == 0) end = query_stream_check_output(&settings->stream);
     if (end == 0) end = query_crs_check(settings->crs, settings->stream.source.crs);

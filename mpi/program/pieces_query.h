@@ -5,17 +5,12 @@
 
 #include "cli/input/mesh_field.h"
 #include "cli/stream/extent_remark.h"
-#include "cli/stream/query_stream.h"
+#include "cli/stream/point_query_options.h"
 #include "mpi/program/service.h"
 
-/* The settings, and the options for them. */
-typedef struct pieces_settings {
-    query_stream_settings stream;
-    const char *crs;
-    double tolerance;
-} pieces_settings;
-
-extern const option pieces_options[];
+/* The settings are those of the other program (point_query_options). Ranks have a way of their own
+ * to find triangles, so walks, starts and what belongs to them make no difference. */
+typedef point_query_settings pieces_settings;
 
 typedef struct pieces_query {
     const pieces_settings *settings;

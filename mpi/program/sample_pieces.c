@@ -76,7 +76,7 @@ static int sample_run(const void *settings, const char *const *operands)
     return end;
 }
 
-static const option *const tables[] = {sample_options, pieces_options, query_stream_options,
+static const option *const tables[] = {sample_options, point_query_options, query_stream_options,
                                        common_options, NULL};
 
 const command sample_pieces_command = {

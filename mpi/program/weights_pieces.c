@@ -131,7 +131,7 @@ static const option weights_options[] = {
     {0},
 };
 
-static const option *const tables[] = {weights_options, pieces_options, common_options, NULL};
+static const option *const tables[] = {weights_options, point_query_options, common_options, NULL};
 
 const command weights_pieces_command = {
     .name = "weights",

@@ -381,12 +381,14 @@ static mw_status locating_check(const mwp_locating *l, mwp_error *error)
     if (l->n && (!l->points || !l->locations))
         return mwp__fail(error, MW_ERROR_ARGUMENT, "the points or the locations are NULL");
     if (l->stride == 1)
-        return mwp__fail(error, MW_ERROR_ARGUMENT, "a stride of 1 double, but points have 2");
+        return mwp__fail(error, MW_ERROR_ARGUMENT,
+                         "the stride must be at least 2 (x and y), not 1");
     if (!(o->tolerance >= 0 && o->tolerance < INFINITY))
         return mwp__fail(error, MW_ERROR_ARGUMENT, "the tolerance %g is negative or not finite",
                          o->tolerance);
     if (o->budget > INT32_MAX / 2)
-        return mwp__fail(error, MW_ERROR_ARGUMENT, "a budget of %u queries; at most 2^30 - 1",
+        return mwp__fail(error, MW_ERROR_ARGUMENT,
+                         "a budget of %u queries is too large; at most 2^30 - 1 are possible",
                          o->budget);
     for (size_t i = 0; i < sizeof o->reserved / sizeof *o->reserved; i++)
         if (o->reserved[i])

@@ -148,7 +148,8 @@ static mw_status migration_check(const migration *m, const mwp_particles *out, m
     if (!out || (m->n && (!m->at || (m->bytes && !m->payload))))
         return mwp__fail(error, MW_ERROR_ARGUMENT, "the particles are NULL");
     if (m->bytes > 1 << 20)
-        return mwp__fail(error, MW_ERROR_ARGUMENT, "a payload of %zu bytes; at most 2^20",
+        return mwp__fail(error, MW_ERROR_ARGUMENT,
+                         "a payload of %zu bytes is too large; at most 2^20 are possible",
                          m->bytes);
     for (size_t i = 0; i < m->n; i++)
         if (m->at[i].rank < -1 || m->at[i].rank >= m->mesh->wire.size)

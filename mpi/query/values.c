@@ -24,13 +24,14 @@ static mw_status table_check(const mwp_mesh *mesh, const mw_value_table *table, 
         return mwp__fail(error, MW_ERROR_ARGUMENT, "the values or the results are NULL");
     if ((unsigned)table->type > MW_FLOAT32 || table->count == 0 || table->count > 1 << 20)
         return mwp__fail(error, MW_ERROR_ARGUMENT,
-                         "%zu values a vertex; 1 to 2^20 are possible, doubles or floats",
+                         "a vertex has %zu values; 1 to 2^20 doubles or floats are possible",
                          table->count);
     if (table->step > 1)
         return mwp__fail(error, MW_ERROR_ARGUMENT, "the values of a vertex are not side by side");
     if (table->stride && table->stride < table->count)
-        return mwp__fail(error, MW_ERROR_ARGUMENT, "a stride of %zu, but %zu values a vertex",
-                         table->stride, table->count);
+        return mwp__fail(error, MW_ERROR_ARGUMENT,
+                         "the stride %zu is less than the %zu values of a vertex", table->stride,
+                         table->count);
     return MW_OK;
 }
 

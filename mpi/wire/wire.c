@@ -288,7 +288,8 @@ mw_status mwp__wire_gather(const mwp_wire *wire, mw_status status, const void *r
     if (!status) in->count = mwp__alloc(ranks, sizeof *in->count);
     if (!status && !in->count) status = mwp__fail_memory(error);
     if (!status && count > INT_MAX)
-        status = mwp__fail(error, MW_ERROR_LIMIT, "%zu records for all ranks; at most %d", count,
+        status = mwp__fail(error, MW_ERROR_LIMIT,
+                           "there are %zu records for all ranks; at most %d are possible", count,
                            INT_MAX);
     status = mwp__wire_agree(wire, status, error);
     if (status) return status;

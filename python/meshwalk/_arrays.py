@@ -101,7 +101,7 @@ def _as_rows(array: NDArray[np.float64]) -> NDArray[np.float64]:
 def vertices(
     given: ArrayLike, name: str, widths: tuple[int, ...]
 ) -> tuple[NDArray[np.float64], int]:
-    """Points of a mesh: rows of as many doubles as one of `widths`, and that width."""
+    """Points of a mesh as rows of doubles, and their width, which is one of `widths`."""
     array = _as_doubles(_no_masked(_as_array(given, name), name), name)
     if array.ndim != 2 or array.shape[1] not in widths:
         wanted = " or ".join(f"(n, {width})" for width in widths)
@@ -159,7 +159,7 @@ def triangles(given: ArrayLike, name: str, most: int) -> NDArray[Any]:
 def indices(
     given: ArrayLike, name: str, shape: tuple[int | None, ...], count: int | None
 ) -> NDArray[np.uint32]:
-    """Numbers below `count`; if that is None, of anything, and -1 is none. A copy."""
+    """A copy of numbers below `count`; if that is None, of any numbers, where -1 is none."""
     array = _no_masked(_as_array(given, name), name)
     if array.shape == (0,):
         array = np.empty((0, *(size or 0 for size in shape[1:])), np.int64)

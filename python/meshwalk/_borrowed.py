@@ -94,7 +94,7 @@ class BorrowedMesh:
         if layout not in _LAYOUTS:
             raise ValueError(f"layout must be one of {', '.join(_LAYOUTS)}, not {layout!r}")
         if check and convex:
-            raise ValueError("convex=True goes with check=False only: the check finds it out")
+            raise ValueError("convex=True needs check=False: the check decides this by itself")
         self.points = _arrays.vertices(points, "points", (2, 3))[0][:, :2]
         corners = _arrays.triangles(triangles, "triangles", _core.MAX_TRIANGLES)
         beside = _arrays.triangles(neighbours, "neighbours", _core.MAX_TRIANGLES)

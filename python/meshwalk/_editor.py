@@ -60,7 +60,7 @@ class EditKind(enum.IntEnum):
 
 
 class Edit(NamedTuple):
-    """One edit, as it is logged and applied again; what its kind does not name is not read."""
+    """One edit, to be applied or from the log; members that its kind does not name are ignored."""
 
     kind: EditKind
     vertex: int = 0
@@ -154,7 +154,7 @@ class Change:
 
 
 class EditorInfo(NamedTuple):
-    """What is there, and what it takes: the answer of `Editor.describe`.
+    """Counts of the mesh and the memory that it takes: the answer of `Editor.describe`.
 
     Attributes
     ----------
@@ -202,7 +202,7 @@ class EditorInfo(NamedTuple):
 
 
 class Editor(_core.Editor):
-    """A triangle mesh that changes between two queries, and is located in all the time.
+    """A triangle mesh that changes between two queries, with a locator that follows the edits.
 
     Parameters
     ----------
@@ -313,7 +313,7 @@ class Editor(_core.Editor):
     def insert_points(
         self, points: ArrayLike, *, progress: Progress | None = None
     ) -> NDArray[np.int32] | NDArray[np.int64]:
-        """Insert many vertices as one edit, quicker than one by one.
+        """Insert many vertices as one edit, faster than one by one.
 
         Parameters
         ----------
@@ -340,7 +340,7 @@ class Editor(_core.Editor):
         return _arrays.numbers(out)
 
     def remove(self, vertex: int) -> Change:
-        """Remove a vertex: two triangles less fill its place.
+        """Remove a vertex; its triangles are replaced by two fewer.
 
         Raises
         ------
@@ -371,7 +371,7 @@ class Editor(_core.Editor):
         return self._edit(Edit(EditKind.FLIP, vertex, other))
 
     def constrain(self, vertex: int, other: int) -> Change:
-        """Make the straight way between two vertices an edge that stays, or several.
+        """Make the segment between two vertices an edge that stays, or a chain of such edges.
 
         Raises
         ------
@@ -381,7 +381,7 @@ class Editor(_core.Editor):
         return self._edit(Edit(EditKind.CONSTRAIN, vertex, other))
 
     def release(self, vertex: int, other: int) -> Change:
-        """End the constraints on the straight way between two vertices.
+        """Release the constraints along the segment between two vertices.
 
         Raises
         ------
@@ -408,7 +408,7 @@ class Editor(_core.Editor):
         return self._edit(edit)
 
     def undo(self, *, progress: Progress | None = None) -> Change:
-        """Undo the latest edit that has not been undone: everything is as before, numbers too.
+        """Undo the latest edit that has not been undone; restore the mesh and all numbers.
 
         Parameters
         ----------
@@ -426,7 +426,7 @@ class Editor(_core.Editor):
         return Change(raw)
 
     def log(self) -> list[Edit]:
-        """List the edits since the editor was made or compacted, those undone left out.
+        """List the edits since the editor was made or compacted, without those undone.
 
         Applied in this order to the same mesh they give the same one, numbers too. Empty without
         ``log=True``.
@@ -435,7 +435,7 @@ class Editor(_core.Editor):
             return [Edit(EditKind(raw[0]), *raw[1:]) for raw in self._log()]
 
     def compact(self, *, progress: Progress | None = None) -> tuple[NDArray[Any], NDArray[Any]]:
-        """Number everything anew, without gaps and in the same order.
+        """Renumber vertices and triangles without gaps, in the same order.
 
         Parameters
         ----------
@@ -454,7 +454,7 @@ class Editor(_core.Editor):
         return _arrays.numbers(triangles), _arrays.numbers(vertices)
 
     def mesh(self, *, progress: Progress | None = None) -> Mesh:
-        """Make a mesh of what is there now, numbered as by `compact`, with its fields.
+        """Copy the present mesh, numbered as by `compact`, with its fields.
 
         Parameters
         ----------
@@ -484,12 +484,12 @@ class Editor(_core.Editor):
         return np.empty(info.triangle_range, np.uint32), np.empty(info.vertex_range, np.uint32)
 
     def triangle(self, triangle: int) -> tuple[int, int, int] | None:
-        """The vertices of a triangle; None if there is none of that number (any more)."""
+        """The vertices of a triangle; None if no triangle has that number."""
         with self._lock:
             return self._triangle(triangle)
 
     def vertex(self, vertex: int) -> tuple[float, float] | None:
-        """The place of a vertex; None if there is none of that number (any more)."""
+        """The coordinates of a vertex; None if no vertex has that number."""
         with self._lock:
             return self._vertex(vertex)
 
@@ -504,7 +504,7 @@ class Editor(_core.Editor):
             return EdgeKind(self._edge(vertex, other))
 
     def value(self, vertex: int, field: str = "z") -> float:
-        """The value of a field at a vertex; NaN for a vertex that is not there."""
+        """The value of a field at a vertex; NaN for a vertex that does not exist."""
         number = self._field_number(field)
         with self._lock:
             return self._value(number, vertex)
@@ -568,7 +568,7 @@ class Editor(_core.Editor):
             return self._locate_one(x, y)
 
     def describe(self) -> EditorInfo:
-        """Tell what is there, and what it takes.
+        """Tell counts, and the memory that the editor takes.
 
         Returns
         -------
@@ -582,7 +582,7 @@ class Editor(_core.Editor):
         return f"<Editor: {info.vertices} vertices, {info.triangles} triangles>"
 
     def __reduce__(self) -> Any:
-        raise TypeError("an editor does not pickle; its mesh() does")
+        raise TypeError("an editor cannot be pickled; its mesh() can")
 
 
 class EditorLocations(Locations):
@@ -624,15 +624,15 @@ class EditorLocations(Locations):
         return out.reshape(self.shape)
 
     def gradient(self, values: Any) -> Any:
-        """Not of the mesh of an editor: locate in its `Editor.mesh`."""
+        """Refused for the mesh of an editor: locate in `Editor.mesh`."""
         raise TypeError("the mesh of an editor has no gradients; locate in editor.mesh()")
 
     def operator(self) -> Any:
-        """Not of the mesh of an editor: locate in its `Editor.mesh`."""
+        """Refused for the mesh of an editor: locate in `Editor.mesh`."""
         raise TypeError("the mesh of an editor has no operator; locate in editor.mesh()")
 
     def __getitem__(self, index: Any) -> EditorLocations:
         return EditorLocations(self.editor, np.asarray(self.records[index]), self._edits)
 
     def __reduce__(self) -> Any:
-        raise TypeError("locations in an editor do not pickle; their records do")
+        raise TypeError("locations of an editor cannot be pickled; their records can")

@@ -54,7 +54,7 @@ class MendChange(NamedTuple):
 
 
 class Mended(NamedTuple):
-    """A mended mesh, and how it came about: the answer of `mend`.
+    """A mended mesh and its changes: the answer of `mend`.
 
     Attributes
     ----------

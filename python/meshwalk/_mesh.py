@@ -314,7 +314,7 @@ class Mesh(_core.Mesh):
         return out
 
     def reordered(self) -> Reordered:
-        """Number vertices and triangles anew along a Hilbert curve: neighbours get near numbers.
+        """Renumber vertices and triangles along a Hilbert curve: neighbours get near numbers.
 
         Where a large mesh is numbered at random, values at its vertices lie far apart in memory,
         and particles or fields take several times as long. The new mesh has all fields,

@@ -343,12 +343,12 @@ def remap(
         raise ValueError(f"values must be 'triangles' or 'vertices', not {values!r}")
     at_vertices = values == "vertices"
     if at_vertices and source_cells is not None:
-        raise ValueError("source_cells are for values of triangles")
+        raise ValueError("source_cells need values='triangles'")
     given = _side(source, "source", source_cells, degrees, at_vertices)
     kind = (at_vertices, degrees, covered)
     if isinstance(target, Pixels):
         if target_cells is not None:
-            raise ValueError("target_cells are for a mesh")
+            raise ValueError("target_cells need a mesh as the target")
         raw = _core.remap_to_pixels(*given, target, *kind, threads, progress)
         shape: tuple[int, ...] = (target.rows, target.columns)
     else:
@@ -387,8 +387,9 @@ def _side(
         locator = filled(Mesh(points, triangles), name)
     except InputError as error:
         error.add_note(
-            f"{name} goes round the globe: its triangles are counted as they were cut at the "
-            f"meridian of {pieces[3]:g} degrees; edges are straight in longitude and latitude"
+            f"{name} goes round the globe and was cut at the meridian of {pieces[3]:g} degrees. "
+            "Numbers of triangles are those of the pieces; edges are straight in longitude and "
+            "latitude"
         )
         raise
     whole = count if numbers is not None else mesh.triangle_count

@@ -96,7 +96,7 @@ def explain(
     walk: str = "auto",
     start: str = "auto",
 ) -> Axes:
-    """Draw how a point is located: the walk, the triangle and, of a tie, all that have the point.
+    """Draw how a point is located: the walk, and the triangle or triangles that contain the point.
 
     The picture shows the part of the mesh round the walk; ``ax.autoscale()`` shows all of it.
 

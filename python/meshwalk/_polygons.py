@@ -80,7 +80,7 @@ class PolygonHits:
 
 
 class Polygons:
-    """Polygons that are asked which of them contain points, exactly.
+    """Polygons prepared to tell exactly which of them contain a point.
 
     A point is inside a polygon if every way from it to infinity crosses the polygon's segments an
     odd number of times. So rings may come in any order and direction, a hole is a ring in another,

@@ -53,7 +53,7 @@ class _Tile(NamedTuple):
 
 
 class Tiles:
-    """A mesh in tiles, of which only those are mapped that points come near to.
+    """A mesh in tiles; only tiles near the points are mapped.
 
     Answers are those of the whole mesh, bit for bit: the numbers of triangles, vertices and holes
     are its own, and ties belong to the lowest triangle of all.
@@ -108,7 +108,7 @@ class Tiles:
 
     @property
     def checksum(self) -> int:
-        """Of the index, which names the checksums of all files."""
+        """The checksum of the index, which holds the checksums of all files."""
         return self._index.checksum
 
     @property

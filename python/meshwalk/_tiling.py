@@ -171,6 +171,6 @@ def prepare_tiles(
         raise ValueError(f"tiles must be from 1 to {count}, the number of triangles, not {tiles}")
     name = os.path.abspath(os.fsdecode(_arrays.path(folder)))
     if os.path.lexists(name):
-        raise FileExistsError(f"{name}: is there already; remove it first")
+        raise FileExistsError(f"{name}: exists already; remove it first")
     os.stat(os.path.dirname(name))
     locator._write(os.fsencode(name), tiles, progress)

@@ -150,7 +150,7 @@ def triangulate(
     rows, width = _arrays.vertices(points, "points", (2, 3))
     duplicate_of = np.empty(len(rows), np.uint32)
     if weights is not None and kind != "regular":
-        raise ValueError("weights are for the kind 'regular'")
+        raise ValueError("weights need the kind 'regular'")
     heavy = None if weights is None else _arrays.field(weights, "weights", len(rows))
     mesh, duplicates, optimal = _core.triangulate(
         Mesh, rows[:, :2], duplicate_of, kind, heavy, limit, threads, progress

@@ -1,6 +1,6 @@
 /* cache.c - how large the caches of the processor are.
  *
- * Asked each time: the library keeps no state of its own, and the C library knows the answer. */
+ * Each call asks the C library anew, because this library keeps no state. */
 #include "base/cache.h"
 #include "base/posix.h"
 

@@ -1,4 +1,5 @@
-/* memory.c - arrays, on any machine. The program is linked with this file, too. */
+/* memory.c - allocation of arrays, checked on machines of any word size. The program is linked with
+ * this file, too. */
 #include "base/base.h"
 #include "base/posix.h"
 

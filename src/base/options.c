@@ -1,4 +1,4 @@
-/* options.c - what is checked of every structure of options. */
+/* options.c - the checks that every structure of options needs. */
 #include "base/options.h"
 
 mw_status mw__reserved_check(const char *type, const void *reserved, size_t bytes, mw_error *error)

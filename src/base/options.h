@@ -1,4 +1,4 @@
-/* options.h - what is checked of every structure of options. Private. */
+/* options.h - the checks that every structure of options needs. Private. */
 #ifndef MW_SRC_BASE_OPTIONS_H
 #define MW_SRC_BASE_OPTIONS_H
 

@@ -5,9 +5,9 @@
  * docs/porting.md tells what would stand in for them elsewhere. Web builds have their own
  * <pthread.h>, <dlfcn.h> and <sys/mman.h> (web/platform), and neither processes nor signals.
  *
- * Functions with a star are no part of POSIX; files that use them define _GNU_SOURCE. So are these
- * constants, without which the code does well: O_TMPFILE (output.c), MADV_HUGEPAGE (base.c),
- * _SC_LEVEL2_CACHE_SIZE and _SC_LEVEL3_CACHE_SIZE (cache.c). */
+ * Functions with a star are no part of POSIX; files that use them define _GNU_SOURCE. These
+ * constants are no part of POSIX either, and the code works without them: O_TMPFILE (output.c),
+ * MADV_HUGEPAGE (base.c), _SC_LEVEL2_CACHE_SIZE and _SC_LEVEL3_CACHE_SIZE (cache.c). */
 #ifndef MW_SRC_BASE_POSIX_H
 #define MW_SRC_BASE_POSIX_H
 

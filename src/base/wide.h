@@ -1,8 +1,8 @@
 /* wide.h - unsigned numbers of 128 bits: products of two of 64, and what is done with them.
  * Private.
  *
- * Compilers for machines of 32 bits have no such type. MW_NO_INT128 does without it elsewhere, so
- * that a test can compare the two. */
+ * Compilers for machines of 32 bits have no type of 128 bits. MW_NO_INT128 avoids that type on
+ * other machines, too, so that a test can compare both ways. */
 #ifndef MW_SRC_BASE_WIDE_H
 #define MW_SRC_BASE_WIDE_H
 

@@ -10,14 +10,14 @@
 
 #define MW_SORT_WORTHWHILE 64 /* fewer queries are not sorted by `auto` */
 
-/* What each room's own record of a batch begins with. Points, locations, hints and seed are those
+/* The first members of each room's record of a batch. Points, locations, hints and seed are those
  * of one block while it is answered; its queries are numbered from 0, and the random numbers of a
  * query come from the seed and its number. */
 typedef struct mw_batch mw_batch;
 struct mw_batch {
     const double *points;
     mw_location *locations;
-    uint32_t *hints; /* NULL, or one for each query, of which only its room knows */
+    uint32_t *hints; /* NULL, or one for each query; only the room of the batch reads them */
     size_t stride;   /* doubles from point to point */
     uint64_t seed;
     const mw_key *order; /* NULL, or order[i].item is the i-th query to answer */
@@ -28,13 +28,13 @@ struct mw_batch {
     mw_counters (*answer)(const mw_batch *batch, uint32_t first, uint32_t count);
 };
 
-/* Answer n queries, as stages of the present part of the job. What was done is added to *sum.
- * MW_OK also where the job is to stop, or MW_ERROR_MEMORY. */
+/* Answer n queries, as stages of the present part of the job. The counts are added to *sum.
+ * Returns MW_OK, also if the job is to stop, or MW_ERROR_MEMORY. */
 mw_status mw__batch_run_part(mw_batch *batch, size_t n, mw_job *job, mw_counters *sum,
                              mw_error *error);
 
-/* Answer n queries as a job of its own. What was done goes to *counters unless that is NULL.
- * MW_ERROR_MEMORY, MW_CANCELLED. */
+/* Answer n queries as a job of its own. The counts go to *counters unless that is NULL.
+ * Fails with MW_ERROR_MEMORY or MW_CANCELLED. */
 mw_status mw__batch_run(mw_batch *batch, size_t n, uint32_t threads, const mw_progress *progress,
                         mw_counters *counters, mw_error *error);
 

@@ -36,7 +36,7 @@ static mw_status borrowed_mesh_validate(const mw_borrowed_arrays *arrays,
         return mw__fail(error, MW_ERROR_ARGUMENT, "unknown layout of neighbours");
     if (options->convex && !options->unchecked)
         return mw__fail(error, MW_ERROR_ARGUMENT,
-                        "'convex' goes with 'unchecked' only: the check finds it out");
+                        "the option 'convex' needs 'unchecked': the check decides this by itself");
     return MW_OK;
 }
 

@@ -16,7 +16,8 @@
 static mw_status refuse_fixed(const mw_dynamic_tiling *dynamic, uint32_t v, mw_error *error)
 {
     return mw__fail_at(error, -1, dynamic->vertex_number[v],
-                       "vertex %" PRIu32 " is on the border or on a constraint",
+                       "vertex %" PRIu32
+                       " cannot be removed: it is on the border or on a constraint",
                        dynamic->vertex_number[v]);
 }
 
@@ -64,7 +65,8 @@ static mw_status shrink_hull(mw_dynamic_tiling *dynamic, const mw_vertex_star *s
         return mw__fail_memory(error);
     if (dynamic->tiling->tri_count == pool.count - pool.used)
         return mw__fail_at(error, -1, number,
-                           "without vertex %" PRIu32 " no triangle would be left", number);
+                           "vertex %" PRIu32 " cannot be removed: no triangle would be left",
+                           number);
     uint32_t *tile_at = dynamic->tiling->tile_at;
     for (size_t i = 0; i <= left; i++) tile_at[dynamic->boundary[i].vertex] = MW_NONE;
     for (size_t i = 0; i < left; i++) {

@@ -2,9 +2,9 @@
  * few tiles to which it leads far.
  *
  * A walk of L tiles passes by L - FAR tiles that are themselves far from where it began. So one
- * walk for each 256 tiles finds nearly every place with walks of several hundred. From there all
- * tiles are gathered that are far and hang together; they alone get chains. Points of them are near
- * a corner, too, since walks round a vertex of many tiles are long only near it. */
+ * walk for each 256 tiles finds nearly every place with walks of several hundred. From each such
+ * tile, all connected tiles that are far are gathered; only these get chains. The sample also has
+ * points near corners of tiles, since walks round a vertex of many tiles are long only near it. */
 #include "locate/guide_walks.h"
 #include "base/random.h"
 #include "tiling/tiling_create.h"
@@ -162,8 +162,8 @@ static bool far_tiles_look(far_tiles *far, uint32_t from, uint32_t link)
     return true;
 }
 
-/* Take a far tile, and from there all that hang together, with small gaps: its test may miss where
- * a tile is far. False: there are too many. */
+/* Take a far tile and all far tiles connected to it, across small gaps: the test may miss that a
+ * tile is far. False: there are too many. */
 static bool far_tiles_gather(far_tiles *far, uint32_t t)
 {
     const mw_tiling *tiling = far->guided->tiling;

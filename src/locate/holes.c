@@ -24,8 +24,7 @@ mw_status mw_locator_holes(const mw_locator *locator, mw_hole_edge *edges, mw_er
     const mw_tiling *tiling = &locator->tiling;
     if (tiling->border_loops || tiling->tile_of)
         return mw__fail(error, MW_ERROR_ARGUMENT,
-                        "the holes of this mesh are open, or it was edited: this needs a locator "
-                        "that fills them");
+                        "this needs a locator that fills pockets and holes and was not edited");
     for (uint32_t i = 0; i < tiling->hole_count; i++) edges[i] = (mw_hole_edge){MW_NONE, MW_NONE};
     for (uint32_t t = 0; t < tiling->tri_count; t++)
         for (uint32_t k = 0; k < 3 && !(tiling->tri[t].user & MW_GHOST); k++)

@@ -265,7 +265,7 @@ mw_status mw_locator_create(const mw_mesh *mesh, const mw_locator_options *optio
     if (!mesh) return mw__fail(error, MW_ERROR_ARGUMENT, "no mesh");
     if (!options) options = &defaults;
     if ((unsigned)options->fill > MW_FILL_NO)
-        return mw__fail(error, MW_ERROR_ARGUMENT, "unknown way to fill");
+        return mw__fail(error, MW_ERROR_ARGUMENT, "unknown mode of filling pockets and holes");
     if (mesh->flat_count == mesh->tri_count)
         return mw__fail(error, MW_ERROR_INPUT, "the mesh has no triangle with an area");
     mw_status status = MW_RESERVED_CHECK(mw_locator_options, options, error);

@@ -68,8 +68,8 @@ static mw_walk query_walk(const mw_locator *locator, const mw_cursor *cursor, ui
     return walk;
 }
 
-/* Steps of the fast stochastic walk that make one test: as given, or as many as tiles are crossed
- * by the line to q, by expectation, but no more than the fuel; they come on top of that. On
+/* The number of steps of the fast stochastic walk that make one test: as given, or the expected
+ * number of tiles that the line to q crosses, at most the fuel. These steps do not use up fuel. On
  * Delaunay meshes of 10^3 to 10^6 random points, from random tiles, the tests are within 1.1 % of
  * the fewest that any multiple of the estimate makes, and hardly a tile is visited in vain. For
  * 10^5 points, where the stochastic walk visits 383.0 tiles with 494.5 tests, multiples give
@@ -165,7 +165,8 @@ mw_status mw_cursor_init(const mw_locator *locator, const mw_query_options *opti
     if (status) return status;
     if (options->finish && options->finish != MW_WALK_REMEMBERING &&
         options->finish != MW_WALK_STOCHASTIC)
-        return mw__fail(error, MW_ERROR_ARGUMENT, "finish must be remembering or stochastic");
+        return mw__fail(error, MW_ERROR_ARGUMENT,
+                        "the walk 'finish' must be remembering or stochastic");
     if ((unsigned)options->arithmetic > MW_DOUBLE)
         return mw__fail(error, MW_ERROR_ARGUMENT, "unknown arithmetic");
     if (!(options->tolerance >= 0) || isinf(options->tolerance))

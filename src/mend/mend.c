@@ -17,7 +17,8 @@ static mw_status mend_check_arguments(const mw_arrays *arrays, const mw_mend_opt
     mw_status status = MW_RESERVED_CHECK(mw_mend_options, options, error);
     if (status) return status;
     if (options->repairs > MW_REPAIR_ALL || options->space > 1)
-        return mw__fail(error, MW_ERROR_ARGUMENT, "unknown repair, or unknown way to take a mesh");
+        return mw__fail(error, MW_ERROR_ARGUMENT,
+                        "the option 'repairs' or 'space' has an unknown value");
     if (!(options->tolerance >= 0 && options->tolerance < INFINITY))
         return mw__fail(error, MW_ERROR_ARGUMENT, "the tolerance is negative, or not finite");
     return mw__arrays_validate(arrays, options->space ? 3 : 2, error);
@@ -37,11 +38,11 @@ static mw_status mend_work_create(mw_mend_work *w, const mw_arrays *arrays, mw_e
             uint32_t v = mw__index_at(arrays, 3 * (size_t)t + k);
             w->triangle[t].v[k] = v;
             if (v >= w->vertex_count && !(w->repairs & MW_REPAIR_DROP))
-                return mw__fail_at(error, t, -1,
-                                   "triangle %" PRIu32
-                                   ": local vertex %zu does not exist; 'drop' would remove the"
-                                   " triangle",
-                                   t, k);
+                return mw__fail_at(
+                    error, t, -1,
+                    "triangle %" PRIu32
+                    ": local vertex %zu does not exist; the repair 'drop' removes such triangles",
+                    t, k);
         }
     }
     return MW_OK;

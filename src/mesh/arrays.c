@@ -7,17 +7,19 @@ mw_status mw__arrays_validate(const mw_arrays *arrays, size_t dimension, mw_erro
 {
     if (!arrays || (!arrays->points && arrays->point_count) ||
         (!arrays->triangles && arrays->triangle_count))
-        return mw__fail(error, MW_ERROR_ARGUMENT, "arrays are missing");
+        return mw__fail(error, MW_ERROR_ARGUMENT, "the points or the triangles are NULL");
     if (arrays->point_stride > 0 && arrays->point_stride < dimension)
         return mw__fail(error, MW_ERROR_ARGUMENT, "a point stride of %zu leaves no room for %c",
                         arrays->point_stride, arrays->point_stride == 1 ? 'y' : 'z');
     if (arrays->integer_type > MW_INT64)
-        return mw__fail(error, MW_ERROR_ARGUMENT, "unknown type of index");
+        return mw__fail(error, MW_ERROR_ARGUMENT, "unknown type of vertex numbers");
     if (arrays->point_count > MW_MAX_VERTICES)
-        return mw__fail(error, MW_ERROR_LIMIT, "%zu vertices, at most %" PRIu32 " are possible",
+        return mw__fail(error, MW_ERROR_LIMIT,
+                        "the mesh has %zu vertices; at most %" PRIu32 " are possible",
                         arrays->point_count, MW_MAX_VERTICES);
     if (arrays->triangle_count > MW_MAX_TRIANGLES)
-        return mw__fail(error, MW_ERROR_LIMIT, "%zu triangles, at most %" PRIu32 " are possible",
+        return mw__fail(error, MW_ERROR_LIMIT,
+                        "the mesh has %zu triangles; at most %" PRIu32 " are possible",
                         arrays->triangle_count, MW_MAX_TRIANGLES);
     return MW_OK;
 }

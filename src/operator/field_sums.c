@@ -1,8 +1,9 @@
-/* field_sums.c - fields one after another, a tile of some ranks and some fields at a time.
+/* field_sums.c - sums of fields that are stored one after another, in tiles of some ranks and some
+ * fields.
  *
- * What a rank has, columns and weights, is read once for these fields. The sums of a tile stay in
- * the nearest cache and go to each field as a run. Rows with three entries are the common case; all
- * others, and missing values that are left out, go value by value. The bits are the same: each
+ * The columns and weights of a rank are read once for the fields of a tile. The sums of a tile stay
+ * in the nearest cache and go to each field as a run. Rows with three entries are the common case;
+ * all others, and missing values that are left out, go value by value. The bits are the same: each
  * value is the sum that mw_interpolate makes, in its order. */
 #include "operator/field_sums.h"
 

@@ -1,5 +1,5 @@
-/* field_sums.h - an operator times values of which those of a field lie one after another. Private;
- * for this room only. */
+/* field_sums.h - an operator applied to fields that are stored one after another. Private; for this
+ * room only. */
 #ifndef MW_SRC_OPERATOR_FIELD_SUMS_H
 #define MW_SRC_OPERATOR_FIELD_SUMS_H
 

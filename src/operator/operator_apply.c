@@ -57,7 +57,8 @@ static mw_status apply_check(const mw_operator *o, const mw_value_table *table,
     if (table->type != MW_FLOAT64 && table->type != MW_FLOAT32)
         return mw__fail(error, MW_ERROR_ARGUMENT, "unknown type of values: %d", (int)table->type);
     if (table->step <= 1 && table->stride && table->stride < table->count)
-        return mw__fail(error, MW_ERROR_ARGUMENT, "a stride of %zu for %zu values", table->stride,
+        return mw__fail(error, MW_ERROR_ARGUMENT,
+                        "the stride %zu is less than the %zu values of a column", table->stride,
                         table->count);
     if (options->missing != MW_MISSING_SPREADS && options->missing != MW_MISSING_LEFT_OUT)
         return mw__fail(error, MW_ERROR_ARGUMENT, "unknown rule for missing values: %d",

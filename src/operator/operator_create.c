@@ -30,8 +30,9 @@ static mw_status places_check(const mw_placed_hits *at, mw_error *error)
 {
     const size_t n = at->hits.count;
     if (n >= MW_NONE)
-        return mw__fail(error, MW_ERROR_LIMIT, "an operator of %zu rows; at most %u are possible",
-                        n, MW_NONE - 1);
+        return mw__fail(error, MW_ERROR_LIMIT,
+                        "an operator cannot have %zu rows; at most %u are possible", n,
+                        MW_NONE - 1);
     for (size_t i = 0; i < n; i++) {
         const double *weight = mw__hit_weights(&at->hits, i);
         if (!place_fits(at, i))
@@ -251,7 +252,7 @@ mw_status mw_operator_transpose(const mw_operator *weights, const mw_operator_op
     if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "the pointer to the new operator is NULL");
     *out = NULL;
     if (!options) options = &defaults;
-    if (!weights) return mw__fail(error, MW_ERROR_ARGUMENT, "there is no operator");
+    if (!weights) return mw__fail(error, MW_ERROR_ARGUMENT, "the operator is NULL");
     mw_status status = MW_RESERVED_CHECK(mw_operator_options, options, error);
     if (status) return status;
     mw_sparse_rows given = {0}, turned = {0};

@@ -1,9 +1,9 @@
 /* row_sums.c - rows of values, summed four values at a time.
  *
- * The time goes into waiting for the values of columns, which lie anywhere. So those of some ranks
- * later are asked for; and the fewer instructions a rank takes, the more of them the processor has
- * in flight. That is why this is compiled once more for processors with AVX2. The bits are the
- * same: each value is the sum that mw_interpolate makes, in its order. */
+ * Most of the time is spent waiting for the values of columns, which lie anywhere in memory. So the
+ * values of later ranks are prefetched. The fewer instructions a rank takes, the more ranks the
+ * processor works on at a time; therefore this file is compiled a second time, for processors with
+ * AVX2. The bits are the same: each value is the sum that mw_interpolate makes, in its order. */
 #include "operator/row_sums.h"
 
 #include "operator/four_doubles.h"

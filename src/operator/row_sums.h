@@ -1,5 +1,5 @@
-/* row_sums.h - an operator times values of which those of a column lie side by side. Private; for
- * this room only. */
+/* row_sums.h - an operator applied to values whose columns are stored one after another: the values
+ * of a column lie side by side. Private; for this room only. */
 #ifndef MW_SRC_OPERATOR_ROW_SUMS_H
 #define MW_SRC_OPERATOR_ROW_SUMS_H
 

@@ -323,7 +323,8 @@ static void remap_find_shifts(remap_work *w, double west, double east)
 static mw_status remap_check_round(double west, double east, double rounding, mw_error *error)
 {
     if (fabs(west) > 720 || fabs(east) > 720)
-        return mw__fail(error, MW_ERROR_INPUT, "longitudes from %g to %g: they end at 720 degrees",
+        return mw__fail(error, MW_ERROR_INPUT,
+                        "longitudes from %g to %g are out of range, which is -720 to 720 degrees",
                         west, east);
     if (east - west <= 360 + rounding) return MW_OK;
     return mw__fail(error, MW_ERROR_INPUT,
@@ -351,12 +352,13 @@ static mw_status remap_check_seam(const mw_mesh *mesh, mw_error *error)
 static mw_status remap_check_mesh(const mw_remap_mesh *mesh, bool degrees, mw_error *error)
 {
     if (!mesh || !mesh->locator)
-        return mw__fail(error, MW_ERROR_ARGUMENT, "remapping needs a locator of each mesh");
+        return mw__fail(error, MW_ERROR_ARGUMENT, "the locator of a mesh is NULL");
     const mw_locator *l = mesh->locator;
     mw_status status = mw__overlap_check_locator(l, error);
     if (status) return status;
     if (degrees && (l->low[1] < -90 || l->high[1] > 90))
-        return mw__fail(error, MW_ERROR_INPUT, "latitudes from %g to %g: they end at 90 degrees",
+        return mw__fail(error, MW_ERROR_INPUT,
+                        "latitudes from %g to %g are out of range, which is -90 to 90 degrees",
                         l->low[1], l->high[1]);
     if (degrees) status = remap_check_round(l->low[0], l->high[0], 0x1p-30, error);
     if (degrees && !status) status = remap_check_seam(l->mesh, error);
@@ -376,7 +378,8 @@ static mw_status remap_check_pixels(const mw_remap_pixels *p, bool degrees, mw_e
 {
     if (!p || !(p->width > 0) || !(p->height > 0) || !isfinite(p->west) || !isfinite(p->north) ||
         p->columns == 0 || p->rows == 0)
-        return mw__fail(error, MW_ERROR_ARGUMENT, "pixels need a place, a size and a number");
+        return mw__fail(error, MW_ERROR_ARGUMENT,
+                        "the place, the size or the number of the pixels is missing or not finite");
     double east = p->west + p->columns * p->width, south = p->north - p->rows * p->height;
     if ((uint64_t)p->columns * p->rows >= MW_NONE)
         return mw__fail(error, MW_ERROR_LIMIT, "%u times %u pixels are too many", p->columns,
@@ -385,7 +388,8 @@ static mw_status remap_check_pixels(const mw_remap_pixels *p, bool degrees, mw_e
         !(fmax(fabs(p->north), fabs(south)) * 0x1p-44 < p->height))
         return mw__fail(error, MW_ERROR_LIMIT, "pixels too small for their coordinates");
     if (degrees && (p->north > 90 + p->height * 0x1p-20 || south < -90 - p->height * 0x1p-20))
-        return mw__fail(error, MW_ERROR_INPUT, "latitudes from %g to %g: they end at 90 degrees",
+        return mw__fail(error, MW_ERROR_INPUT,
+                        "latitudes from %g to %g are out of range, which is -90 to 90 degrees",
                         south, p->north);
     return degrees ? remap_check_round(p->west, east, p->width * 0x1p-10, error) : MW_OK;
 }
@@ -409,7 +413,7 @@ static mw_status remap_produce(remap_work *w, mw_remap *out, mw_error *error)
 static mw_status remap_begin(remap_work *w, mw_remap *out, mw_error *error)
 {
     static const mw_remap_options defaults;
-    if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "remapping needs room for the answer");
+    if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "the pointer to the result is NULL");
     *out = (mw_remap){0};
     if (!w->options) w->options = &defaults;
     mw_status status = MW_RESERVED_CHECK(mw_remap_options, w->options, error);

@@ -15,9 +15,9 @@
 enum { MOST_CORNERS = 8 }; /* of a quadrilateral that two meridians cut */
 
 /* A corner of a piece. `vertex` is the mesh's, or MW_NONE of one that is new. `own` is its
- * longitude without turns, as the mesh has it; NaN where the seam cuts an edge. A field has there
- * what it has `part` of the way from one vertex to another; where `from` is MW_NONE, at a pole
- * inside of a face, the mean of what it has round the face. */
+ * longitude without turns, as the mesh has it; NaN where the seam cuts an edge. The value of a
+ * field there is interpolated: `part` of the way from vertex `from` to vertex `to`. If `from` is
+ * MW_NONE, the corner is a pole inside a face, and the value is the mean round the face. */
 typedef struct seam_corner {
     double lon, lat, own;
     uint32_t vertex, from, to;
@@ -29,7 +29,8 @@ typedef struct seam_polygon {
     uint32_t count;
 } seam_polygon;
 
-/* What new vertices have of the mesh's vertices: entries of a matrix. */
+/* The weights by which values at new vertices come from the mesh's vertices: entries of a matrix.
+ * */
 typedef struct seam_shares {
     uint32_t *row, *column;
     double *weight;
@@ -125,7 +126,7 @@ static bool cutter_grow(seam_cutter *c)
     return true;
 }
 
-/* What a field has at new vertex `row`. */
+/* Add the weights of new vertex `row`. */
 static bool cutter_share(seam_cutter *c, const seam_corner *corner, size_t row)
 {
     bool added = true;
@@ -368,7 +369,8 @@ static mw_status cutter_check(const mw_arrays *mesh, mw_error *error)
     const uint32_t *v = mesh->triangles;
     for (size_t i = 0; i < 3 * mesh->triangle_count; i++)
         if (v[i] >= mesh->point_count)
-            return mw__fail_at(error, (int64_t)(i / 3), v[i], "triangle %zu has vertex %u of %zu",
+            return mw__fail_at(error, (int64_t)(i / 3), v[i],
+                               "triangle %zu names vertex %u, which does not exist; there are %zu",
                                i / 3, v[i], mesh->point_count);
     return MW_OK;
 }
@@ -408,7 +410,7 @@ static mw_status cutter_run(seam_cutter *c, mw_error *error)
 mw_status mw_seam_cut(const mw_arrays *mesh, const uint32_t *faces, mw_seam_pieces *pieces,
                       mw_error *error)
 {
-    if (!pieces) return mw__fail(error, MW_ERROR_ARGUMENT, "there is no room for the pieces");
+    if (!pieces) return mw__fail(error, MW_ERROR_ARGUMENT, "the pointer to the pieces is NULL");
     *pieces = (mw_seam_pieces){0};
     mw_status status = cutter_check(mesh, error);
     if (status) return status;

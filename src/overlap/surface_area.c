@@ -93,8 +93,7 @@ mw_status mw_surface_area(const mw_locator *surface, const double *heights,
     static const mw_volume_options defaults;
     if (!options) options = &defaults;
     if (!surface || !heights || !region || !info)
-        return mw__fail(error, MW_ERROR_ARGUMENT,
-                        "an area needs two locators, heights, and room for the answer");
+        return mw__fail(error, MW_ERROR_ARGUMENT, "a locator, the heights or the result is NULL");
     mw_status status = MW_RESERVED_CHECK(mw_volume_options, options, error);
     if (!status) status = mw__overlap_check_locator(surface, error);
     if (!status) status = mw__overlap_check_locator(region, error);

@@ -251,7 +251,7 @@ mw_status mw_volume_between(const mw_locator *surface, const double *heights,
 {
     if (!surface || !heights || !other || !other_heights || !info)
         return mw__fail(error, MW_ERROR_ARGUMENT,
-                        "a volume needs two locators, heights for both, and room for the answer");
+                        "a locator, the heights of a mesh or the result is NULL");
     volume_work work = {
         .surface = surface, .heights = heights, .other = other, .other_heights = other_heights};
     return volume_make(&work, options, info, error);
@@ -261,8 +261,7 @@ mw_status mw_volume_above(const mw_locator *surface, const double *heights, doub
                           const mw_volume_options *options, mw_volume_info *info, mw_error *error)
 {
     if (!surface || !heights || !info)
-        return mw__fail(error, MW_ERROR_ARGUMENT,
-                        "a volume needs a locator, heights, and room for the answer");
+        return mw__fail(error, MW_ERROR_ARGUMENT, "the locator, the heights or the result is NULL");
     if (!isfinite(base))
         return mw__fail(error, MW_ERROR_ARGUMENT, "the base of a volume is not finite");
     volume_work work = {.surface = surface, .heights = heights, .base = base};

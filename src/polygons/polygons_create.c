@@ -258,7 +258,7 @@ static mw_status maker_run(polygon_maker *k, mw_error *error)
 static mw_status polygons_check(const mw_constraints *rings, const mw_polygons_options *options,
                                 mw_error *error)
 {
-    if (!rings) return mw__fail(error, MW_ERROR_ARGUMENT, "rings are NULL");
+    if (!rings) return mw__fail(error, MW_ERROR_ARGUMENT, "the rings are NULL");
     if (rings->segment_count && !rings->polygon)
         return mw__fail(error, MW_ERROR_ARGUMENT, "the polygon of each segment is missing (NULL)");
     if (rings->hole_seed_count)
@@ -270,7 +270,7 @@ mw_status mw_polygons_create(const mw_constraints *rings, const mw_polygons_opti
                              mw_polygons **out, mw_error *error)
 {
     static const mw_polygons_options defaults;
-    if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "out is NULL");
+    if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "the pointer to the new polygons is NULL");
     *out = NULL;
     if (!options) options = &defaults;
     mw_status status = polygons_check(rings, options, error);

@@ -5,8 +5,8 @@
  * after each record has been checked: numbers within their ranges, links that lead back, tiles
  * counter-clockwise by the exact orient2d. A tile must lie in the triangle whose number it has, and
  * the owner of a vertex must be the lowest triangle that has it; so the rule of ties holds.
- * The guide may name any tile: that makes walks longer, but not wrong. Of it only the numbers that
- * searches count on are checked.
+ * The guide may name any tile: that makes walks longer, but not wrong. In the guide, only the
+ * numbers that searches rely on are checked.
  *
  * One pass over each part, shared among the threads. Each pass notes the first record that is
  * wrong, so that the message does not depend on the threads. */
@@ -312,7 +312,7 @@ static mw_status check_mesh(const mw_prepared *p, mw_job *job, uint64_t *border,
     /* without `opposite` a mesh does not know its border */
     if (c.flat != mesh->flat_count || c.reversed != mesh->reversed_count ||
         (mesh->opposite && (c.clashing > 0 || c.border != mesh->border_count)))
-        return mw__prepared_fail(p, error, "its triangles are not as many as counted");
+        return mw__prepared_fail(p, error, "it has more or fewer triangles than its header says");
     return MW_OK;
 }
 
@@ -339,7 +339,7 @@ static mw_status check_tiling(const mw_prepared *p, uint64_t border, uint64_t cl
     if (!tiling->borrowed) {
         border = c.border;
         if (c.covered != (uint64_t)p->mesh.tri_count - p->mesh.flat_count)
-            return mw__prepared_fail(p, error, "part 'tiles': a triangle has none");
+            return mw__prepared_fail(p, error, "part 'tiles': a triangle has no tile");
     } else if (clashing > 0) {
         return mw__prepared_fail(p, error, "part 'triangles': two lie on the same side of an edge");
     }

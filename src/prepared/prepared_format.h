@@ -1,8 +1,10 @@
 /* prepared_format.h - the prepared file: its header and its parts (docs/prepared.md). Private.
  *
  * A part is an array as it stands in memory. Parts follow the header in the order of
- * mw_prepared_kind, each from a multiple of 64 bytes on; the bytes between them are zero. How long
- * each part is follows from the facts: writer and mapper take it from one table. */
+ * mw_prepared_kind, each from a multiple of 64 bytes on; the bytes between them are zero. The
+ * length of each part follows from the facts (mw_prepared_facts): writer and mapper take it from
+ * one table.
+ */
 #ifndef MW_SRC_PREPARED_PREPARED_FORMAT_H
 #define MW_SRC_PREPARED_PREPARED_FORMAT_H
 
@@ -55,7 +57,7 @@ enum {
     MW_PREPARED_FLAGS = 2 * 1024 - 1 /* all of them                                        */
 };
 
-/* What leads queries to their first tile. */
+/* The kind of guide, which leads queries to their first tile. */
 typedef enum mw_prepared_guide {
     MW_GUIDE_NONE,
     MW_GUIDE_GRID,
@@ -70,10 +72,10 @@ typedef struct mw_prepared_facts {
     uint32_t points, triangles, flat, reversed, border;
     /* of the tiling; `centre` is the tile in the middle */
     uint32_t tiles, ghosts, holes, centre;
-    /* of what leads to the first tile, and of the index of the border */
+    /* of the guide, and of the index of the border */
     uint32_t samples, sample_shift, sample_near;
     uint32_t chain_points, chain_edges, border_edges;
-    /* of what is kept beside the mesh */
+    /* of the values kept beside the mesh */
     uint32_t fields, triangle_fields, faces, first_number, marked_edges, marks, steps, name_bytes;
     uint32_t chain_tiles; /* of the tiling; or of the few that chains are for, ghosts with them */
     double low[2], high[2];

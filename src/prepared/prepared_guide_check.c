@@ -1,5 +1,5 @@
 /* prepared_guide_check.c - guide, index of the border and values of a prepared file. Cells and
- * samples may name any tile: mw__tile_of_name makes one that exists of every number. */
+ * samples may name any tile: mw__tile_of_name turns every number into a tile that exists. */
 #include "prepared/prepared_guide_check.h"
 
 #include "base/hilbert.h"

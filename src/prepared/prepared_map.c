@@ -77,7 +77,9 @@ mw_status mw_mesh_map(const char *path, const mw_map_options *options, mw_prepar
 {
     static const mw_map_options defaults;
     if (out) *out = NULL;
-    if (!path || !out) return mw__fail(error, MW_ERROR_ARGUMENT, "mw_mesh_map: NULL");
+    if (!path || !out)
+        return mw__fail(error, MW_ERROR_ARGUMENT,
+                        "mw_mesh_map: the path or the pointer to the new map is NULL");
     if (!options) options = &defaults;
     mw_status status = MW_RESERVED_CHECK(mw_map_options, options, error);
     if (status) return status;

@@ -221,7 +221,8 @@ static mw_status values_attach(mw_prepared *p, mw_error *error)
            *triangle_fields = part_records(p, MW_PART_TRIANGLE_FIELDS);
     if (!values_alloc(p)) return mw__fail_memory(error);
     if (!values_name(p))
-        return mw__prepared_fail(p, error, "part 'names': there are more or fewer than counted");
+        return mw__prepared_fail(
+            p, error, "part 'names': there are more or fewer names than the header says");
     for (size_t i = 0; i < f->fields; i++) v->fields[i] = fields + i * f->points;
     for (size_t i = 0; i < f->triangle_fields; i++)
         v->triangle_fields[i] = triangle_fields + i * f->triangles;

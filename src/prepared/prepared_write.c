@@ -1,5 +1,5 @@
-/* prepared_write.c - writes a mesh and its locator as a prepared file. Checksums stand before what
- * they are of, so each part is read twice: for its checksum, and to be written. */
+/* prepared_write.c - writes a mesh and its locator as a prepared file. A checksum stands
+ * before its part, so each part is read twice: for its checksum, and to be written. */
 #include "base/checksum.h"
 #include "base/job.h"
 #include "base/options.h"
@@ -334,7 +334,9 @@ mw_status mw_write_prepared(const mw_locator *locator, const char *path,
                             const mw_prepare_options *options, mw_error *error)
 {
     static const mw_prepare_options defaults;
-    if (!locator || !path) return mw__fail(error, MW_ERROR_ARGUMENT, "mw_write_prepared: NULL");
+    if (!locator || !path)
+        return mw__fail(error, MW_ERROR_ARGUMENT,
+                        "mw_write_prepared: the locator or the path is NULL");
     if (!options) options = &defaults;
     mw_status status = MW_RESERVED_CHECK(mw_prepare_options, options, error);
     if (!status) status = mw__prepared_check_locator(locator, error);

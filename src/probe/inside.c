@@ -124,9 +124,11 @@ bool mw__surface_is_joined(const mw_surface *surface)
 static mw_status prober_check_closed(const mw_prober *prober, mw_error *error)
 {
     if (!prober->has_bvh)
-        return mw__fail(error, MW_ERROR_ARGUMENT, "inside needs a prober with options.boxes");
+        return mw__fail(error, MW_ERROR_ARGUMENT,
+                        "mw_inside_surface() needs a prober with options.boxes");
     if (prober->version != prober->surface->version)
-        return mw__fail(error, MW_ERROR_ARGUMENT, "the boxes are not up to date: mw_prober_update");
+        return mw__fail(error, MW_ERROR_ARGUMENT,
+                        "the boxes are not up to date: call mw_prober_update()");
     if (!prober->closed)
         return mw__fail(error, MW_ERROR_INPUT,
                         "the surface has no inside: some edges have one triangle, or several that "
@@ -135,8 +137,8 @@ static mw_status prober_check_closed(const mw_prober *prober, mw_error *error)
         return mw__fail(error, MW_ERROR_INPUT, "the surface has no inside: a vertex is not finite");
     if (!prober->joined)
         return mw__fail(error, MW_ERROR_INPUT,
-                        "vertices of a welded surface may have moved apart: mw_prober_update with "
-                        "a negative distance checks them");
+                        "vertices of a welded surface may have moved apart: call "
+                        "mw_prober_update() with a negative distance to check them");
     return MW_OK;
 }
 

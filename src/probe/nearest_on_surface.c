@@ -184,7 +184,7 @@ mw_status mw__nearest_check(const mw_prober *prober, double max_distance, mw_err
 {
     if (!prober->has_bvh)
         return mw__fail(error, MW_ERROR_ARGUMENT,
-                        "the nearest point needs a prober with options.boxes");
+                        "a nearest point needs a prober with options.boxes");
     if (!(max_distance >= 0))
         return mw__fail(error, MW_ERROR_ARGUMENT, "the distance must be at least 0");
     return MW_OK;
@@ -192,7 +192,8 @@ mw_status mw__nearest_check(const mw_prober *prober, double max_distance, mw_err
 
 mw_status mw__nearest_fail_outdated(mw_error *error)
 {
-    return mw__fail(error, MW_ERROR_ARGUMENT, "the boxes are not up to date: mw_prober_update");
+    return mw__fail(error, MW_ERROR_ARGUMENT,
+                    "the boxes are not up to date: call mw_prober_update()");
 }
 
 mw_status mw_nearest_on_surface(const mw_prober *prober, const double point[3], double max_distance,

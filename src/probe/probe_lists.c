@@ -248,7 +248,8 @@ static mw_status lists_begin(probe_lists *b, const mw_probe_options *options, co
     mw_status status = mw_probe_cursor_init(b->prober, options, &b->cursor, error);
     if (status) return status;
     if (!b->prober->has_bvh)
-        return mw__fail(error, MW_ERROR_ARGUMENT, "this needs a prober with options.boxes");
+        return mw__fail(error, MW_ERROR_ARGUMENT,
+                        "all touches, or whether there is one, need a prober with options.boxes");
     if ((b->n && !b->queries) || !results)
         return mw__fail(error, MW_ERROR_ARGUMENT, "queries or results are NULL");
     if (b->stride == 0) b->stride = 6;

@@ -64,7 +64,8 @@ static mw_status probe_check_ray(const mw_probe_options *options, mw_error *erro
     bool limited = options->max_distance > 0;
     if ((unsigned)options->faces >= MW_PROBE_FACES_COUNT ||
         (unsigned)options->extent >= MW_PROBE_EXTENT_COUNT)
-        return mw__fail(error, MW_ERROR_ARGUMENT, "unknown faces or extent");
+        return mw__fail(error, MW_ERROR_ARGUMENT,
+                        "the option 'faces' or 'extent' has an unknown value");
     if (!(options->min_distance >= 0) || isinf(options->min_distance) ||
         (limited && options->min_distance > options->max_distance))
         return mw__fail(
@@ -73,7 +74,7 @@ static mw_status probe_check_ray(const mw_probe_options *options, mw_error *erro
     if (!options->certain && (options->min_distance > 0 || options->faces != MW_PROBE_FRONT ||
                               options->extent != MW_PROBE_LINE))
         return mw__fail(error, MW_ERROR_ARGUMENT,
-                        "a least distance, faces and an extent need certain probes");
+                        "the options 'min_distance', 'faces' and 'extent' need 'certain'");
     return MW_OK;
 }
 
@@ -292,7 +293,7 @@ uint32_t mw__probe_certain(const mw_prober *prober, const mw_line *line, double 
 
 /* --- several at a time --- */
 
-/* Probes of which some are searched for at a time. */
+/* A block of probes, some of which are searched at a time. */
 typedef struct probe_block {
     const mw_prober *prober;
     mw_probe_cursor *cursor;

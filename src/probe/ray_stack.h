@@ -1,8 +1,9 @@
 /* ray_stack.h - a ray visits a node of the BVH: which children it meets, and in which order they
  * wait. Private.
  *
- * Nothing is guessed here but whether there is a node among the children: of eight numbers sorted
- * by a network, those that count come first. A guess that is wrong costs as much as the network. */
+ * The processor has to predict one branch only: whether there is a node among the children. A
+ * network sorts all eight numbers, and those that count come first. A wrong prediction costs as
+ * much time as the network. */
 #ifndef MW_SRC_PROBE_RAY_STACK_H
 #define MW_SRC_PROBE_RAY_STACK_H
 

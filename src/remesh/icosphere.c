@@ -202,7 +202,7 @@ mw_status mw_icosphere_size(uint32_t level, uint32_t *vertices, uint32_t *triang
         return mw__fail(error, MW_ERROR_ARGUMENT, "a pointer to a number is NULL");
     if (level > MW_ICOSPHERE_MAX_LEVEL)
         return mw__fail(error, MW_ERROR_ARGUMENT,
-                        "an icosphere of level %u; at most %d is possible", level,
+                        "an icosphere of level %u is too large; the highest level is %d", level,
                         MW_ICOSPHERE_MAX_LEVEL);
     *vertices = (UINT32_C(10) << 2 * level) + 2;
     *triangles = UINT32_C(20) << 2 * level;

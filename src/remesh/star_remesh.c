@@ -67,7 +67,8 @@ mw_status mw_star_remesh(const mw_star *star, uint32_t level, const mw_remesh_op
     if (!status) status = mw_icosphere_size(level, &vertices, &count, error);
     if (status) return status;
     if (!mw_star_ready(star))
-        return mw__fail(error, MW_ERROR_ARGUMENT, "the star is not up to date: mw_star_update");
+        return mw__fail(error, MW_ERROR_ARGUMENT,
+                        "the star is not up to date: call mw_star_update()");
     const mw_star_query_options query = {.threads = options->threads};
     double *through = mw__alloc(vertices, 3 * sizeof *through);
     mw_location *own = locations ? NULL : mw__alloc(vertices, sizeof *own);

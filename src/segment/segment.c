@@ -7,7 +7,7 @@
 
 mw_status mw__segment_check_locator(const mw_locator *locator, mw_error *error)
 {
-    if (!locator) return mw__fail(error, MW_ERROR_ARGUMENT, "a segment needs a locator");
+    if (!locator) return mw__fail(error, MW_ERROR_ARGUMENT, "the locator is NULL");
     if (!locator->tiling.embedding)
         return mw__fail(error, MW_ERROR_ARGUMENT, "segments need a mesh that is an embedding");
     if (locator->tiling.border_loops)
@@ -156,8 +156,7 @@ mw_status mw_segment_begin(const mw_locator *locator, mw_cursor *cursor, const d
 mw_status mw_segment_continue(mw_segment *segment, const double b[2], mw_error *error)
 {
     if (!segment || !segment->locator || !b)
-        return mw__fail(error, MW_ERROR_ARGUMENT,
-                        "there is no segment to continue, or the point is NULL");
+        return mw__fail(error, MW_ERROR_ARGUMENT, "the segment or the point is NULL");
     if (!segment_is_finite(b, b))
         return mw__fail(error, MW_ERROR_INPUT, "a coordinate of the segment is not finite");
     mw_segment before = *segment;

@@ -76,8 +76,8 @@ static void segments_find_first_tiles(const segment_batch *b, size_t first, uint
         mw__index_first_many(&locator->tiling, &locator->guide, a, count, tile);
 }
 
-/* Room for more pieces; `done` segments have theirs then. Room for those of all segments, if the
- * others have as many each, so that they need not be copied again. */
+/* Make room for `more` pieces; with these, `done` segments have theirs. The room is enough for all
+ * segments if the others have equally many each, so that pieces are not copied again. */
 static bool batch_make_room(segment_batch *b, size_t more, size_t done)
 {
     const size_t wanted = b->count + more, least = wanted + wanted / 2;
@@ -378,7 +378,8 @@ static mw_status segments_check(const mw_locator *locator, const double *segment
     if ((n && !segments) || !pieces)
         return mw__fail(error, MW_ERROR_ARGUMENT, "the segments or the results are NULL");
     if (stride == 1 || stride == 3)
-        return mw__fail(error, MW_ERROR_ARGUMENT, "a stride of %zu is too small for a segment",
+        return mw__fail(error, MW_ERROR_ARGUMENT,
+                        "a stride of %zu is too small for a segment: it must be 2 or at least 4",
                         stride);
     return MW_OK;
 }

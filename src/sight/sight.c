@@ -41,7 +41,7 @@ mw_status mw_viewpoint_init(const mw_locator *locator, const double *heights,
     double ground = 0;
     if (!locator || !heights || !from || !view)
         return mw__fail(error, MW_ERROR_ARGUMENT,
-                        "a viewpoint needs a locator, heights and a place");
+                        "the locator, the heights, the point or the result is NULL");
     const double at[2] = {from->x, from->y};
     *view = (mw_viewpoint){.locator = locator, .heights = heights, .at = {at[0], at[1]}};
     mw_status status = mw_cursor_init(locator, NULL, &view->here, error);

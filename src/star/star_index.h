@@ -38,7 +38,8 @@ bool mw__star_grid_create(mw_star_grid *grid, const mw_star *star, uint32_t cell
 void mw__star_grid_release(mw_star_grid *grid);
 uint32_t mw__star_grid_cell(const mw_star_grid *grid, double phi, double theta);
 
-/* Likewise. */
+/* Make an octahedron with `levels` subdivisions, 0 to MW_STAR_MAX_LEVELS. Steps of the present
+ * stage. Returns false when out of memory, or cancelled. */
 bool mw__star_octahedron_create(mw_star_octahedron *octahedron, const mw_star *star,
                                 uint32_t levels, mw_job *job);
 void mw__star_octahedron_release(mw_star_octahedron *octahedron);

@@ -16,7 +16,7 @@ typedef struct mw_curve {
     uint32_t count, shift;
     /* so many tiles at most lie between samples that are neighbours on the curve and in memory */
     uint32_t near;
-    bool regular; /* nearly all neighbours on the curve are such */
+    bool regular; /* nearly all neighbours on the curve are so near in memory */
     mw_grid
         /* of a guide: its cells name a tile where few are; MW_NONE: ask the curve. Without it,
          * tile is NULL */

@@ -112,7 +112,7 @@ static uint32_t layer_vertex_count(const mw_layers *layers, uint32_t i)
                   : layers->layer[i - 1].tiling.point_count - layers->layer[i - 1].vacant;
 }
 
-/* Put a layer of `size` vertices above the highest, `tiling`, of which `at` has the tiles. */
+/* Put a layer of `size` vertices above the highest one, which is `tiling`; `at` has its tiles. */
 static mw_status layers_add(mw_layers *layers, const mw_tiling *tiling, const uint32_t *at,
                             uint32_t size, uint64_t seed, mw_job *job, mw_error *error)
 {
@@ -150,10 +150,10 @@ static uint32_t layer_vertices_in_use(const uint32_t *at, uint32_t n)
 static mw_status layers_check(const mw_layers_options *options, mw_error *error)
 {
     if (options->layers > MW_MAX_LAYERS)
-        return mw__fail(error, MW_ERROR_ARGUMENT, "%u layers, at most %d are possible",
+        return mw__fail(error, MW_ERROR_ARGUMENT, "%u layers are too many; at most %d are possible",
                         options->layers, MW_MAX_LAYERS);
     if (!(options->ratio >= 0 && options->ratio < 1))
-        return mw__fail(error, MW_ERROR_ARGUMENT, "the ratio of layers is not between 0 and 1");
+        return mw__fail(error, MW_ERROR_ARGUMENT, "the ratio of layers must lie between 0 and 1");
     if ((unsigned)options->descent > MW_DESCENT_COORDINATE)
         return mw__fail(error, MW_ERROR_ARGUMENT, "unknown descent through layers");
     return MW_OK;

@@ -36,11 +36,11 @@ typedef struct mw_layers_options {
     uint64_t seed;
 } mw_layers_options;
 
-/* Layers above the tiling: of the vertices of one, the share `ratio`, or 3, chosen at random, make
- * the next. There may be fewer layers than asked for: no layer is made of vertices that lie on one
- * line, or that are as many as those below. MW_ERROR_ARGUMENT for options out of range,
- * MW_ERROR_MEMORY (also if cancelled). *out may be released in either case. Stages of the present
- * part of the job. */
+/* Make layers above the tiling. The share `ratio` of the vertices of a layer, at least 3, chosen at
+ * random, make the next layer. There may be fewer layers than requested: a layer is not made if its
+ * vertices lie on one line, or if it would have all vertices of the layer below. Fails with
+ * MW_ERROR_ARGUMENT for options out of range, and MW_ERROR_MEMORY (also if cancelled). *out may be
+ * released in either case. Stages of the present part of the job. */
 mw_status mw__layers_create(const mw_tiling *tiling, const mw_layers_options *options, mw_job *job,
                             mw_layers *out, mw_error *error);
 void mw__layers_release(mw_layers *layers);

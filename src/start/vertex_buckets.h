@@ -23,7 +23,8 @@ size_t mw__vertex_buckets_bytes(const mw_vertex_buckets *buckets);
  * has one. */
 uint32_t mw__vertex_buckets_first(const mw_vertex_buckets *buckets, mw_point q);
 
-/* The first cell of a spiral round that of q of which `holds` says so; MW_NONE: there is none. */
+/* The first cell, along a spiral round the cell of q, for which `holds` is true; MW_NONE: there is
+ * none. */
 typedef bool mw_cell_holds(const void *self, uint32_t cell);
 uint32_t mw__lattice_spiral(const mw_lattice *lattice, mw_point q, mw_cell_holds *holds,
                             const void *self);

@@ -15,7 +15,8 @@ static mw_status surface_check_arguments(const mw_arrays *arrays, const mw_surfa
     if (!status) status = mw__arrays_validate(arrays, 3, error);
     if (status || !options->borrow || arrays->point_stride == 0 || arrays->point_stride == 3)
         return status;
-    return mw__fail(error, MW_ERROR_ARGUMENT, "points with a stride of %zu cannot be borrowed",
+    return mw__fail(error, MW_ERROR_ARGUMENT,
+                    "points with a stride of %zu cannot be borrowed, only with 3",
                     arrays->point_stride);
 }
 

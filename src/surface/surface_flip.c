@@ -36,7 +36,7 @@ mw_status mw_surface_flip(mw_surface *surface, uint32_t triangle, unsigned local
     uint32_t ab = local_edge, link = abc->link[ab];
     if (surface->edited)
         return mw__fail(error, MW_ERROR_ARGUMENT,
-                        "the surface has an editor: flip edges by mw_surface_edit_flip");
+                        "the surface has an editor: call mw_surface_edit_flip()");
     if (link == MW_NONE)
         return mw__fail_at(error, triangle, -1, "triangle %" PRIu32 ": edge %u has no neighbour",
                            triangle, local_edge);

@@ -122,7 +122,7 @@ mw_status mw__ghosts_fill(const mw_embedding_check *check, bool fill, mw_job *jo
                     tiling->ghost_count;
     if (most > MW_MAX_TRIANGLES)
         return mw__fail(error, MW_ERROR_LIMIT,
-                        "%" PRIu64 " triangles fill the hull of the mesh, at most %" PRIu32
+                        "%" PRIu64 " triangles would fill the hull of the mesh; at most %" PRIu32
                         " are possible",
                         most, MW_MAX_TRIANGLES);
     tiling->tri = mw__alloc_lines(most, sizeof *tiling->tri);

@@ -20,7 +20,7 @@ mw_status mw_recover_vertex_values(const mw_mesh *mesh, const double *values, co
                                    double *result, mw_error *error)
 {
     if (!mesh || !values || !result)
-        return mw__fail(error, MW_ERROR_ARGUMENT, "recovery needs a mesh, values and a result");
+        return mw__fail(error, MW_ERROR_ARGUMENT, "the mesh, the values or the result is NULL");
     const uint32_t vertices = mw_mesh_vertex_count(mesh);
     double *around = mw__calloc(vertices, sizeof *around); /* twice the area that has a value */
     if (!around) return mw__fail_memory(error);

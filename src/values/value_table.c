@@ -13,9 +13,8 @@
 enum {
     GROUP = 16,  /* points that are looked up together  */
     BLOCK = 512, /* points whose corners are kept, where values lie field by field */
-    /* bytes of a cache line, of which the processor finds more by itself after these: */
-    LINE = 64,
-    LINES = 6
+    LINE = 64,   /* bytes of a cache line */
+    LINES = 6    /* lines to prefetch; the processor finds those after them by itself */
 };
 
 /* The vertices of a triangle, in the user's order. */
@@ -216,7 +215,8 @@ static mw_status table_check(const mw_value_table *table, mw_error *error)
     if (table->type != MW_FLOAT64 && table->type != MW_FLOAT32)
         return mw__fail(error, MW_ERROR_ARGUMENT, "unknown type of values: %d", (int)table->type);
     if (table->step <= 1 && table->stride && table->stride < table->count)
-        return mw__fail(error, MW_ERROR_ARGUMENT, "a stride of %zu for %zu values", table->stride,
+        return mw__fail(error, MW_ERROR_ARGUMENT,
+                        "the stride %zu is less than the %zu values of a vertex", table->stride,
                         table->count);
     return MW_OK;
 }

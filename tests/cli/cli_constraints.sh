@@ -69,7 +69,8 @@ printf '2 2 0 0\n1 0 0\n2 1 1\n1 0\n1 1 2\n0\n' >two.poly
 run triangulate --constraints two.poly -o m.off; refused 3 'two\.poly: '
 printf '3 2 0 0\n1 0 0\n2 1 nan\n3 1 1\n1 0\n1 1 2\n0\n' >bad.poly
 run triangulate --constraints bad.poly -o m.off; refused 3 'bad\.poly: .*(not finite|finite)'
-run triangulate s.poly --constraints s.poly -o s.poly --format off; refused 2 'is input and output'
+run triangulate s.poly --constraints s.poly -o s.poly --format off
+refused 2 'is both input and output'
 # A .poly may take its points from the .node that would be written.
 for out in s.node s.ele ./s.node; do
     run triangulate --constraints s.poly -o $out

@@ -261,7 +261,7 @@ run contours gap.off --levels ''; refused 2 ''
 for wrong in 0 -1 nan x 1x; do
     run contours gap.off --interval $wrong; refused 2 "'--interval' must be a positive number"
 done
-run contours gap.off --levels 1 --base 2; refused 2 "'--base' is for --interval"
+run contours gap.off --levels 1 --base 2; refused 2 "'--base' needs --interval"
 run contours gap.off --interval 1e-9; refused 4 'more than 1000000 levels'
 run contours gap.off --levels 1 --field depth; refused 3 "has no field 'depth'"
 run contours absent.off --levels 1; refused 3 'absent.off'

@@ -92,7 +92,7 @@ holds "a system on request" grep -q 'EPSG:32610\|UTM zone 10N\|UTM_zone_10N\|UTM
 run convert a.gr3; exits 2
 run convert a.gr3 x.nothing; exits 2; says 'no mesh format has this ending'
 run convert a.gr3 -; exits 2; says 'needs --format'
-run convert a.gr3 a.gr3; exits 2; says 'is input and output'
+run convert a.gr3 a.gr3; exits 2; says 'is both input and output'
 run convert -o x.off a.gr3 y.off; exits 2; says "two outputs, 'y.off' and -o x.off"
 run convert none.gr3 x.off; exits 3; says 'none.gr3'
 printf 'bad\n1 3\n' >bad.gr3

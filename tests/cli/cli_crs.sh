@@ -42,7 +42,7 @@ rm points.off points.prj
 run_on "$square" edit - edits.txt -o lone.off; exits 0; says_nothing; absent lone.prj
 echo 'EPSG:2056' >lone.prj
 run_on "$square" edit - edits.txt -o lone.off; exits 0
-says 'lone\.off: warning: lone\.prj beside it says EPSG:2056.*, and its own system is not known'
+says 'lone\.off: warning: its coordinate system is not known, and lone\.prj beside it says EPSG:2056'
 
 # What options say.
 echo x,y >none.csv

@@ -99,9 +99,9 @@ run raster -q out.ply -o utm.tif --resolution 2.5; exits 0
 run triangulate -q --from utm.tif --tolerance 1 -o back.ply; exits 0
 holds "the raster's system" grep -aq '^comment crs PROJCS.*UTM zone 32N' back.ply
 run triangulate --from utm.tif --tolerance 1 -o bad.ply --crs EPSG:2056
-refused 3 'utm\.tif: is in another system than --crs says'
+refused 3 'utm\.tif: is in another coordinate system than --crs says'
 run triangulate --from utm.tif --tolerance 1 -o bad.ply --band 2
-refused 3 'utm\.tif: has 1 bands, so no band 2'
+refused 3 'utm\.tif: has 1 bands; there is no band 2'
 run triangulate --from absent.tif --tolerance 1 -o bad.ply; refused 3 'absent\.tif: GDAL says: '
 run triangulate --from full.asc -o bad.ply; refused 2 '--from needs --tolerance Z'
 run triangulate points.csv --tolerance 1 -o bad.ply

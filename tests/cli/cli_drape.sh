@@ -66,6 +66,7 @@ run drape gap.off parcels.geojson --lines-crs same -o out.geojson; exits 0; prin
 says 'parcels.geojson: remark: polygons outside the mesh in part: 1$'
 says 'warning: polygons without an area, or with rings that cross, whose areas are not known: 1$'
 cp out.geojson "$logs/out"
+holds 'none is outside as a whole' test -z "$(grep 'polygons outside the mesh: ' "$logs/err")"
 # The slope is (2.5, 2.5) everywhere: areas are sqrt(13.5) times those of the plane.
 prints_line '"name": "holed", "line_area": 3, .*"area": 4.875, "surface_area": 17.91[0-9]*, "outside_area": 0'
 prints_line '\[ 3.0, 0.5, 18.75 \], \[ 3.0, 3.0, 25.0 \], \[ 1.0, 3.0, 20.0 \], \[ 1.0, 1.0, 15.0 \], \[ 1.0, 0.5, 13.75 \]'
@@ -81,6 +82,16 @@ says_nothing
 cp out.geojson "$logs/out"
 prints_line '\[ -1.0, 1.0, 5.0 \], \[ 0.0, 1.5, 13.75 \], \[ 1.0, 2.0, 17.5 \]'
 run drape gap.off parcels.geojson --lines-crs same -o out.geojson -q --strict; exits 1
+# Of two polygons one lies in the mesh, the other beside it.
+cat >two.geojson <<'END'
+{"type":"FeatureCollection","features":[
+{"type":"Feature","properties":{},"geometry":{"type":"Polygon","coordinates":
+[[[1,1],[2,1],[2,2],[1,1]]]}},{"type":"Feature","properties":{},"geometry":{"type":"Polygon",
+"coordinates":[[[-3,1],[-2,1],[-2,2],[-3,1]]]}}]}
+END
+run drape gap.off two.geojson --lines-crs same -o two_out.geojson; exits 0
+says 'two.geojson: warning: polygons outside the mesh: 1$'
+holds 'no more is said' test "$(wc -l <"$logs/err")" == 1
 run drape gap.off parcels.geojson -o out.csv; refused 2 'polygons need a vector file as output'
 
 # Lines in a vector file, one for each piece, with attributes; systems are transformed.
@@ -113,5 +124,5 @@ cat >both.geojson <<'END'
 {"type":"GeometryCollection","geometries":[{"type":"LineString","coordinates":[[1,2],[2,2]]},
 {"type":"Polygon","coordinates":[[[1,1],[2,2],[2,1],[1,1]]]}]}
 END
-run drape gap.off both.geojson --lines-crs same -q; refused 3 'has lines and polygons'
+run drape gap.off both.geojson --lines-crs same -q; refused 3 'has both lines and polygons'
 finish

@@ -74,7 +74,7 @@ bad() { # bad EDITS LINE PATTERN: exit code 3; with --skip the rest is carried o
     run edit m.off e.txt -o out.off --skip --strict; exits 1
     rm out.off e.txt
 }
-bad $'insert .5 .25\ninsrt 1 2\n' 2 "unknown edit 'insrt'; there are insert, remove, move"
+bad $'insert .5 .25\ninsrt 1 2\n' 2 "unknown edit 'insrt'; known edits are insert, remove, move"
 bad $'\n\ninsert 1\n' 3 'insert: the y is missing'
 bad $'insert x 1\n' 1 "insert: x: 'x' is not a number"
 bad $'insert nan 1\n' 1 'insert: .*not finite'
@@ -253,10 +253,10 @@ only_files m.off ring.off
 
 # --- outputs ---
 printf 'insert .5 .25\nlocate .5 .5\n' >e.txt
-run edit m.off e.txt -o m.off; refused 2 'is input and output'
-run edit m.off e.txt -o e.txt --format off; refused 2 'is input and output'
-run edit m.off e.txt -o o.off --log e.txt; refused 2 'is input and output'
-run edit m.off e.txt -o o.off --numbers ./m.off; refused 2 'is input and output'
+run edit m.off e.txt -o m.off; refused 2 'is both input and output'
+run edit m.off e.txt -o e.txt --format off; refused 2 'is both input and output'
+run edit m.off e.txt -o o.off --log e.txt; refused 2 'is both input and output'
+run edit m.off e.txt -o o.off --numbers ./m.off; refused 2 'is both input and output'
 run edit m.off e.txt -o o.off --log l.txt --changes ./l.txt
 refused 2 '--changes and --log cannot both go to l\.txt'
 run edit m.off e.txt -o o.off --log o.off; refused 2 '--output and --log cannot both go to o\.off'

@@ -91,10 +91,10 @@ refused() { # message, lines
     holds "nothing is written" test ! -e never.off
 }
 refused 'standard input:1: flip: no edge joins the vertices 0 and 4' $'flip 0 4\n'
-refused "standard input:2: unknown edit 'locate'; there are add-vertex" $'\nlocate 1 1\n'
+refused "standard input:2: unknown edit 'locate'; known edits are add-vertex" $'\nlocate 1 1\n'
 refused 'standard input:1: sew: the word .to. and the other chain are missing' $'sew 0 1 3 4\n'
-refused 'standard input:1: sew: both chains need as many vertices' $'sew 0 1 to 3\n'
-refused 'standard input:1: cut: at least two vertices are needed' $'cut 1\n'
+refused 'standard input:1: sew: both chains need the same number of vertices' $'sew 0 1 to 3\n'
+refused 'standard input:1: cut: a cut needs at least two vertices' $'cut 1\n'
 refused 'standard input:1: split-edge: the y is missing' $'split-edge 0 1 7\n'
 refused "standard input:1: flip: '7' is one word too many" $'flip 0 1 7\n'
 refused 'standard input:1: remove-triangle: there is no triangle 4' $'remove-triangle 4\n'

@@ -126,7 +126,7 @@ run_on $'0.75 0.25\n0.25 0.75\n' locate zipped.off.gz -; exits 0; prints "$insid
 printf '0.5 0.5\n0,5 oops\n' >bad.xyz
 run locate square.off bad.xyz -o out.csv; refused 3 'bad\.xyz:2: '; absent out.csv
 printf '0,5 0,5\n0,25 0,5\n' >comma.csv
-run locate square.off comma.csv -o out.csv; refused 3 'comma\.csv:1: decimal commas'; absent out.csv
+run locate square.off comma.csv -o out.csv; refused 3 'comma\.csv:1: the row has decimal commas'; absent out.csv
 run_on $'0,75;0,25\n0,25;0,75\n' locate --only-answers square.off -; exits 0; prints "$inside"
 run_on $'0.75;0,25\n' locate square.off -; refused 3 'standard input:1: '
 printf '1\n2\n' >one.csv

@@ -49,9 +49,9 @@ for c in "${commands[@]}"; do
     done
     run "$c" --help
     holds "--help of $c shows five options" test "$(help_options | grep -c -- '^--')" == 5
-    prints_line "^'meshwalk $c --help all' tells about the others:"
-    { help_options; sed -n "/--help all' tells/,/^\$/p" "$logs/out" | grep -oE -- '(^| )--[a-z-]+' |
-        tr -d ' '; } |
+    prints_line "^'meshwalk $c --help all' describes the other options:"
+    { help_options; sed -n "/--help all' describes/,/^\$/p" "$logs/out" |
+        grep -oE -- '(^| )--[a-z-]+' | tr -d ' '; } |
         grep -- '^--' | grep -vx -- '--help' | sort >"$logs/named"
     grep -- '^--' "$logs/all" | grep -vx -- '--help' >"$logs/expected"
     holds "--help of $c names every option: $(diff "$logs/named" "$logs/expected")" same_text \
@@ -75,7 +75,7 @@ run locate --walk; refused 2 "'--walk' needs an argument: NAME"
 run locate --any=yes a b; refused 2 "'--any' takes no argument"
 run locate a; refused 2 "expected MESH POINTS, found 1 argument;"
 run locate a b c; refused 2 "expected MESH POINTS, found 3 arguments"
-run locate '' b; refused 2 "empty name"
+run locate '' b; refused 2 "the name of a file is empty"
 run edit a b; refused 2 "edit: -o MESH is missing"
 run edit a -o b.off; refused 2 "expected MESH EDITS -o OUT, found 1 argument"
 run edit a b -o -; refused 2 "edit: a mesh on standard output needs --format"
@@ -176,7 +176,7 @@ for words in '--crs EPSG:1' '--tolerance 1' '--sample 3' '--steps 3' '--cells 3'
     '--walk lawson' '--start random' '--arithmetic double' '--finish stochastic' '--fill yes' \
     '--descent nearest' --areas --any --trust; do
     # shellcheck disable=SC2086 # words
-    run sample a b --as star --field f $words; refused 2 "option '${words%% *}' is not for --as star"
+    run sample a b --as star --field f $words; refused 2 "option '${words%% *}' cannot be used with --as star"
     # shellcheck disable=SC2086
     run weights a b --lonlat $words -o c.npz
     refused 2 "option '${words%% *}' is for points in the plane, not for --lonlat"

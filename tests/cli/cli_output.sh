@@ -102,7 +102,7 @@ rm pipe old.csv
 ln -s m.off link.off
 ln p.xyz hard.xyz
 same() { # same ARGUMENTS...
-    run "$@"; refused 2 'is input and output'
+    run "$@"; refused 2 'is both input and output'
     holds "the inputs are untouched" test "$(<m.off)" == "$square" -a "$(wc -l <p.xyz)" == 20000
 }
 same locate m.off p.xyz -o m.off
@@ -117,10 +117,10 @@ same check m.off -o link.off
 same triangulate p.xyz -o p.xyz --format off
 "$meshwalk" triangulate p.xyz -q -o pair.node || fail "no pair"
 before=$(cksum pair.node pair.ele)
-run locate pair.node p.xyz -o pair.ele; refused 2 'is input and output'
-run locate pair.ele p.xyz -o pair.node; refused 2 'is input and output'
-run locate pair p.xyz -o pair.ele; refused 2 'is input and output'
-run triangulate pair.node -o pair.ele; refused 2 'is input and output'
+run locate pair.node p.xyz -o pair.ele; refused 2 'is both input and output'
+run locate pair.ele p.xyz -o pair.node; refused 2 'is both input and output'
+run locate pair p.xyz -o pair.ele; refused 2 'is both input and output'
+run triangulate pair.node -o pair.ele; refused 2 'is both input and output'
 holds "the pair is untouched" test "$(cksum pair.node pair.ele)" == "$before"
 last='meshwalk locate m.off p.xyz >>p.xyz'
 "$meshwalk" locate m.off p.xyz >>p.xyz 2>"$logs/err"

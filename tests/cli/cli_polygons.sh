@@ -93,7 +93,7 @@ prints 'x,y,status,feature,others
 21,1.5,inside,3,
 30.5,0,outside,-1,
 5,5,outside,-1,'
-says 'invalid.geojson: warning: the border of feature 0 crosses itself or runs along itself; inside is what it goes round an odd'
+says 'invalid.geojson: warning: the border of feature 0 crosses itself or runs along itself; a point is inside if the border goes round it an odd'
 says 'warning: the border of feature 1 crosses itself'
 says 'feature 4: ring 0 of polygon 0 has fewer than three different points: the polygon is skipped'
 says 'warning: 1 segments of lines are skipped'
@@ -147,8 +147,8 @@ run locate square.off; refused 2 'locate: expected MESH POINTS, found 1 argument
 run locate --polygons parcels.geojson square.off absent.csv
 refused 2 "only POINTS may follow, not also 'absent.csv'"
 run locate --polygons - -; refused 2 'cannot be both'
-run locate --attribute id square.off -; refused 2 "'--attribute' is for --polygons"
-run locate --polygon-layer a square.off -; refused 2 "'--polygon-layer' is for --polygons"
+run locate --attribute id square.off -; refused 2 "'--attribute' needs --polygons"
+run locate --polygon-layer a square.off -; refused 2 "'--polygon-layer' needs --polygons"
 for option in '--tolerance 1' --any '--fill no'; do
     # shellcheck disable=SC2086 # words
     run locate $option --polygons parcels.geojson -
@@ -258,7 +258,7 @@ for count in 10 11 13; do
     run_on $'x,y\n1,0.5\n' locate --polygons bows.geojson -; exits 0
     holds "ten are named" test "$(grep -c 'warning: the border of feature' "$logs/err")" == 10
     if ((count > 10)); then
-        says "^meshwalk: bows.geojson: warning: so do $((count - 10)) others$"
+        says "^meshwalk: bows.geojson: warning: the borders of $((count - 10)) others do so, too$"
     else
         holds "no others" test -z "$(grep others "$logs/err")"
     fi

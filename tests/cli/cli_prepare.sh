@@ -102,7 +102,7 @@ holds "the index counts" grep -q '"vertices": 16, "triangles": 16, "holes": \[0\
 run locate -q t.tiles/overview.mwm q.csv; exits 0; prints_line '^2.5,2.5,.*hole'
 run info t.tiles/tile-00001.mwm; exits 0; prints_line '^fields +depth,? meshwalk:vertex$'
 cp -r t.tiles kept.tiles
-run prepare m.ply --tiles 3 -o t.tiles; exits 4; says 't.tiles: is there already; remove it first'
+run prepare m.ply --tiles 3 -o t.tiles; exits 4; says 't.tiles: exists already; remove it first'
 run prepare m.ply --threads 2 --tiles 3 --fields depth -o u.tiles; exits 0
 holds "threads make no difference" diff -r t.tiles u.tiles
 run prepare m.ply --tiles 17 -o v.tiles; exits 3
@@ -118,7 +118,7 @@ holds "no folder is left" test -z "$(find . -name 'v.tiles*' -o -name '.tiles-*'
 
 # Refused: nothing is left behind.
 run prepare m.ply; exits 2; says 'needs -o FILE'
-run prepare m.ply -o m.ply; exits 2; says 'is input and output'
+run prepare m.ply -o m.ply; exits 2; says 'is both input and output'
 printf 'OFF\n4 2 0\n0 0 0\n4 0 0\n2 3 0\n2 2 0\n3 0 1 2\n3 0 1 3\n' >overlap.off
 run prepare overlap.off -o x.mwm; exits 3; says "'meshwalk check overlap.off' lists every defect"
 run prepare m.ply -o none/x.mwm; exits 4

@@ -183,7 +183,7 @@ printf '%s' "$queries" >q.csv
 run probe --only-answers missing.off q.csv; refused 3 'missing\.off: .*No such file'
 run probe --only-answers cube.off missing.csv; refused 3 'missing\.csv: .*No such file'
 run probe --only-answers q.csv q.csv; refused 3 'q\.csv: holds points'
-run probe --only-answers cube.off q.csv -o cube.off; refused 2 'is input and output'
+run probe --only-answers cube.off q.csv -o cube.off; refused 2 'is both input and output'
 printf '1,2,3,4,5,6\n1,2,3,4,x,6\n' >bad.csv
 run probe --only-answers cube.off bad.csv -o o.csv; refused 3 'bad\.csv:2: '; absent o.csv
 : >empty.csv

@@ -163,8 +163,8 @@ run star ../octahedron.ply --remesh 2 --walk straight -o out.off
 refused 2 "'--walk' is for DIRECTIONS"
 run star ../octahedron.ply --remesh 2 --stats -o out.off; refused 2 "'--stats' is for DIRECTIONS"
 run star ../octahedron.ply --deviation rays.csv
-refused 2 "'--deviation' is for --remesh and --onto"
-run star ../octahedron.ply --nodata 3 rays.csv; refused 2 "'--nodata' is for --remesh and --onto"
+refused 2 "'--deviation' needs --remesh or --onto"
+run star ../octahedron.ply --nodata 3 rays.csv; refused 2 "'--nodata' needs --remesh or --onto"
 run star ../octahedron.ply; refused 2 'expected POLYHEDRON DIRECTIONS'
 run star ../octahedron.ply --remesh 2 -o ../octahedron.ply; refused 2 'octahedron.ply'
 run star ../octahedron.ply --onto missing.off -o out.off; refused 3 'missing.off'
@@ -224,7 +224,7 @@ run sample octahedron.ply rays.csv --as star; refused 2 'needs --field NAME'
 run sample octahedron.ply rays.csv --as star --field h
 refused 3 "no field 'h'; --field may be one of: z f g"
 run sample octahedron.ply rays.csv --as star --field f --outside nearest
-refused 2 "'--outside' is not for --as star"
+refused 2 "'--outside' cannot be used with --as star"
 run sample octahedron.ply rays.csv --as star --field f --time all
 refused 2 'values over time on --as star need --lonlat'
 run sample octahedron.ply rays.csv --field f --lonlat; refused 2 "'--lonlat' needs --as star"

@@ -125,5 +125,5 @@ prints $'x,y,material\n0.75,0.25,7\n0.25,0.75,9\n0.5,0.5,7\n1.5,0.5,\n-1,2,\n0,0
 run sample --field smooth cells.2dm -; refused 3 'has no field .smooth.; --field may be one of: z material'
 run contours --field material --interval 1 cells.2dm
 refused 3 "'material' is a field of triangles; values at vertices are needed"
-run sample --wide cells.vtk -; refused 2 "'--wide' is for values over time"
+run sample --wide cells.vtk -; refused 2 "'--wide' needs --time"
 finish

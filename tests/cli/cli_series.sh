@@ -132,8 +132,8 @@ else
     says_nothing
     run raster flow.nc -o one.tif --time 7; refused 3 'there is no step 7'
     run raster flow.nc -o one.tif --time x; refused 2 "'--time' must be all"
-    run raster flow.nc -o one.tif --values flow.nc; refused 2 '--values is for'
-    run raster flow.nc -o one.tif --time 1 --derive slope; refused 2 'are not for --time'
+    run raster flow.nc -o one.tif --values flow.nc; refused 2 '--values needs --time'
+    run raster flow.nc -o one.tif --time 1 --derive slope; refused 2 'cannot be used with --time'
 fi
 
 # On the globe: an octahedron of longitudes and latitudes, which the plane folds; and without two
@@ -163,9 +163,9 @@ run sample --as star fort.14 places.csv --values fort.63 --time all; refused 2 '
 run sample --as star --lonlat --centre 0,0,0.1 fort.14 places.csv --values fort.63 --time all
 refused 2 'leave out --centre'
 run sample --as star --lonlat --walk straight fort.14 places.csv --values fort.63 --time all
-refused 2 "'--walk' is not for --as star"
+refused 2 "'--walk' cannot be used with --as star"
 run sample --as star --lonlat --wide --field depth fort.14 places.csv
-refused 2 "'--wide' is for values over time"
+refused 2 "'--wide' needs --time"
 
 # What is refused.
 run sample flow.nc points.csv --time 7; refused 3 'flow.nc: has 3 steps, from 0: there is no step 7'
@@ -178,7 +178,7 @@ run sample flow.nc points.csv --field zeta
 refused 3 "flow.nc: 'zeta' has values over time; 'meshwalk sample --time all' takes them"
 run sample flow.nc points.csv --field w; refused 3 'nothing to sample'
 run sample flow.nc points.csv --time all --outside nearest
-refused 2 "'--outside' is not for values"
+refused 2 "'--outside' cannot be used with values"
 run sample flow.nc points.csv --time-column t --wide; refused 2 '--wide is for --time'
 run sample flow.nc points.csv --time-column hour -q; refused 2 'which of its 4 columns are x,y,hour'
 printf '%s\n' 'OFF' '3 1 0' '0 0 0' '1 0 0' '0 1 0' '3 0 1 2' >three.off

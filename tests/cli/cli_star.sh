@@ -255,7 +255,7 @@ printf '0 0 1\n1 0 1\n0 1 1\n' >points.xyz
 run star points.xyz points.xyz; refused 3 'points\.xyz: holds points'
 printf '%s\n' "$square" >square.off
 run star square.off points.xyz; refused 3 'square\.off: triangle [01]: '
-run star octahedron.off octahedron.off -o octahedron.off; refused 2 'is input and output'
+run star octahedron.off octahedron.off -o octahedron.off; refused 2 'is both input and output'
 printf '0 0 1\n1 x 1\n' >bad.xyz
 run star octahedron.off bad.xyz -o o.csv; refused 3 'bad\.xyz:2: '; absent o.csv
 : >empty.csv
@@ -342,7 +342,7 @@ run_on $'0 0 0\n1 nan 0\n' star --open open.off -; exits 0; prints_line '^0,0,0,
 run star --lonlat open.off many.csv; refused 3 'edge . has no neighbour: the polyhedron is not closed'
 says 'with --open'
 for option in '--walk barycentric' '--start grid' '--borrow'; do
-    run star --open $option open.off many.csv; refused 2 'is for walks, and --open finds facets'
+    run star --open $option open.off many.csv; refused 2 'cannot be used with --open, which finds facets'
 done
 run star --open --centre 0,0,0.1 open.off many.csv; refused 2 'leave out --centre'
 printf '%s\n' OFF '3 0 0' '0 0 1' '1 0 1' '0 1 1' >empty.off

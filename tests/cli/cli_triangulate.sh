@@ -166,7 +166,7 @@ run triangulate --weight mass weighted.csv -o no.off; refused 2 'need --kind reg
 run triangulate --kind regular --weight mass weighted.csv -o no.off --hidden no.off
 refused 2 'cannot both go to'
 run triangulate --kind regular --weight mass weighted.csv -o no.off --hidden weighted.csv
-refused 2 'input and output'
+refused 2 'both input and output'
 run triangulate --kind regular --weight mass weighted.csv -o no.off --hidden -
 refused 2 '--hidden must be a file'
 sed 's/,9$/,nan/' weighted.csv >missing.csv

@@ -160,7 +160,7 @@ prints_line '^0,0,2,1,edge,'
 run sample square.off wells.csv -o out.gpx; exits 0
 run sample -q --layer waypoints square.off out.gpx; prints_line '^0.75,0.25,.*,B12,.*,1,1$'
 run sample -q --points-crs EPSG:2056 square.off wells.csv -o lv95.gpx
-refused 2 'lv95\.gpx: GPX holds longitudes and latitudes, and the points are in EPSG:2056 '
+refused 2 'lv95\.gpx: GPX can hold longitudes and latitudes only, but the points are in EPSG:2056 '
 run sample -q --points-crs EPSG:2056 square.off wells.csv -o lv95.kml; exits 0
 run sample -q square.off lv95.kml; prints_line '^-19\.9179[0-9]*,32\.1244[0-9]*,'
 run sample square.off wells.csv -o out.sql; exits 0
@@ -187,7 +187,7 @@ fi
 run_on $'measured_depth,x,y\n1,0,0\n' sample square.off - -o long.shp; exits 0
 says "long\.shp: remark: the column 'measured_depth' is called 'measured_d' in this format"
 run_on $'500000,4000000\n' sample square.off - -o utm.geojson; exits 0
-says 'utm\.geojson: warning: GeoJSON means longitudes and latitudes, and row 1 has others'
+says 'utm\.geojson: warning: GeoJSON holds longitudes and latitudes, but row 1 has other numbers'
 run sample square.off wells.csv -o absent/out.gpkg; refused 4 'absent/out\.gpkg: No such file'
 holds "no temporary directory is left" test -z "$(find . -name '.meshwalk*')"
 

@@ -119,13 +119,13 @@ heights() {
 heights EPSG:32610 EPSG:32611 ''
 heights EPSG:32610+5703 EPSG:32611+5703 ''
 heights EPSG:32610+5703 EPSG:32610+6360 \
-    "wells\.csv: warning: heights are not transformed: they stay 'NAVD88 height' in metre, where .* has 'NAVD88 height \(ftUS\)' in US survey foot"
+    "wells\.csv: warning: heights are not transformed: they stay 'NAVD88 height' in metre, but heights in .* are 'NAVD88 height \(ftUS\)' in US survey foot"
 heights EPSG:32610+5703 EPSG:32611 \
-    "stay 'NAVD88 height' in metre, and EPSG:32611 .* tells nothing of heights"
+    "stay 'NAVD88 height' in metre; EPSG:32611 .* does not define heights"
 heights EPSG:32610 EPSG:32611+5703 \
-    "EPSG:32610 .* tells nothing of them, .* has 'NAVD88 height' in metre"
+    "EPSG:32610 .* does not define them; heights in .* are 'NAVD88 height' in metre"
 heights EPSG:32610 EPSG:2992 \
-    'if they are in metre, as EPSG:32610 .* counts, they stay so, where EPSG:2992 .* counts in foot'
+    'they stay in metre if that is their unit, as it is of x and y in EPSG:32610 .*; the unit of EPSG:2992 .* is foot'
 run triangulate wells.csv --crs EPSG:32610+6360 -o feet.ply; exits 0
 run sample feet.ply wells.csv --points-crs EPSG:32611; exits 0
 says "feet\.ply: warning: heights are not transformed: they stay 'NAVD88 height \(ftUS\)'"

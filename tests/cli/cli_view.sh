@@ -40,8 +40,8 @@ holds "a name is quoted" grep -q 'u003c/script>' name.html
 run view -o points.html --points trap.csv trap.off; exits 0
 holds "the points are there" grep -q '"query": {"name": "trap.csv"' points.html
 run view --columns x,y trap.off; exits 2; says 'needs --points'
-run view -o trap.off trap.off; exits 2; says 'is input and output'
-run view -o trap.csv --points trap.csv trap.off; exits 2; says 'is input and output'
+run view -o trap.off trap.off; exits 2; says 'is both input and output'
+run view -o trap.csv --points trap.csv trap.off; exits 2; says 'is both input and output'
 run view none.off; exits 3; says 'none.off'
 run view --points none.csv trap.off; exits 3; says 'none.csv'
 run view -o nowhere/page.html trap.off; exits 4

@@ -91,7 +91,7 @@ else
     left_out 'GDAL is not found: no attributes of pairs'
 fi
 run visible ridge.off --between pairs.geojson --from 0,1; refused 2 'cannot be used with --between'
-run visible ridge.off --between pairs.geojson --to sites.csv; refused 2 'look at what'
+run visible ridge.off --between pairs.geojson --to sites.csv; refused 2 'what is looked at'
 
 # Another field; heights that are missing hide nothing.
 sed 's/^3 \([02]\) 4$/3 \1 -99999/' ridge.off >hole.off
@@ -146,9 +146,9 @@ else
 fi
 
 run visible ridge.off --to sites.csv; refused 2 'where is the viewpoint'
-run visible ridge.off --from 0,1; refused 2 'look at what'
-run visible ridge.off --from 0,1 --to sites.csv --raster -o x.tif; refused 2 'look at what'
-run visible ridge.off --from 0,1 --to sites.csv --resolution 1; refused 2 'are for --raster'
+run visible ridge.off --from 0,1; refused 2 'what is looked at'
+run visible ridge.off --from 0,1 --to sites.csv --raster -o x.tif; refused 2 'what is looked at'
+run visible ridge.off --from 0,1 --to sites.csv --resolution 1; refused 2 'need --raster'
 run visible ridge.off --from 0,1,5 --height 2 --to sites.csv; refused 2 'without Z'
 run visible ridge.off --from 3,1,2 --to sites.csv; refused 3 'height there is 4'
 run visible ridge.off --from 20,1 --to sites.csv; refused 3 'above no ground'

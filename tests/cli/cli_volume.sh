@@ -106,22 +106,22 @@ if "$meshwalk" --version | grep -q 'GDAL .*found'; then
     run volume pyramid.off --crs EPSG:2056 --against square.off; exits 0
     says 'square.off: warning: its coordinate system is not known, and pyramid.off is in EPSG:2056'
     run volume pyramid.off --crs EPSG:2056 --against square.off --against-crs EPSG:32632
-    refused 3 'bring one to the other first'
+    refused 3 'transform one of them first'
     run volume pyramid.off --crs EPSG:2056+5728 --against square.off --against-crs EPSG:2056+5729
-    refused 3 "heights 'LN02 height'? .*bring one to the other first"
+    refused 3 "heights 'LN02 height'? .*transform one of them first"
     run volume pyramid.off --crs EPSG:2056+5728 --against square.off --against-crs EPSG:2056
-    exits 0; says 'warning: tells nothing of its heights'
+    exits 0; says 'warning: its coordinate system does not define heights'
     run volume pyramid.off --crs EPSG:4326 --base 0
-    refused 3 'pyramid.off: is in longitudes and latitudes \(EPSG:4326.*bring it to a plane'
+    refused 3 'pyramid.off: is in longitudes and latitudes \(EPSG:4326.*transform it to a projected'
     run volume pyramid.off --crs EPSG:nix --base 0; refused 2 'crs'
 fi
 
-run volume pyramid.off; refused 2 'against what\?'
-run volume pyramid.off --base 0 --against square.off; refused 2 'one of them'
+run volume pyramid.off; refused 2 'give either --base Z or --against MESH2'
+run volume pyramid.off --base 0 --against square.off; refused 2 'give either --base Z or --against'
 run volume pyramid.off --base high; refused 2 "'--base' must be a number, not 'high'"
 run volume pyramid.off --base nan; refused 2 "'--base' must be a number"
-run volume pyramid.off --base 1 --strict; refused 2 "'--strict' is for --against"
-run volume pyramid.off --base 1 --against-crs EPSG:2056; refused 2 "'--against-crs' is for"
+run volume pyramid.off --base 1 --strict; refused 2 "'--strict' needs --against"
+run volume pyramid.off --base 1 --against-crs EPSG:2056; refused 2 "'--against-crs' needs"
 run volume pyramid.off --against absent.off; refused 3 'absent.off'
 run volume pyramid.off --against square.off -o square.off; refused 2 'square.off'
 printf 'OFF\n4 2 0\n0 0 0\n4 0 0\n0 4 0\n1 1 0\n3 0 1 2\n3 0 1 3\n' >overlapping.off

@@ -47,15 +47,15 @@ run weights square.off square.off $conservative; refused 2 'weights needs an out
 run weights square.off square.off $conservative -o square.off; refused 2 'square.off'
 run weights square.off square.off $conservative --columns 1,2 -o x.npz
 refused 2 "'--columns' is for points"
-run_on "$points" weights square.off - --norm fracarea -o x.npz; refused 2 "'--norm' is for"
+run_on "$points" weights square.off - --norm fracarea -o x.npz; refused 2 "'--norm' needs"
 run weights square.off none.off $conservative -o x.npz; refused 3 'none.off'
 run weights square.off none.tif $conservative -o x.npz; refused 3 'none.tif'
 sed 's/^\(0\|1\) 1 /\1 95 /; s/^1 2$/1 2/' square.off >pole.off
 if "$meshwalk" --version | grep -q 'GDAL .*found'; then
     run weights pole.off square.off $conservative --crs EPSG:4326 --points-crs EPSG:4326 -o x.npz
-    refused 3 'pole.off, square.off: latitudes from 0 to 95: they end at 90 degrees'
+    refused 3 'pole.off, square.off: latitudes from 0 to 95 are out of range, which is -90 to 90 degrees'
     run weights square.off square.off $conservative --crs EPSG:4326 --points-crs EPSG:2056 -o x.npz
-    refused 3 'bring one to the other first'
+    refused 3 'transform one of them first'
 
     # Round the globe: an octahedron with its vertices at the poles; two caps with the poles inside,
     # and a ring of triangles between them; the same counted from 0 to 360; a cap of four corners.
@@ -98,7 +98,7 @@ if "$meshwalk" --version | grep -q 'GDAL .*found'; then
     refused 3 'caps.off: crosses the meridian of 180 degrees, or a pole: --values vertices is not'
     sed '$d' octa.off | sed 's/^6 8 0/6 7 0/; s/^90 0 /90 20 /; s/^3 0 1 4/3 0 1 3/' >odd.off
     run weights odd.off globe.asc $degrees -o x.npz
-    refused 3 'odd.off: goes round the globe. Its triangles are counted as they were cut'
+    refused 3 'odd.off: goes round the globe and was cut at the meridian of'
     sed 's/^-110 /-190 /' caps.off >odd.off
     run weights odd.off globe.asc $degrees -o x.npz; refused 3 'longitudes, from -190 to 130, have'
     rm -f octa.off caps.off caps360.off box.off fans.off odd.off globe.asc turned.asc x.npz
@@ -110,6 +110,22 @@ if ! "$meshwalk" --version | grep -q '^  netCDF .*found' ||
     left_out "libnetcdf is not found"
     finish
 fi
+# Cells stand at their centroids, a quadrangle at that of its area.
+holds_numbers() { # holds_numbers FILE NUMBERS: these doubles stand in it side by side
+    perl -e 'local $/; open my $f, "<:raw", shift; my $all = <$f>; my @want = @ARGV;
+        for my $at (0 .. length($all) - 8 * @want) {
+            my @got = unpack "d<" . @want, substr $all, $at, 8 * @want;
+            exit 0 unless grep { !(abs($got[$_] - $want[$_]) < 1e-14) } 0 .. $#want;
+        }
+        exit 1' "$@"
+}
+printf '%s\n' OFF '5 2 0' '0 0 0' '4 0 0' '4 1 0' '0 3 0' '7 -3 0' '4 0 1 2 3' '3 1 4 2' >cells.off
+run weights $conservative cells.off square.off -o c.nc -q; exits 0
+holds "in the plane nothing is in degrees" test -z "$(grep -a degrees c.nc)"
+holds "centroids of the source" holds_numbers c.nc 1.6666666666666667 5
+holds "centroids of the source" holds_numbers c.nc 1.0833333333333333 -0.66666666666666663
+holds "centroids of the target" holds_numbers c.nc 0.66666666666666663 0.33333333333333331
+holds "centroids of the target" holds_numbers c.nc 0.33333333333333331 0.66666666666666663
 run_on "$points" weights square.off - -o w.nc; exits 0; prints ''; says_nothing
 run apply w.npz w.nc -o o.nc; refused 3 'w.npz: this is not a netCDF file'
 # A file of weights has fields, too: the coordinates of its vertices, which are linear.

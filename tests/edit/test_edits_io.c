@@ -117,9 +117,9 @@ static void test_forms(void **state)
 static const struct {
     const char *text, *says;
 } refused[] = {
-    {"insrt 1 2", "unknown edit 'insrt'; there are insert, remove, move, flip, constrain, release, "
-                  "value, locate, undo, "
-                  "compact"},
+    {"insrt 1 2",
+     "unknown edit 'insrt'; known edits are insert, remove, move, flip, constrain, release, "
+     "value, locate, undo, compact"},
     {"x,y,z", "unknown edit 'x'"},
     {"insert 1", "insert: the y is missing"},
     {"insert", "insert: the x is missing"},

@@ -241,8 +241,8 @@ static void test_msh_data(void **state)
         const char *data, *says;
         int64_t line;
     } bad[] = {{"$NodeData\n1\n\"q\"\n0\n3\n0\n1\n1\n7 1\n$EndNodeData\n", "vertex 7 does not", 31},
-               {"$NodeData\n0\n0\n0\n", "values without a name", 24},
-               {"$ElementData\n1\n\"q\"\n0\n3\n0\n10\n1\n", "1 times 10 values of 'q'", 30},
+               {"$NodeData\n0\n0\n0\n", "the values have no name", 24},
+               {"$ElementData\n1\n\"q\"\n0\n3\n0\n10\n1\n", "'q' announces 1 times 10 values", 30},
                {"$ElementData\n1\n\"q\"\n0\n3\n0\n1\n1\n3 x\n", "value: 'x' is not a number", 31}};
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         mw_error error;
@@ -306,10 +306,10 @@ static void test_selafin(void **state)
                   *corner = memmem(g.bytes, g.size, sizes, sizeof sizes);
     assert_true(layer && corner);
     layer[16] = 2;
-    expect_bad(&g, "elements of 3 corners in 2 planes");
+    expect_bad(&g, "the elements have 3 corners, in 2 planes");
     layer[16] = 1;
     corner[8] = 5;
-    expect_bad(&g, "elements of 5 corners in 1 planes");
+    expect_bad(&g, "the elements have 5 corners, in 1 planes");
     grid_release(&g);
 }
 

@@ -435,7 +435,7 @@ static void test_wrong(void **state)
             "a.nc: variable element: it holds no numbers",
             "a.nc: variable y: its dimensions are not those of x",
             "a.nc: variable element: face 1 has fewer than 3 corners",
-            "a.nc: variable element: face 1 (from 1): a missing corner before vertex 3",
+            "a.nc: variable element: face 1 (from 1): a corner is missing before vertex 3",
         };
         writing w = begin("a.nc", "node", "nele", wrong == 0 ? 1000000000000 : 4, 3);
         int x = define(&w, "x", MW_NETCDF_DOUBLE, w.node, -1);
@@ -477,7 +477,7 @@ static void test_places(void **state)
         put_faces(&w, corners, faces[concave][0], 3, 4, 1, -9, false);
         end(&w);
         if (concave) {
-            expect_refused(NULL, MW_ERROR_INPUT, "a.nc: variable element: face 3 of 4 corners");
+            expect_refused(NULL, MW_ERROR_INPUT, "a.nc: variable element: face 3 with 4 corners");
             continue;
         }
         mw_mesh_file file = read_layout("a.nc", "adcirc");

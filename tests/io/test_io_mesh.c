@@ -168,9 +168,9 @@ static void test_concave(void **state)
         const char *name, *text, *message;
     } cases[] = {
         {"a.off", "OFF\n4 1 0\n0 0 0\n4 0 0\n1 1 0\n0 4 0\n4 0 1 2 3\n",
-         "a.off:7: face 0 of 4 corners is not convex; cut it into convex ones"},
+         "a.off:7: face 0 with 4 corners is not convex; cut it into convex faces"},
         {"a.obj", "f 1 2 4\nf 1 2 3 4\nv 0 0 0\nv 4 0 0\nv 1 1 0\nv 0 4 0\n",
-         "a.obj:2: face 2 of 4 corners is not convex; cut it into convex ones"},
+         "a.obj:2: face 2 with 4 corners is not convex; cut it into convex faces"},
         /* the corner that turns the other way comes first, second, last */
         {"a.off", "OFF\n4 1 0\n0 0 0\n4 0 0\n1 1 0\n0 4 0\n4 2 3 0 1\n", "is not convex"},
         {"a.off", "OFF\n4 1 0\n0 0 0\n4 0 0\n1 1 0\n0 4 0\n4 1 2 3 0\n", "is not convex"},

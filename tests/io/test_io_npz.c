@@ -85,7 +85,7 @@ typedef struct npy {
 
 static void npy_put_number(unsigned char *to, size_t *at, const char *descr, double value)
 {
-    const int size = descr[2] - '0';
+    const int size = descr[2] == '8' ? 8 : descr[2] == '4' ? 4 : descr[2] == '2' ? 2 : 1;
     unsigned char little[8];
     size_t none = 0;
     uint64_t bits = (uint64_t)(int64_t)value;

@@ -302,10 +302,11 @@ static void test_node(void **state)
     mw_point_reader_close(reader);
     static const char *const bads[] = {"3 2 0 0\n1 1 2\n2 3 4\n", "1 2 0 0\n1 1 2\n2 3 4\n",
                                        "2\n1 1 2 3\n", "x y\n1 2\n", ""};
-    static const char *const says[] = {
-        "p.node:3: 2 rows where 3 are announced", "p.node:3: 2 rows where 1 are announced",
-        "p.node:2: 4 columns where the header has 3", "p.node:1: a .node file begins with",
-        "p.node:1: a .node file begins with"};
+    static const char *const says[] = {"p.node:3: the file has 2 rows, but announces 3",
+                                       "p.node:3: the file has 2 rows, but announces 1",
+                                       "p.node:2: 4 columns where the header has 3",
+                                       "p.node:1: a .node file begins with",
+                                       "p.node:1: a .node file begins with"};
     for (int i = 0; i < 5; i++) {
         mw_error error;
         files_write_text("p.node", bads[i]);
@@ -347,14 +348,14 @@ static const bad_points bads[] = {
     {"1\t2\n1.2.3\t4\n", NULL, 2, 1, "'1.2.3' is not a number"},
     {"1 2\n3\n4\n", NULL, 2, 1, "1 column where"},
     /* decimal commas that cannot be taken, or are doubtful */
-    {"1,5 2,5\n", NULL, 1, 0, "decimal commas: write points"},
-    {"1,5, 2,5\n", NULL, 1, 0, "decimal commas: write points"},
+    {"1,5 2,5\n", NULL, 1, 0, "the row has decimal commas: write decimal points"},
+    {"1,5, 2,5\n", NULL, 1, 0, "the row has decimal commas: write decimal points"},
     {"1 2\n1,5 2,5\n", NULL, 2, 1,
      "'1,5' is not a number (for decimal commas separate the columns by"},
-    {"x y\n1,5 2,5\n", NULL, 2, 0, "decimal commas: write points"},
+    {"x y\n1,5 2,5\n", NULL, 2, 0, "the row has decimal commas: write decimal points"},
     {"x,y\n1,5,2,5\n", NULL, 2, 0, "4 columns where the header has 2 (are these decimal commas?)"},
-    {"0.5;0,5\n", NULL, 1, 0, "decimal points and decimal commas in one table"},
-    {"0,5;1\n2;0.5\n", NULL, 2, 1, "decimal points and decimal commas in one table"},
+    {"0.5;0,5\n", NULL, 1, 0, "the table has both decimal points and decimal commas"},
+    {"0,5;1\n2;0.5\n", NULL, 2, 1, "the table has both decimal points and decimal commas"},
     {"1;2\n1.234,5;2\n", NULL, 2, 1, "is not a number"},
     /* too few columns, or none of that name */
     {"1\n2\n", NULL, 1, 0, "1 column of numbers; a point needs two"},
@@ -438,7 +439,7 @@ static void test_other_kinds(void **state)
         {"m.txt", BYTES("\n {\"type\": \"Point\"}\n"), "m.txt: this is JSON, not a table"},
         {"m.txt", BYTES("\xef\xbb\xbf<?xml?>\n"), "m.txt: this is XML, not a table"},
         {"m.txt", BYTES("1 2\n\0\0\n"), "m.txt:2: a NUL byte"},
-        {"m.txt", BYTES("\x89PNG\r\n\x1a\n\0\0"), "m.txt:2: 0 columns of numbers"},
+        {"m.txt", BYTES("\x89PNG\r\n\x1a\n\0\0"), "m.txt:2: the table has 0 columns of numbers"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         mw_point_reader *reader;

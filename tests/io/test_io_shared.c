@@ -131,20 +131,20 @@ static const struct {
     const char *name, *says;
     int64_t line;
 } refused[] = {
-    {"bad/cow_truncated.off", "a face of 3 corners with 1 of them", 5277},
-    {"bad/invalid.off", "a face of 0 corners", 6},
+    {"bad/cow_truncated.off", "a face announces 3 corners, but has 1", 5277},
+    {"bad/invalid.off", "a face has 0 corners", 6},
     {"bad/out_of_memory.off", "ends after 14 of 353535235358 vertices", 16},
-    {"bad/box_longline.obj", "face 1 of 936 corners is not convex", 24},
-    {"bad/wallhole.obj", "face 2 of 11 corners is not convex", 283},
+    {"bad/box_longline.obj", "face 1 with 936 corners is not convex", 24},
+    {"bad/wallhole.obj", "face 2 with 11 corners is not convex", 283},
     {"bad/malformed.obj", "'0' is not a vertex number", 28},
-    {"bad/not_enough_indices.obj", "a face of 2 corners", 9},
+    {"bad/not_enough_indices.obj", "a face has 2 corners", 9},
     {"bad/crash.ply", "NUL byte", 7},
     {"bad/issue623.ply", "ends before its last value", 14},
     {"bad/payload.ply", "the format has to be", 2},
     {"bad/not_a_mesh_file.2dm", "a 2DM file begins with MESH2D", 1},
-    {"cad/impeller.vtk.gz", "face 327 of 4 corners is not convex", 8351},
+    {"cad/impeller.vtk.gz", "face 327 with 4 corners is not convex", 8351},
     {"bad/mobius_strip.mesh", "not a mesh in a known format", -1},
-    {"tet/box.node", "elements of 4 corners", 1},
+    {"tet/box.node", "the elements have 4 corners", 1},
     {"terrain/volcano.asc", "not a mesh in a known format", -1},
     {"terrain/1.2-with-color.las", "not a mesh in a known format", -1},
 };

@@ -182,7 +182,7 @@ static void test_limits(void **state)
                  "e.ply:4100: more than 4096 properties");
     expect_limit("e.csv", "0", ",%d", 5000, "\n", "e.csv:1: more than 4096 columns");
     expect_limit("e.obj", "v 0 0 0\nf", " 1 1 1 1 1 1 1 1 1 %d \\\n", 900000, "1\n",
-                 "continued lines of more than 16777216");
+                 "continued lines have more than 16777216");
 }
 
 /* As many columns as are allowed. */

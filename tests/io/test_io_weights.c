@@ -286,7 +286,7 @@ static void test_wrong_weights(void **state)
         {"", -1, 1, 1, 0, 0, "variable row: entry 2 is -1"},
         {"", 1, 5, 1, 0, 0, "w.nc: entry 2: there is no column 5"},
         {"", 1, 1, NAN, 0, 0, "w.nc: entry 2: the weight nan is not finite"},
-        {"", 1, 1, 1, 7, 0, "start_index 7"},
+        {"", 1, 1, 1, 7, 0, "its start_index is 7"},
         {"", 1, 1, 1, 0, 1, "variable S: has no value for each of the 3 entries"},
     };
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {

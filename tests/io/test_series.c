@@ -186,9 +186,9 @@ static void test_counts(void **state)
     mw_series_close(series);
     options.vertex_count = 5;
     options.face_count = 0;
-    expect_refused(&options, "no values over the vertices");
+    expect_refused(&options, "no values at the vertices");
     write_model("a.nc", (model){NULL, {3, 4, 6}, 3, false, false});
-    expect_refused(&options, "a.nc: it has values of 4 vertices; the mesh has 5");
+    expect_refused(&options, "a.nc: it has values at 4 vertices, but the mesh has 5");
     files_clear();
 }
 

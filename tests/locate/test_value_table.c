@@ -231,7 +231,7 @@ static void test_arguments(void **state)
                      MW_ERROR_ARGUMENT);
     assert_int_equal(mw_interpolate_table(c.mesh, &tight, c.at, POINTS, NULL, result, &error),
                      MW_ERROR_ARGUMENT);
-    assert_string_equal(error.message, "a stride of 2 for 3 values");
+    assert_string_equal(error.message, "the stride 2 is less than the 3 values of a vertex");
     tight.step = 1;
     assert_int_equal(mw_interpolate_table(c.mesh, &tight, c.at, POINTS, NULL, result, &error),
                      MW_ERROR_ARGUMENT);

@@ -226,7 +226,7 @@ static void test_index(void **state)
     assert_memory_equal(text, wanted, sizeof wanted - 1);
     assert_non_null(strstr(text, ", \"cuts\": [[0, 1e+22, -0.5, -1, -2]], \"checksum\": \""));
     assert_int_equal(mw_write_tiles(m.locator, "index", NULL, &error), MW_ERROR_SYSTEM);
-    assert_non_null(strstr(error.message, "index: is there already; remove it first"));
+    assert_non_null(strstr(error.message, "index: exists already; remove it first"));
     free(text);
     folder_remove("index", 2);
     tiled_mesh_release(&m);

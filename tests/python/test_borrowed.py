@@ -84,7 +84,7 @@ def test_wrong_arrays_are_refused() -> None:
         BorrowedMesh(points, triangles, right[:1])
     with pytest.raises(ValueError, match="layout must be"):
         BorrowedMesh(points, triangles, right, layout="other")  # type: ignore[arg-type]
-    with pytest.raises(ValueError, match="the check finds it out"):
+    with pytest.raises(ValueError, match="the check decides this by itself"):
         BorrowedMesh(points, triangles, right, convex=True)
     with pytest.raises(ValueError, match="no walk"):
         BorrowedMesh(points, triangles, right).locate([0, 0], walk="lawsn")  # type: ignore[arg-type]

@@ -232,7 +232,7 @@ REMAP: Callable[..., Any] = meshwalk.remap
         (
             lambda m: meshwalk.remap(m, m, "vertices", source_cells=np.zeros(len(m), int)),
             ValueError,
-            "source_cells are for values of triangles",
+            "source_cells need values='triangles'",
         ),
         (
             lambda m: meshwalk.remap(m, meshwalk.Pixels(0, 0, 0, 1, 2, 2)),

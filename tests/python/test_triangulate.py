@@ -111,7 +111,7 @@ def test_regular() -> None:
         meshwalk.triangulate(square, "regular", weights=[0, 0, np.nan, 0, 0, 0])
     with pytest.raises(ValueError, match="weights"):
         meshwalk.triangulate(square, "regular", weights=[0, 0])
-    with pytest.raises(ValueError, match="for the kind 'regular'"):
+    with pytest.raises(ValueError, match="need the kind 'regular'"):
         meshwalk.triangulate(square, weights=[0] * 6)
 
 

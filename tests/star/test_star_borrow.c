@@ -413,7 +413,7 @@ static void test_arguments_of_borrowed(void **state)
     mw_error error;
     assert_int_equal(mw_star_create(w.surface, &(mw_star_options){.unchecked = 1}, &star, &error),
                      MW_ERROR_ARGUMENT);
-    assert_non_null(strstr(error.message, "goes with 'borrow'"));
+    assert_non_null(strstr(error.message, "needs 'borrow'"));
     assert_int_equal(
         mw_star_create(w.surface, &(mw_star_options){.borrow = 1, .angles = 1}, &star, &error),
         MW_ERROR_ARGUMENT);

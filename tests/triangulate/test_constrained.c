@@ -545,12 +545,12 @@ static void test_wrong_arguments(void **state)
     mw_constraints given = scene_view(s);
     assert_int_equal(mw_constrained_delaunay(&given, NULL, NULL, NULL, NULL, NULL, &error),
                      MW_ERROR_ARGUMENT);
-    expect(s, NULL, unknown, MW_ERROR_ARGUMENT, "unknown choice of what to keep");
+    expect(s, NULL, unknown, MW_ERROR_ARGUMENT, "the option 'keep' has an unknown value");
     given.stride = 1;
     expect(s, &given, none, MW_ERROR_ARGUMENT, "the stride must be at least 2 (x and y), not 1");
     given = scene_view(s);
     given.segments = NULL;
-    expect(s, &given, none, MW_ERROR_ARGUMENT, "arrays are missing");
+    expect(s, &given, none, MW_ERROR_ARGUMENT, "the points or the segments are NULL");
     given = scene_view(s);
     given.point_count = 3;
     expect(s, &given, none, MW_ERROR_ARGUMENT, "segment 2: 3 is not a point; there are 3");

@@ -198,6 +198,9 @@ static void test_checksums(void **state)
     assert_true(mw__checksum_of("a", 1) == UINT64_C(0xD24EC4F1A98C6E5B));
     assert_true(mw__checksum_of("abc", 3) == UINT64_C(0x44BC2CF5AD770999));
     assert_true(mw__checksum_of(text, sizeof text - 1) == UINT64_C(0xFBCEA83C8A378BF1));
+    assert_true(mw__checksum_of(text, 31) == UINT64_C(0xC1A0E0AE86E1D78C));
+    assert_true(mw__checksum_of(text, 32) == UINT64_C(0x96F5BFCBFE7F0D1A)); /* one whole stripe */
+    assert_true(mw__checksum_of(text, 33) == UINT64_C(0x977F4AA19D128181));
     for (size_t i = 0; i < sizeof long_text; i++) long_text[i] = (char)(i * i);
     for (size_t piece = 1; piece < 100; piece++) {
         mw_checksum sum = {0};

@@ -3,17 +3,17 @@
  * Point location in a mesh that lies in pieces on the ranks of an MPI communicator.
  *
  * Each rank brings a piece: triangles and their vertices, with their numbers in the whole mesh.
- * Queries may be asked on any rank, and each is answered by the piece that contains it. The answers
- * are those that mw_locator_create() and mw_locate_batch() give for the whole mesh on one machine,
- * bit for bit, for any number of ranks and any way to cut: a point on a cut belongs to the triangle
+ * Any rank may ask queries; the piece that contains a point answers. The answers are those that
+ * mw_locator_create() and mw_locate_batch() give for the whole mesh on one machine, bit for bit,
+ * for any number of ranks and any way to cut the mesh: a point on a cut belongs to the triangle
  * with the lowest number of all ranks; cuts are no border and make no holes; holes have the same
  * numbers.
  *
- * Collective: all functions are, unless they say otherwise. All ranks of the communicator call them
- * in the same order. A failure on one rank fails the call on all of them, with the same error, and
- * none waits for ever.
+ * Collective: functions are collective unless they say otherwise: all ranks of the communicator
+ * call them in the same order. A failure on one rank fails the call on all ranks, with the same
+ * error; no rank waits for ever.
  *
- * Threads: one thread of a rank at a time uses a mesh. MPI_THREAD_FUNNELED is enough.
+ * Threads: one thread of a rank at a time may use a mesh. MPI_THREAD_FUNNELED is enough.
  *
  * MPI: version 3.1 or later. While a rank waits for others, it gives its processor to them.
  */
@@ -55,7 +55,7 @@ typedef struct mwp_mesh mwp_mesh;
 
 /** Options of a mesh in pieces. Zero-initialised options select the defaults. */
 typedef struct mwp_mesh_options {
-    uint32_t threads;     /**< threads of each rank while it prepares; 0: one. */
+    uint32_t threads;     /**< threads of each rank while it prepares the mesh; 0: one */
     uint32_t reserved[7]; /**< must be zero */
 } mwp_mesh_options;
 
@@ -84,12 +84,12 @@ MW_API mw_status mwp_mesh_create(MPI_Comm comm, const mwp_piece *piece,
                                  const mwp_mesh_options *options, mwp_mesh **out, mwp_error *error);
 
 /**
- * Distribute a mesh that rank 0 has. Each rank gets a run of triangles along a Hilbert curve,
- * equally many, and the heights and fields of their vertices. Numbers are those of the file.
- * Meanwhile rank 0 needs about 200 bytes a triangle.
+ * Distribute a mesh that rank 0 has. All ranks get equally many triangles, a run along a Hilbert
+ * curve, with the heights and fields of their vertices. Numbers are those of the file. During the
+ * call rank 0 needs about 200 bytes a triangle.
  *
  * @param comm     the communicator; it is duplicated
- * @param file     on rank 0 the mesh, which is only read; not looked at on the others
+ * @param file     on rank 0 the mesh, which is only read; ignored on the other ranks
  * @param options  NULL selects the defaults
  * @param out      receives the mesh, owned by the caller (mwp_mesh_destroy()); NULL on failure
  * @param error    NULL, or receives the message of a failure
@@ -114,31 +114,40 @@ MW_API mw_status mwp_mesh_read(MPI_Comm comm, const char *path, const mwp_mesh_o
                                mwp_mesh **out, mwp_error *error);
 
 /**
- * Move the vertices. Triangles and numbers stay; what mwp_mesh_create() checks is checked again.
+ * Move the vertices. Triangles and numbers stay; all checks of mwp_mesh_create() are done again.
  *
  * @param mesh    the mesh; if the call fails, it is as before
- * @param points  x, y of vertex i of this rank's piece at points[i * stride], as the piece had them
+ * @param points  x, y of vertex i of this rank's piece at points[i * stride] and the double after
+ *                it, in the order of the vertices of the piece
  * @param stride  doubles from one vertex to the next; 0 means 2
  * @param error   NULL, or receives the message of a failure
  * @return as mwp_mesh_create(), and at the same cost.
  */
 MW_API mw_status mwp_update(mwp_mesh *mesh, const double *points, size_t stride, mwp_error *error);
 
-/** The piece of this rank: triangles in the order of their numbers, vertices as they were given.
- * Its arrays belong to the mesh, until its end or mwp_update(). Not collective. O(1). */
+/** View the piece of this rank: triangles in the order of their numbers, vertices as they were
+ * given. The arrays belong to the mesh and are valid until mwp_update() or mwp_mesh_destroy(). Not
+ * collective. O(1). */
 MW_API void mwp_mesh_piece(const mwp_mesh *mesh, mwp_piece *piece);
 
-/** Number of fields of a mesh from a file; heights are the field "z". Not collective. */
+/** Number of fields of a mesh from a file; heights are the field "z". Not collective. O(1). */
 MW_API size_t mwp_mesh_field_count(const mwp_mesh *mesh);
 /** The name of a field by its index, owned by the mesh, at most 127 bytes; NULL beyond the last.
  * Not collective. */
 MW_API const char *mwp_mesh_field_name(const mwp_mesh *mesh, size_t index);
-/** Set `table` to the values of a field at the vertices of this rank's piece, for
- * mwp_interpolate(); they belong to the mesh. Returns 0 if no field has that name, else 1. Not
- * collective. */
+/**
+ * Find the values of a field at the vertices of this rank's piece, for mwp_interpolate().
+ *
+ * @param mesh   the mesh
+ * @param name   name of the field, not NULL
+ * @param table  receives the values, which belong to the mesh
+ * @return 1; 0 if no field has that name.
+ *
+ * Not collective. O(fields).
+ */
 MW_API int mwp_mesh_field(const mwp_mesh *mesh, const char *name, mw_value_table *table);
 
-/** Destroy a mesh in pieces. NULL is allowed, on all ranks. */
+/** Destroy a mesh in pieces. NULL is allowed, if it is NULL on all ranks. */
 MW_API void mwp_mesh_destroy(mwp_mesh *mesh);
 
 /** The sizes of a mesh in pieces. */
@@ -171,9 +180,9 @@ typedef struct mwp_locate_options {
     /** Points outside the mesh, at most this far from it in mesh units, become MW_NEAR. At least
      * 0; the same on all ranks. */
     double tolerance;
-    /** The most queries of other ranks that a rank takes at a time; 0: 2^18. It bounds memory to 64
-     * bytes for each of them, whatever the other ranks ask. At least one query of each rank is
-     * taken. */
+    /** The most queries that a rank accepts from other ranks at a time; 0: 2^18. Each takes 64
+     * bytes of memory, so this bounds the memory of a call. At least one query of each rank is
+     * accepted. */
     uint32_t budget;
     uint32_t threads; /**< threads of each rank; 0: one */
     uint32_t reserved[4];
@@ -182,8 +191,8 @@ typedef struct mwp_locate_options {
 /**
  * Locate points: on each rank any number of them, anywhere, also none.
  *
- * A point strictly inside the piece of its own rank costs no message. Any other is sent to the
- * ranks in whose boxes it lies: 16 bytes there, and 48 back from those that contain it.
+ * A point strictly inside the piece of its own rank costs no message. Any other point is sent to
+ * the ranks in whose boxes it lies, with 16 bytes; a rank that contains it answers with 48 bytes.
  *
  * @param mesh       the mesh
  * @param points     x, y of point i at points[i * stride] and the double after it
@@ -203,10 +212,10 @@ MW_API mw_status mwp_locate_batch(mwp_mesh *mesh, const double *points, size_t n
 typedef struct mwp_locating mwp_locating;
 
 /**
- * Begin to locate points, and return without waiting for other ranks. mwp_locate_test() goes on,
- * mwp_locate_end() ends. Arguments as for mwp_locate_batch(); `points` and `locations` must stay
- * until the end. At most one batch of a mesh is under way, and no other collective call on the mesh
- * is made before its end.
+ * Begin to locate points, and return without waiting for other ranks. mwp_locate_test() continues
+ * the work, mwp_locate_end() completes it. `points` and `locations` must stay valid until then.
+ * Before mwp_locate_end() no other collective call on the mesh may be made, nor a second batch
+ * begun.
  *
  * @param mesh       the mesh
  * @param points     x, y of point i at points[i * stride] and the double after it
@@ -214,20 +223,32 @@ typedef struct mwp_locating mwp_locating;
  * @param stride     doubles from one point to the next; 0 means 2
  * @param options    NULL selects the defaults
  * @param locations  receives n results at the end
- * @return what is under way; never NULL: failures are told by mwp_locate_end().
+ * @return the work in progress; never NULL. mwp_locate_end() reports failures and releases it.
  */
 MW_API mwp_locating *mwp_locate_begin(mwp_mesh *mesh, const double *points, size_t n, size_t stride,
                                       const mwp_locate_options *options, mwp_location *locations);
 
-/** Go on as far as possible without waiting. Returns 1 when mwp_locate_end() will not wait, else 0.
- * Not collective: each rank calls it as often as it likes. */
+/**
+ * Continue to locate points as far as possible without waiting for other ranks.
+ *
+ * @param locating  what mwp_locate_begin() returned
+ * @return 1 if mwp_locate_end() will not wait, else 0.
+ *
+ * Not collective: each rank may call it any number of times.
+ */
 MW_API int mwp_locate_test(mwp_locating *locating);
 
-/** Wait for the end. Releases `locating`; returns and fills `error` as mwp_locate_batch(). */
+/**
+ * Wait until all points are located.
+ *
+ * @param locating  what mwp_locate_begin() returned; released
+ * @param error     NULL, or receives the message of a failure
+ * @return as mwp_locate_batch().
+ */
 MW_API mw_status mwp_locate_end(mwp_locating *locating, mwp_error *error);
 
 /**
- * Interpolate values that lie with the pieces, at locations on any rank.
+ * Interpolate values that are stored with the pieces, at locations on any rank.
  *
  * @param mesh       the mesh
  * @param table      values at the vertices of this rank's piece, side by side for each vertex
@@ -240,16 +261,16 @@ MW_API mw_status mwp_locate_end(mwp_locating *locating, mwp_error *error);
  * @return MW_OK; MW_ERROR_ARGUMENT for NULL, tables that differ, or locations of another mesh;
  *         MW_ERROR_MEMORY, MW_ERROR_SYSTEM.
  *
- * The results are those of mw_interpolate_table() for the whole mesh, bit for bit. A location of
- * another rank's triangle costs 32 bytes there, and 8 more than its values back.
+ * The results are those of mw_interpolate_table() for the whole mesh, bit for bit. For a location
+ * in another rank's triangle 32 bytes are sent to that rank; its values and 8 bytes come back.
  */
 MW_API mw_status mwp_interpolate(mwp_mesh *mesh, const mw_value_table *table,
                                  const mwp_location *locations, size_t n, void *result,
                                  mwp_error *error);
 
 /**
- * The weights of locations as the rows of a sparse matrix, in compressed form (CSR): what
- * mw_operator_copy() gives for the whole mesh. Each rank gets the rows of its locations.
+ * Copy the weights of locations as compressed sparse rows (CSR), as mw_operator_copy() does for the
+ * whole mesh. Each rank gets the rows of its locations.
  *
  * @param mesh       the mesh
  * @param locations  n locations, of mwp_locate_batch() or mwp_migrate()
@@ -266,20 +287,20 @@ MW_API mw_status mwp_operator(mwp_mesh *mesh, const mwp_location *locations, siz
 
 /** Particles that have arrived. Release with mwp_particles_release(). */
 typedef struct mwp_particles {
-    mwp_location *locations; /**< of each */
-    void *payload;           /**< of each, packed */
+    mwp_location *locations; /**< one for each particle */
+    void *payload;           /**< the payload of each particle, packed */
     size_t count;
 } mwp_particles;
 
 /**
- * Move particles, with what they carry, to the ranks that have their triangles. Those without a
- * triangle stay. None is lost, and none comes twice.
+ * Move particles, with their payloads, to the ranks that have their triangles. Particles without a
+ * triangle stay. No particle is lost or duplicated.
  *
  * @param mesh       the mesh
  * @param locations  n locations, of mwp_locate_batch() or mwp_migrate()
  * @param payload    `bytes` for each particle, packed; NULL if `bytes` is 0
- * @param bytes      bytes that a particle carries, its coordinates included if they are wanted; at
- *                   most 2^20, the same on all ranks
+ * @param bytes      size of a particle's payload, at most 2^20, the same on all ranks. Coordinates
+ *                   do not move by themselves: put them into the payload
  * @param n          number of particles of this rank
  * @param out        receives the particles that are on this rank now, in the order of their former
  *                   ranks, then of their places there; empty on failure
@@ -287,8 +308,8 @@ typedef struct mwp_particles {
  * @return MW_OK; MW_ERROR_ARGUMENT for NULL, payloads of different size, or ranks that do not
  *         exist; MW_ERROR_MEMORY, MW_ERROR_SYSTEM.
  *
- * A particle that moves costs one message of 64 bytes and its payload, in rounds of at most 65,536
- * particles that a rank takes at a time.
+ * A particle that moves costs 64 bytes and its payload. Messages go in rounds, in which a rank
+ * accepts at most 65,536 particles.
  */
 MW_API mw_status mwp_migrate(mwp_mesh *mesh, const mwp_location *locations, const void *payload,
                              size_t bytes, size_t n, mwp_particles *out, mwp_error *error);
@@ -309,8 +330,8 @@ typedef struct mwp_nearest_border_point {
 } mwp_nearest_border_point;
 
 /**
- * Find the border edge of the whole mesh nearest to a point in no triangle: the answer of
- * mw_nearest_border() for the whole mesh, bit for bit.
+ * Find the border edge of the whole mesh that is nearest to a point in no triangle. The answer is
+ * that of mw_nearest_border() for the whole mesh, bit for bit.
  *
  * @param mesh     the mesh
  * @param x, y     a point outside, or in a hole
@@ -318,7 +339,7 @@ typedef struct mwp_nearest_border_point {
  * @param error    NULL, or receives the message of a failure
  * @return MW_OK; MW_ERROR_ARGUMENT if the point is not finite or lies in the mesh.
  *
- * Not collective: each rank has what it needs.
+ * Not collective: each rank has the rim of the whole mesh.
  */
 MW_API mw_status mwp_nearest_border(const mwp_mesh *mesh, double x, double y,
                                     mwp_nearest_border_point *nearest, mwp_error *error);

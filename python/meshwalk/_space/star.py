@@ -275,7 +275,7 @@ class Star(_core.Star):
         (642,)
         """
         if (level is None) == (onto is None):
-            raise TypeError("remesh takes a level or a mesh to go onto, one of them")
+            raise TypeError("remesh takes either a level or a mesh, not both or none")
         if onto is None:
             points, triangles, hit = self._on_icosphere(level or 0, threads, progress)
         else:

@@ -380,7 +380,8 @@ class Surface(_core.Surface):
         triangles = arrays[1]
         if not self._options[1] and (triangles[:, 0] == triangles[:, 1]).any():
             raise TypeError(
-                "edits have freed triangles: SurfaceEditor.copy() pickles, or compact()"
+                "a surface with freed triangles cannot be pickled: call SurfaceEditor.compact() "
+                "first, or pickle SurfaceEditor.copy()"
             )
         return _restore, (type(self), *arrays, *self._options)
 

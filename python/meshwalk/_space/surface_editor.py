@@ -116,7 +116,7 @@ class SurfaceChange:
 
 
 class SurfaceEditorInfo(NamedTuple):
-    """What is there, and what it takes: the answer of `SurfaceEditor.describe`.
+    """Counts of the surface and the memory that it takes: the answer of `SurfaceEditor.describe`.
 
     Attributes
     ----------
@@ -398,7 +398,7 @@ class SurfaceEditor(_core.SurfaceEditor):
         return self._edit(_Kind.SEW, path=path, other=other)
 
     def undo(self) -> SurfaceChange:
-        """Undo the latest edit that has not been undone, with all numbers.
+        """Undo the latest edit that has not been undone; restore the surface and all numbers.
 
         Returns
         -------
@@ -414,7 +414,7 @@ class SurfaceEditor(_core.SurfaceEditor):
             return SurfaceChange(self._undo())
 
     def compact(self) -> tuple[NDArray[Any], NDArray[Any]]:
-        """Number everything anew, without gaps and in the same order. Undo starts again.
+        """Renumber without gaps, in the same order; earlier edits cannot be undone then.
 
         Returns
         -------
@@ -431,18 +431,18 @@ class SurfaceEditor(_core.SurfaceEditor):
     def attach(self, follower: Prober | Star) -> None:
         """Let a prober or a star follow again after `detach`."""
         if getattr(follower, "surface", None) is not self.surface:
-            raise ValueError("the prober or star is none of this surface")
+            raise ValueError("the prober or star is not of this surface")
         with self.surface._lock:
             self._detach(follower)
             self._attach(follower)
 
     def detach(self, follower: Prober | Star) -> None:
-        """Let a prober or a star follow no longer: edits cost less, and it is out of date then."""
+        """Stop a prober or a star from following edits: edits get faster, it gets out of date."""
         with self.surface._lock:
             self._detach(follower)
 
     def copy(self) -> Surface:
-        """Make a surface of what is there now, numbered as by `compact`.
+        """Copy the present surface, numbered as by `compact`.
 
         Returns
         -------
@@ -458,12 +458,12 @@ class SurfaceEditor(_core.SurfaceEditor):
         return type(surface)(points, numbers[triangles])
 
     def triangle(self, triangle: int) -> tuple[int, int, int] | None:
-        """The vertices of a triangle; None if there is none of that number (any more)."""
+        """The vertices of a triangle; None if no triangle has that number."""
         with self.surface._lock:
             return self._triangle(triangle)
 
     def vertex(self, vertex: int) -> tuple[float, float, float] | None:
-        """The place of a vertex; None if there is none of that number (any more)."""
+        """The coordinates of a vertex; None if no vertex has that number."""
         with self.surface._lock:
             return self._vertex(vertex)
 
@@ -478,7 +478,7 @@ class SurfaceEditor(_core.SurfaceEditor):
             return self._edge(a, b)
 
     def describe(self) -> SurfaceEditorInfo:
-        """Tell what is there, and what it takes.
+        """Tell counts, and the memory that the editor takes.
 
         Returns
         -------
@@ -492,7 +492,7 @@ class SurfaceEditor(_core.SurfaceEditor):
         return f"<SurfaceEditor: {info.vertices} vertices, {info.triangles} triangles>"
 
     def __reduce__(self) -> Any:
-        raise TypeError("an editor does not pickle; its copy() does")
+        raise TypeError("an editor cannot be pickled; its copy() can")
 
 
 def _place(point: ArrayLike) -> tuple[float, float, float]:

@@ -85,8 +85,8 @@ static bool tile_is_changed(const mw_dynamic_tiling *dynamic, uint32_t t)
     return t >= dynamic->step[dynamic->step_count - 1].tiles || dynamic->mark[t] & MW_JOURNALED;
 }
 
-/* What edge k of ghost t, a border edge, bounded. Ghosts that the edit has not changed know;
- * where no witness is there was no ghost. */
+/* The hole that border edge k of ghost t bounded before the edit. A ghost that the edit has not
+ * changed still has it; an edge without a witness had no ghost. */
 static uint32_t border_hole_before(const hole_numbering *n, uint32_t t, uint32_t k)
 {
     const mw_triangle *tile = &n->dynamic->tiling->tri[t];

@@ -79,7 +79,9 @@ mw_status mw_read_constraints(const char *path, const mw_file_options *options,
 {
     static const mw_file_options defaults;
     if (file) *file = (mw_constraint_file){0};
-    if (!path || !file) return mw__fail(error, MW_ERROR_ARGUMENT, "mw_read_constraints: NULL");
+    if (!path || !file)
+        return mw__fail(error, MW_ERROR_ARGUMENT,
+                        "mw_read_constraints: the path or the result is NULL");
     if (!options) options = &defaults;
     mw_status status = MW_RESERVED_CHECK(mw_file_options, options, error);
     if (status) return status;

@@ -27,9 +27,9 @@ static mw_status poly_read_node_file(mw_source *source, mw_mesh_builder *builder
 {
     mw_mesh_file *mesh = builder->file;
     if (strcmp(source->path, "-") == 0)
-        return mw__source_fail(
-            source, error,
-            "the vertices are in a .node file; standard input has no name to find it by");
+        return mw__source_fail(source, error,
+                               "the vertices are in a .node file beside this one; name the .poly "
+                               "file instead of standard input");
     mw_mesh_file_release(mesh);
     mw__build_start(builder, mesh, source);
     char *stem = poly_stem(source->path);
@@ -47,7 +47,8 @@ static mw_status poly_read_vertices(mw_source *source, mw_mesh_builder *builder,
     if (status) return status;
     if (dimension != 2)
         return mw__source_fail(
-            source, error, "vertices of 3 coordinates: this is a .poly of TetGen, not of Triangle");
+            source, error,
+            "the vertices have 3 coordinates: this .poly file is of TetGen, not of Triangle");
     return builder->file->point_count > 0 ? MW_OK : poly_read_node_file(source, builder, error);
 }
 

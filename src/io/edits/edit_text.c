@@ -143,7 +143,7 @@ static mw_status edit_unknown_word(const edit_scan *s, mw_text_cell word)
     for (size_t i = 0; i < FORM_COUNT; i++)
         used += (size_t)snprintf(known + used, sizeof known - used, "%s%s", i ? ", " : "",
                                  forms[i].word);
-    return mw__edit_fail(&s->words, "unknown edit '%s'; there are %s",
+    return mw__edit_fail(&s->words, "unknown edit '%s'; known edits are %s",
                          mw__excerpt_of(word.text, word.length).text, known);
 }
 
@@ -175,7 +175,8 @@ static const mw_edit_text_options by_number;
 mw_status mw_edit_parse(const char *text, const mw_edit_text_options *options, mw_edit_line *line,
                         mw_error *error)
 {
-    if (!text || !line) return mw__fail(error, MW_ERROR_ARGUMENT, "mw_edit_parse: NULL");
+    if (!text || !line)
+        return mw__fail(error, MW_ERROR_ARGUMENT, "mw_edit_parse: the text or the result is NULL");
     *line = (mw_edit_line){0};
     mw_status status = options ? MW_RESERVED_CHECK(mw_edit_text_options, options, error) : MW_OK;
     return status ? status : edit_parse(text, options ? options : &by_number, line, error);
@@ -269,7 +270,9 @@ mw_status mw_edit_reader_open(const char *path, const mw_edit_text_options *opti
                               mw_edit_reader **out, mw_error *error)
 {
     if (out) *out = NULL;
-    if (!path || !out) return mw__fail(error, MW_ERROR_ARGUMENT, "mw_edit_reader_open: NULL");
+    if (!path || !out)
+        return mw__fail(error, MW_ERROR_ARGUMENT,
+                        "mw_edit_reader_open: the path or the pointer to the new reader is NULL");
     mw_source source;
     mw_status status = options ? MW_RESERVED_CHECK(mw_edit_text_options, options, error) : MW_OK;
     if (!status) status = mw__source_open(&source, path, error);
@@ -280,7 +283,7 @@ mw_status mw_edit_reader_read(mw_edit_reader *reader, mw_edit_line *line, mw_err
 {
     mw_error wrong;
     *line = (mw_edit_line){0};
-    if (reader->broken) return mw__source_fail(&reader->source, error, "cannot be read on");
+    if (reader->broken) return mw__source_fail(&reader->source, error, "cannot be read further");
     while (line->kind == MW_EDIT_LINE_NONE) {
         char *text;
         mw_status status = mw__source_line(&reader->source, &text, error);

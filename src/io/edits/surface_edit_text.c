@@ -111,7 +111,7 @@ static mw_status surface_read_cut(mw_surface_edit_reader *r, mw_edit_words *word
     mw_status status = surface_read_path(r, words, 0, &edit->path_count, &to);
     if (status) return status;
     if (to) return mw__edit_fail(words, "'to' is not a vertex number");
-    if (edit->path_count < 2) return mw__edit_fail(words, "at least two vertices are needed");
+    if (edit->path_count < 2) return mw__edit_fail(words, "a cut needs at least two vertices");
     edit->path = r->path;
     return MW_OK;
 }
@@ -129,7 +129,8 @@ static mw_status surface_read_seam(mw_surface_edit_reader *r, mw_edit_words *wor
     if (again) return mw__edit_fail(words, "'to' comes twice");
     if (edit->path_count < 2 || count != 2 * edit->path_count)
         return mw__edit_fail(
-            words, "both chains need as many vertices, at least two; they have %zu and %zu",
+            words,
+            "both chains need the same number of vertices, at least two; they have %zu and %zu",
             edit->path_count, count - edit->path_count);
     edit->path = r->path;
     edit->other = r->path + edit->path_count;
@@ -164,7 +165,7 @@ static mw_status surface_unknown_word(const mw_edit_words *words, mw_text_cell w
     for (size_t i = 0; i < SURFACE_FORMS; i++)
         used += (size_t)snprintf(known + used, sizeof known - used, "%s%s", i ? ", " : "",
                                  surface_forms[i].word);
-    return mw__edit_fail(words, "unknown edit '%s'; there are %s",
+    return mw__edit_fail(words, "unknown edit '%s'; known edits are %s",
                          mw__excerpt_of(word.text, word.length).text, known);
 }
 
@@ -214,7 +215,9 @@ mw_status mw_surface_edit_reader_open(const char *path, mw_surface_edit_reader *
 {
     if (out) *out = NULL;
     if (!path || !out)
-        return mw__fail(error, MW_ERROR_ARGUMENT, "mw_surface_edit_reader_open: NULL");
+        return mw__fail(
+            error, MW_ERROR_ARGUMENT,
+            "mw_surface_edit_reader_open: the path or the pointer to the new reader is NULL");
     mw_source source;
     mw_status status = mw__source_open(&source, path, error);
     return status ? status : mw__surface_edit_reader_start(source, out, error);
@@ -225,7 +228,7 @@ mw_status mw_surface_edit_reader_read(mw_surface_edit_reader *reader, mw_surface
 {
     mw_error wrong;
     *line = (mw_surface_edit_line){0};
-    if (reader->broken) return mw__source_fail(&reader->source, error, "cannot be read on");
+    if (reader->broken) return mw__source_fail(&reader->source, error, "cannot be read further");
     while (line->kind == MW_SURFACE_EDIT_LINE_NONE) {
         char *text;
         mw_status status = mw__source_line(&reader->source, &text, error);

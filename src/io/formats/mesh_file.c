@@ -65,7 +65,8 @@ mw_status mw_read_mesh(const char *path, const mw_file_options *options, mw_mesh
 {
     static const mw_file_options defaults;
     if (file) *file = (mw_mesh_file){0};
-    if (!path || !file) return mw__fail(error, MW_ERROR_ARGUMENT, "mw_read_mesh: NULL");
+    if (!path || !file)
+        return mw__fail(error, MW_ERROR_ARGUMENT, "mw_read_mesh: the path or the result is NULL");
     if (!options) options = &defaults;
     mw_status status = MW_RESERVED_CHECK(mw_file_options, options, error);
     if (!status) status = mw__layout_check(options->layout, error);
@@ -141,7 +142,8 @@ mw_status mw_write_mesh(const char *path, const mw_mesh_file *file, const char *
 {
     static const mw_file_options defaults;
     const mw_mesh_format *format;
-    if (!path || !file) return mw__fail(error, MW_ERROR_ARGUMENT, "mw_write_mesh: NULL");
+    if (!path || !file)
+        return mw__fail(error, MW_ERROR_ARGUMENT, "mw_write_mesh: the path or the mesh is NULL");
     if (!options) options = &defaults;
     mw_status status = MW_RESERVED_CHECK(mw_file_options, options, error);
     if (!status) status = mesh_writer_find(path, name, &format, error);

@@ -124,8 +124,8 @@ mw_status mw__cells_finish(mw_cell_builder *cells, mw_mesh_builder *builder, mw_
     size_t count = cells->ends.count;
     int64_t volume = 0;
     if (cells->types.count != count)
-        return mw__source_fail(builder->source, error, "%zu cells, but types for %zu", count,
-                               cells->types.count);
+        return mw__source_fail(builder->source, error, "the file has %zu cells, but types for %zu",
+                               count, cells->types.count);
     size_t *face_ends = mw__alloc(count, sizeof *face_ends);
     if (!face_ends) return mw__fail_memory(error);
     mw_status status = MW_OK;
@@ -136,8 +136,8 @@ mw_status mw__cells_finish(mw_cell_builder *cells, mw_mesh_builder *builder, mw_
     }
     if (!status && builder->file->face_count == 0 && volume)
         status = mw__source_fail(builder->source, error,
-                                 "no triangles, quadrilaterals or polygons, but volumes, cells of "
-                                 "type %" PRId64,
+                                 "the file has no triangles, quadrilaterals or polygons, only "
+                                 "volumes: cells of type %" PRId64,
                                  volume);
     if (!status) status = cells_spread_values(cells, face_ends, builder, error);
     free(face_ends);

@@ -65,7 +65,7 @@ static mw_status fort14_read_element(mw_number_row *row, mw_mesh_builder *builde
     mw_status status = mw__row_integer(row, "number of corners", &corners, error);
     if (!status && corners != 3 && corners != 4)
         status = mw__source_fail(row->source, error,
-                                 "an element of %" PRId64 " corners; there are those of 3 and 4",
+                                 "an element has %" PRId64 " corners; only 3 and 4 are possible",
                                  corners);
     mw__build_face(builder);
     for (int64_t k = 0; !status && k < corners; k++) {
@@ -194,14 +194,13 @@ mw_status mw__read_fort14(mw_source *source, mw_mesh_builder *builder, mw_error 
     if (!status) status = fort14_line(source, &line, error);
     if (!status && !line)
         status = mw__source_fail(source, error,
-                                 "no line with the numbers of elements and "
-                                 "vertices");
+                                 "the line with the numbers of elements and vertices is missing");
     if (status) return status;
     mw_number_row row = {source, line};
     status = mw__row_integer(&row, "number of elements", &elements, error);
     if (!status) status = mw__row_integer(&row, "number of vertices", &vertices, error);
     if (!status && (elements < 0 || vertices < 0))
-        status = mw__source_fail(source, error, "a negative count");
+        status = mw__source_fail(source, error, "a count is negative");
     if (!status) status = fort14_read_vertices(source, builder, vertices, error);
     if (!status) status = fort14_read_elements(source, builder, elements, error);
     if (!status) status = fort14_read_boundaries(source, builder, false, error);

@@ -34,7 +34,7 @@ static mw_status msh_read_texts(mw_msh_source *m, msh_data_head *head, mw_error 
         head->name[length] = 0;
     }
     if (!status && !*head->name)
-        status = mw__source_fail(m->values.source, error, "values without a name");
+        status = mw__source_fail(m->values.source, error, "the values have no name");
     return status;
 }
 
@@ -58,9 +58,9 @@ static mw_status msh_read_head(mw_msh_source *m, msh_data_head *head, mw_error *
         if (i == 2) head->count = number;
     }
     if (!status && (head->width < 1 || head->width > MSH_WIDTH_LIMIT || head->count < 0))
-        status =
-            mw__source_fail(m->values.source, error, "%" PRId64 " times %" PRId64 " values of '%s'",
-                            head->count, head->width, head->name);
+        status = mw__source_fail(m->values.source, error,
+                                 "'%s' announces %" PRId64 " times %" PRId64 " values", head->name,
+                                 head->count, head->width);
     return status;
 }
 

@@ -44,13 +44,14 @@ static mw_status msh_read_format(msh_mesh *m, mw_error *error)
     m->in.word_size = (size_t)size;
     if (!m->in.version)
         return mw__source_fail(msh_source(m), error,
-                               "version %g of MSH is not read; there are 2.2, 4.0 and 4.1",
-                               version);
+                               "MSH version %g is not read, only 2.2, 4.0 and 4.1", version);
     if (m->in.version == 40 && binary)
-        return mw__source_fail(msh_source(m), error, "MSH 4.0 as bytes is not read");
+        return mw__source_fail(msh_source(m), error,
+                               "binary MSH 4.0 is not read; save it as text, or as 4.1");
     if (size != 8 && !(size == 4 && m->in.version == 41))
-        return mw__source_fail(msh_source(m), error, "numbers of %" PRId64 " bytes are not read",
-                               size);
+        return mw__source_fail(
+            msh_source(m), error,
+            "numbers of %" PRId64 " bytes are not read, only of 8 (in MSH 4.1 also of 4)", size);
     if (!binary) return MW_OK;
     const unsigned char *bytes;
     msh_source(m)->binary = true;
@@ -227,7 +228,7 @@ static mw_status msh_read_elements_22(msh_mesh *m, mw_error *error)
             if (!status) status = mw__msh_integer(&m->in, "count of tags", &tags, error);
             if (!status) status = msh_check_type(m, type, error);
             if (!status && (run <= 0 || tags < 0))
-                status = mw__source_fail(msh_source(m), error, "a count that is negative or 0");
+                status = mw__source_fail(msh_source(m), error, "a count is negative or 0");
         }
         run--;
         if (!status && m->in.values.binary)
@@ -274,7 +275,7 @@ static mw_status msh_read_elements(msh_mesh *m, mw_error *error)
     if (!m->have_nodes || m->have_elements)
         return mw__source_fail(msh_source(m), error,
                                m->have_nodes ? "the elements come a second time"
-                                             : "elements before the vertices");
+                                             : "the elements stand before the vertices");
     m->have_elements = true;
     mw__msh_sort_groups(&m->in.entities);
     mw_status status = msh_sort_vertices(m, error);
@@ -403,7 +404,8 @@ static mw_status msh_read_section(msh_mesh *m, const char *word, mw_error *error
     bool format = section->read == msh_read_format;
     if (format != (m->in.version == 0))
         return mw__source_fail(msh_source(m), error,
-                               format ? "a second $MeshFormat" : "no $MeshFormat before this");
+                               format ? "there is a second $MeshFormat"
+                                      : "there is no $MeshFormat before this section");
     mw_status status = section->read(m, error);
     return status ? status : msh_end_section(m, name, error);
 }
@@ -439,11 +441,12 @@ static mw_status msh_read_sections(msh_mesh *m, mw_error *error)
     }
     if (status) return status;
     if (!m->have_nodes)
-        return mw__source_fail(msh_source(m), error, "no vertices ($Nodes) in this file");
+        return mw__source_fail(msh_source(m), error, "there are no vertices ($Nodes) in this file");
     if (m->builder->file->face_count == 0 && m->other)
-        return mw__source_fail(msh_source(m), error,
-                               "no triangles nor quadrilaterals, but elements of type %" PRId64,
-                               m->other);
+        return mw__source_fail(
+            msh_source(m), error,
+            "the file has no triangles or quadrilaterals, only elements of type %" PRId64,
+            m->other);
     return msh_build_edges(m, error);
 }
 

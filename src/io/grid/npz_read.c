@@ -109,7 +109,7 @@ static mw_status zip_read_entry(npz_file *z, npz_array *a, mw_error *error)
         a->data = a->own.bytes;
         a->size = a->own.size;
     } else if (method != 0) {
-        status = npz_fail(z, at, error, "%s: packed by another method than deflate", a->name);
+        status = npz_fail(z, at, error, "%s: it is packed by another method than deflate", a->name);
     }
     if (status) return status;
     uLong sum = crc32(0, NULL, 0);
@@ -238,7 +238,8 @@ static mw_status npz_take_faces(const npz_file *z, const npz_array *a, mw_error 
         for (size_t k = 0; !status && k < a->columns; k++) {
             double vertex = npy_at(a, f, k);
             if (!(vertex >= 0 && vertex < MW_MAX_VERTICES))
-                return mw__source_fail_at(z->source, 0, error, "%s: row %zu names vertex %.0f",
+                return mw__source_fail_at(z->source, 0, error,
+                                          "%s: row %zu names vertex %.0f, which cannot exist",
                                           a->name, f, vertex);
             status = mw__build_corner(builder, (int64_t)vertex, error);
         }
@@ -309,7 +310,7 @@ mw_status mw__read_npz(mw_source *source, mw_mesh_builder *builder, mw_error *er
     for (int pass = 0; !status && pass < 3; pass++) {
         status = npz_scan(&z, pass, error);
         if (!status && pass == 0 && !builder->points_complete)
-            status = npz_fail(&z, 0, error, "%s", "no array 'points' in this file");
+            status = npz_fail(&z, 0, error, "%s", "there is no array 'points' in this file");
     }
     free(z.file.bytes);
     return status;

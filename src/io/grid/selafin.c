@@ -36,7 +36,7 @@ mw_status mw__selafin_record_end(mw_selafin *s, uint64_t length, mw_error *error
     mw_status status = mw__source_bytes(s->source, 4, &bytes, error);
     if (!status && mw__get_bytes(bytes, 4, s->big) != length)
         status = mw__source_fail_at(s->source, position, error,
-                                    "a record does not end with its length, %" PRIu64, length);
+                                    "a record is not followed by its length, %" PRIu64, length);
     return status;
 }
 
@@ -112,8 +112,9 @@ mw_status mw__selafin_start(mw_selafin *s, mw_source *source, mw_error *error)
     mw_status status = selafin_read_title(s, error);
     if (!status) status = selafin_integers(s, "numbers of variables", counts, 2, error);
     if (!status && (counts[0] < 0 || counts[1] < 0 || counts[0] + counts[1] > MW_COLUMN_LIMIT))
-        status = mw__source_fail(source, error, "%" PRId64 " and %" PRId64 " variables", counts[0],
-                                 counts[1]);
+        status = mw__source_fail(source, error,
+                                 "the file announces %" PRId64 " and %" PRId64 " variables",
+                                 counts[0], counts[1]);
     for (int64_t i = 0; !status && i < counts[0] + counts[1]; i++)
         status = selafin_read_name(s, error);
     if (!status) status = selafin_integers(s, "parameters", s->parameters, 10, error);
@@ -123,11 +124,11 @@ mw_status mw__selafin_start(mw_selafin *s, mw_source *source, mw_error *error)
     s->vertices = counts[1];
     s->corners = counts[2];
     if (!status && (s->elements < 0 || s->vertices < 0))
-        status = mw__source_fail(source, error, "a negative count");
+        status = mw__source_fail(source, error, "a count is negative");
     if (!status && (s->parameters[6] > 1 || (s->corners != 3 && s->corners != 4)))
         status = mw__source_fail(source, error,
-                                 "elements of %" PRId64 " corners in %" PRId64
-                                 " planes; meshes in the plane have 3 or 4",
+                                 "the elements have %" PRId64 " corners, in %" PRId64
+                                 " planes; only meshes in one plane are read, with 3 or 4 corners",
                                  s->corners, s->parameters[6]);
     return status;
 }

@@ -161,7 +161,7 @@ static mw_status sms_build(sms_mesh *m, mw_mesh_builder *builder, mw_error *erro
     if (!status) status = sms_build_faces(m, builder, error);
     if (!status) m->source->line = end;
     if (!status && builder->file->point_count == 0)
-        status = mw__source_fail(m->source, error, "no vertex ('ND') in this file");
+        status = mw__source_fail(m->source, error, "there is no vertex ('ND') in this file");
     return status;
 }
 

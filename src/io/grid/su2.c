@@ -47,7 +47,7 @@ static mw_status su2_read_element(mw_source *source, const char *line, mw_mesh_b
     mw_status status = mw__row_integer(&row, "type of the element", &type, error);
     if (!status && type != 5 && type != 9)
         status = mw__source_fail(source, error,
-                                 "an element of type %" PRId64
+                                 "an element has type %" PRId64
                                  "; only 5 (triangle) and 9 (quadrilateral) are read",
                                  type);
     mw__build_face(builder);
@@ -76,8 +76,8 @@ static mw_status su2_read_edge(mw_source *source, const char *line, mw_mesh_buil
     mw_status status = mw__row_integer(&row, "type of the edge", &type, error);
     if (!status && type == 1) return MW_OK; /* a vertex */
     if (!status && type != 3)
-        status =
-            mw__source_fail(source, error, "a marker of type %" PRId64 "; edges have type 3", type);
+        status = mw__source_fail(
+            source, error, "a marker has an element of type %" PRId64 "; edges have type 3", type);
     if (!status) status = mw__row_integer(&row, "first vertex", &a, error);
     if (!status) status = mw__row_integer(&row, "second vertex", &b, error);
     return status ? status : mw__build_edge(builder, a, b, error);
@@ -130,7 +130,7 @@ static mw_status su2_read_key(mw_source *source, const char *line, mw_mesh_build
     if ((value = su2_value(line, "MARKER_TAG"))) return su2_read_tag(value, builder, error);
     if ((value = su2_value(line, "MARKER_ELEMS"))) {
         if (builder->file->mark_count == 0)
-            return mw__source_fail(source, error, "MARKER_ELEMS without MARKER_TAG");
+            return mw__source_fail(source, error, "there is no MARKER_TAG before MARKER_ELEMS");
         return su2_read_rows(source, builder, value, "edges", su2_read_edge, error);
     }
     bool zones = (value = su2_value(line, "NZONE"));
@@ -152,6 +152,6 @@ mw_status mw__read_su2(mw_source *source, mw_mesh_builder *builder, mw_error *er
         if (status) return status;
     }
     if (!status && !builder->points_complete)
-        status = mw__source_fail(source, error, "no vertices ('NPOIN=') in this file");
+        status = mw__source_fail(source, error, "there are no vertices ('NPOIN=') in this file");
     return status;
 }

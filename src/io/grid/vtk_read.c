@@ -117,9 +117,10 @@ static mw_status vtk_read_old_cells(vtk_mesh *m, int64_t count, int64_t all, mw_
         int64_t corners, vertex;
         status = mw__value_integer(&m->values, integer, "number of corners", &corners, error);
         if (!status && (corners < 0 || corners > all))
-            status = mw__source_fail(
-                vtk_source(m), error,
-                "a cell of %" PRId64 " corners where %" PRId64 " numbers are left", corners, all);
+            status = mw__source_fail(vtk_source(m), error,
+                                     "a cell has %" PRId64 " corners, but only %" PRId64
+                                     " numbers are left",
+                                     corners, all);
         if (status) break;
         all -= corners + 1;
         for (int64_t k = 0; !status && k < corners; k++) {
@@ -141,7 +142,8 @@ static mw_status vtk_read_new_cells(vtk_mesh *m, int64_t offsets, int64_t corner
     if (!status) status = vtk_read_array(m, "CONNECTIVITY", corners, &m->cells.corners, error);
     for (size_t i = 1; !status && i < ends.count; i++)
         status = ends.values[i] < 0 || ends.values[i] > corners
-                     ? mw__source_fail(vtk_source(m), error, "the offset %" PRId64 " is wrong",
+                     ? mw__source_fail(vtk_source(m), error,
+                                       "the offset %" PRId64 " is outside the list of corners",
                                        ends.values[i])
                      : mw__integers_add(&m->cells.ends, before + ends.values[i], error);
     free(ends.values);
@@ -208,7 +210,7 @@ static mw_status vtk_skip_texts(vtk_mesh *m, int64_t count, mw_error *error)
     return status;
 }
 
-/* A value; of bits the next of `byte`, of which a new one is read for every eighth. */
+/* Read a value. Bits are taken from `byte`; a new byte is read after eight of them. */
 static mw_status vtk_read_value(vtk_mesh *m, mw_number_type type, uint64_t i, double *value,
                                 unsigned *byte, mw_error *error)
 {
@@ -235,7 +237,7 @@ static mw_status vtk_read_values(vtk_mesh *m, const char *name, int64_t width, i
     if (type.size == 0 && type.kind == vtk_texts.kind)
         return tuples == 0 || tuples <= INT64_MAX / width
                    ? vtk_skip_texts(m, tuples * width, error)
-                   : mw__source_fail(vtk_source(m), error, "too many texts");
+                   : mw__source_fail(vtk_source(m), error, "there are too many texts");
     for (int64_t i = 0; !status && i < tuples; i++)
         for (int64_t k = 0; !status && k < width; k++) {
             double value;
@@ -286,7 +288,8 @@ enum { VTK_NAME_SIZE = 256, VTK_WIDTH_LIMIT = 1000 };
 static mw_status vtk_check_width(vtk_mesh *m, int64_t width, mw_error *error)
 {
     if (width >= 1 && width <= VTK_WIDTH_LIMIT) return MW_OK;
-    return mw__source_fail(vtk_source(m), error, "values of %" PRId64 " numbers each", width);
+    return mw__source_fail(vtk_source(m), error,
+                           "the values have %" PRId64 " numbers each; 1 to 1000 are read", width);
 }
 
 /* SCALARS name type (width), and then perhaps LOOKUP_TABLE name. */
@@ -404,8 +407,8 @@ static mw_status vtk_begin_data(vtk_mesh *m, bool cell_data, mw_error *error)
     mw_status status = mw__value_word_count(&m->values, "count of values", &m->tuples, error);
     m->cell_data = cell_data;
     if (!status && (uint64_t)m->tuples != there)
-        status = mw__source_fail(vtk_source(m), error, "%" PRId64 " values for %zu %s", m->tuples,
-                                 there, cell_data ? "cells" : "points");
+        status = mw__source_fail(vtk_source(m), error, "the file has %" PRId64 " values for %zu %s",
+                                 m->tuples, there, cell_data ? "cells" : "points");
     return status;
 }
 

@@ -167,7 +167,7 @@ static mw_status vtu_count(const vtu_mesh *m, const vtu_tag *tag, const char *na
 {
     char text[32];
     if (!vtu_attribute(tag, name, text, sizeof text))
-        return vtu_fail(m, tag->begin, error, "no attribute %s", name);
+        return vtu_fail(m, tag->begin, error, "the attribute %s is missing", name);
     const char *end = mw__read_integer(text, count);
     if (!end || *end || *count < 0 || !mw__integer_fits(*count))
         return vtu_fail(m, tag->begin, error, "%s is not a count", name);
@@ -314,7 +314,8 @@ static mw_status vtu_expect(const vtu_mesh *m, const vtu_tag *tag, const mw_numb
 {
     if (list->count == wanted) return MW_OK;
     return mw__source_fail_at(m->source, (uint64_t)(tag->begin - (const char *)m->file.bytes),
-                              error, "an array of %zu numbers, not %" PRIu64, list->count, wanted);
+                              error, "the array has %zu numbers, not %" PRIu64, list->count,
+                              wanted);
 }
 
 static mw_status vtu_take_points(vtu_mesh *m, const vtu_tag *tag, const mw_number_list *list,
@@ -322,7 +323,8 @@ static mw_status vtu_take_points(vtu_mesh *m, const vtu_tag *tag, const mw_numbe
 {
     if (m->builder->points_complete)
         return vtu_fail(m, tag->begin, error, "%s", "the points come a second time");
-    if (m->points > INT64_MAX / 3) return vtu_fail(m, tag->begin, error, "%s", "too many points");
+    if (m->points > INT64_MAX / 3)
+        return vtu_fail(m, tag->begin, error, "%s", "there are too many points");
     mw_status status = vtu_expect(m, tag, list, 3 * (uint64_t)m->points, error);
     for (size_t i = 0; !status && i < list->count; i += 3) {
         const double *p = list->values + i;
@@ -467,12 +469,13 @@ static mw_status vtu_read_file(vtu_mesh *m, mw_error *error)
         status = mw__source_fail(m->source, error, "the file is empty");
     if (!status) status = vtu_scan(m, 0, error);
     if (!status && (m->pieces == 0 || m->header_size == 0))
-        status = mw__source_fail_at(m->source, 0, error, "no <Piece> of a <VTKFile> in this file");
+        status = mw__source_fail_at(m->source, 0, error,
+                                    "there is no <Piece> of a <VTKFile> in this file");
     if (!status) status = vtu_scan(m, 1, error);
     if (!status && (uint64_t)m->points != m->builder->file->point_count)
-        status = mw__source_fail_at(m->source, 0, error, "no <Points> in this file");
+        status = mw__source_fail_at(m->source, 0, error, "there are no <Points> in this file");
     if (!status && (uint64_t)m->cell_count != m->cells.ends.count)
-        status = mw__source_fail_at(m->source, 0, error, "no <Cells> in this file");
+        status = mw__source_fail_at(m->source, 0, error, "there are no <Cells> in this file");
     for (size_t i = 0; !status && i < m->cells.ends.count; i++)
         if (m->cells.ends.values[i] > (int64_t)m->cells.corners.count)
             status = mw__source_fail_at(m->source, 0, error, "cell %zu has no corners", i);

@@ -41,7 +41,7 @@ static mw_status corner_add(corner_reading *reading, size_t face, size_t column,
 {
     if (number >= INT32_MAX || number != (double)(int64_t)number)
         return mw__netcdf_fail(reading->file, reading->layout->corners, error,
-                               "face %" PRIu64 " (from %d): %g is no number of a vertex",
+                               "face %" PRIu64 " (from %d): %g is not a vertex number",
                                (uint64_t)face + (uint64_t)reading->layout->first_number,
                                reading->layout->first_number, number);
     int64_t corner = (int64_t)number;
@@ -68,7 +68,7 @@ static mw_status corner_face(corner_reading *reading, size_t face, const double 
         corners[k] = MW_NO_CORNER;
         if (corner_is_missing(reading, number)) continue;
         if (used < k && !reading->layout->open_dropped)
-            return corner_refuse(reading, face, error, "a missing corner before vertex",
+            return corner_refuse(reading, face, error, "a corner is missing before vertex",
                                  number < 1e18 ? (int64_t)number : INT64_MAX);
         mw_status status = corner_add(reading, face, used++, number, error);
         if (status) return status;

@@ -4,7 +4,7 @@
 
 #include "io/netcdf/netcdf_file.h"
 
-/* What a coordinate is by its units and standard name. */
+/* The kind of a coordinate, told by its units and standard name. */
 typedef enum mw_axis_kind {
     MW_AXIS_UNKNOWN = 0,
     MW_AXIS_LONGITUDE,

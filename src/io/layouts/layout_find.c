@@ -156,14 +156,16 @@ static mw_status layout_check_table(const mw_netcdf *file, mw_layout *layout, mw
     const mw_netcdf_variable *table = layout->corners ? layout->corners : layout->x;
     if (table->rank != 2)
         return mw__netcdf_fail(file, table, error,
-                               "it has %zu dimensions instead of faces and their corners",
+                               "it has %zu dimensions, not two: faces and their corners",
                                table->rank);
     layout->corner_first = layout_corner_first(layout, table);
     layout->face_count = table->lengths[layout->corner_first];
     layout->corner_count = table->lengths[!layout->corner_first];
     layout->face_dimension = layout->open_dropped ? -1 : table->dimensions[layout->corner_first];
     if (layout->corner_count < 3)
-        return mw__netcdf_fail(file, table, error, "faces of %zu corners", layout->corner_count);
+        return mw__netcdf_fail(file, table, error,
+                               "its faces have %zu corners; at least 3 are needed",
+                               layout->corner_count);
     return MW_OK;
 }
 
@@ -174,8 +176,8 @@ static mw_status layout_check(const mw_netcdf *file, mw_layout *layout, mw_error
     for (int k = 0; k < 3; k++) {
         if (!axes[k]) continue;
         if (axes[k]->rank != rank)
-            return mw__netcdf_fail(file, axes[k], error, "a coordinate with %zu dimensions",
-                                   axes[k]->rank);
+            return mw__netcdf_fail(file, axes[k], error,
+                                   "it is a coordinate, but has %zu dimensions", axes[k]->rank);
         if (axes[k]->dimensions[rank - 1] != layout->x->dimensions[rank - 1])
             return mw__netcdf_fail(file, axes[k], error, "its dimensions are not those of %.80s",
                                    layout->x->name);

@@ -131,7 +131,7 @@ mw_status mw__read_xyz(const mw_source *source, const char *text, double xyz[3],
         text = mw__skip_blanks(text);
         const char *end = mw__read_double(text, &xyz[k]);
         if (!*text)
-            return mw__source_fail(source, error, "a vertex with %d coordinates; 3 are needed", k);
+            return mw__source_fail(source, error, "a vertex has %d coordinates; 3 are needed", k);
         if (!end || !mw__at_gap(end))
             return mw__source_fail(source, error, "'%s' is not a number", mw__excerpt(text).text);
         text = end;
@@ -327,7 +327,7 @@ static mw_status polygon_cut(mw_mesh_builder *builder, const build_polygon *poly
                                                           builder->corner_count, triangles))
         return MW_OK;
     return face_fail(builder, polygon->position, error,
-                     "face %" PRIu64 " of %zu corners is not convex; cut it into convex ones",
+                     "face %" PRIu64 " with %zu corners is not convex; cut it into convex faces",
                      (uint64_t)file->faces[polygon->triangle] + (uint64_t)builder->first_number,
                      builder->corner_count);
 }
@@ -372,7 +372,7 @@ mw_status mw__build_face_end(mw_mesh_builder *builder, mw_error *error)
     const uint32_t *corners = builder->corners, *start = builder->start;
     if (builder->named < 3)
         return mw__source_fail(builder->source, error,
-                               "a face of %zu corners; at least 3 are needed", builder->named);
+                               "a face has %zu corners; at least 3 are needed", builder->named);
     while (builder->corner_count > 1 && corners[builder->corner_count - 1] == corners[0])
         builder->corner_count--;
     if (builder->named == 3 || builder->corner_count < 3)

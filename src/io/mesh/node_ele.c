@@ -127,7 +127,8 @@ mw_status mw__read_node_rows(mw_source *node, mw_mesh_builder *builder, int64_t 
     if (!status) status = mw__rows_header(node, line, values, 4, error);
     if (!status && values[1] != 2 && values[1] != 3)
         status = mw__source_fail(node, error,
-                                 "vertices of %" PRId64 " coordinates; 2 or 3 are read", values[1]);
+                                 "the vertices have %" PRId64 " coordinates; 2 or 3 are possible",
+                                 values[1]);
     if (!status && values[2] > MW_COLUMN_LIMIT)
         status = mw__source_fail(node, error, "more than %d attributes", MW_COLUMN_LIMIT);
     if (!status) {
@@ -163,8 +164,9 @@ mw_status mw__read_ele(mw_source *ele, mw_mesh_builder *builder, mw_error *error
     mw_status status = mw__source_content_line(ele, &line, error);
     if (!status) status = mw__rows_header(ele, line, values, 3, error);
     if (!status && values[1] != 3 && values[1] != 6)
-        status = mw__source_fail(
-            ele, error, "elements of %" PRId64 " corners; triangles have 3 (or 6)", values[1]);
+        status = mw__source_fail(ele, error,
+                                 "the elements have %" PRId64 " corners; triangles have 3 (or 6)",
+                                 values[1]);
     for (int64_t t = 0; !status && t < values[0]; t++) {
         int64_t number = 0;
         status = mw__source_content_line(ele, &line, error);

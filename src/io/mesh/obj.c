@@ -52,7 +52,7 @@ static mw_status statement_read(mw_source *source, obj_statement *all, char **st
         *statement = line;
         if (!continued && !all->used) return MW_OK;
         if (all->used + length > MW_LINE_LIMIT)
-            return mw__source_fail(source, error, "continued lines of more than %zu bytes",
+            return mw__source_fail(source, error, "continued lines have more than %zu bytes",
                                    MW_LINE_LIMIT);
         if (!statement_append(all, line, length + continued)) return mw__fail_memory(error);
         *statement = all->text;
@@ -119,7 +119,7 @@ mw_status mw__read_obj(mw_source *source, mw_mesh_builder *builder, mw_error *er
     }
     free(all.text);
     if (!status && builder->file->point_count == 0)
-        status = mw__source_fail(source, error, "no vertex ('v x y z') in this file");
+        status = mw__source_fail(source, error, "there is no vertex ('v x y z') in this file");
     return status;
 }
 

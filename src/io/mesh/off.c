@@ -20,7 +20,7 @@ static mw_status off_read_keyword(mw_source *source, char **rest, mw_error *erro
     if (length < 3 || strncmp(line + length - 3, "OFF", 3) != 0)
         return mw__source_fail(source, error, "an OFF file begins with OFF");
     if (length > 3 && (line[length - 4] == 'n' || line[length - 4] == '4'))
-        return mw__source_fail(source, error, "'%s' has vertices that are not x, y, z",
+        return mw__source_fail(source, error, "'%s' is not read: its vertices are not x, y, z",
                                mw__excerpt(line).text);
     *rest = mw__skip_blanks(line + length);
     if (strncmp(*rest, "BINARY", 6) == 0)
@@ -42,7 +42,7 @@ static mw_status off_read_counts(mw_source *source, char *line, int64_t *vertice
         return mw__source_fail(source, error, "expected the numbers of vertices and faces");
     if (!mw__integer_fits(*vertices)) return mw__source_fail_large(source, p, first_end, error);
     if (!mw__integer_fits(*faces)) return mw__source_fail_large(source, second, end, error);
-    if (*vertices < 0 || *faces < 0) return mw__source_fail(source, error, "a negative count");
+    if (*vertices < 0 || *faces < 0) return mw__source_fail(source, error, "a count is negative");
     return MW_OK;
 }
 
@@ -62,7 +62,7 @@ static mw_status off_read_face(mw_source *source, const char *line, mw_mesh_buil
         if (!end || !mw__at_gap(end)) {
             if (!*p)
                 return mw__source_fail(source, error,
-                                       "a face of %" PRId64 " corners with %" PRId64 " of them",
+                                       "a face announces %" PRId64 " corners, but has %" PRId64,
                                        corners, k);
             return mw__source_fail(source, error, "'%s' is not a vertex number",
                                    mw__excerpt(p).text);

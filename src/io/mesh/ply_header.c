@@ -72,7 +72,8 @@ static mw_status ply_add_element(const mw_source *source, char *rest, mw_ply_hea
         return mw__source_fail(source, error, "more than %d elements", ELEMENT_LIMIT);
     for (size_t e = 0; e < header->element_count; e++)
         if (strcmp(header->elements[e].name, name) == 0)
-            return mw__source_fail(source, error, "a second element '%s'", mw__excerpt(name).text);
+            return mw__source_fail(source, error, "there is a second element '%s'",
+                                   mw__excerpt(name).text);
     mw_ply_element *elements =
         mw__realloc(header->elements, header->element_count + 1, sizeof *elements);
     if (!elements) return mw__fail_memory(error);
@@ -88,7 +89,7 @@ static mw_status ply_add_property(const mw_source *source, char *rest, mw_ply_he
                                   mw_error *error)
 {
     if (header->element_count == 0)
-        return mw__source_fail(source, error, "a property before the first element");
+        return mw__source_fail(source, error, "a property stands before the first element");
     mw_ply_element *element = &header->elements[header->element_count - 1];
     mw_ply_property property = {0};
     const char *word = ply_next_word(&rest);
@@ -103,9 +104,10 @@ static mw_status ply_add_property(const mw_source *source, char *rest, mw_ply_he
     const char *name = ply_next_word(&rest);
     if (property.list && property.count.type == MW_PLY_FLOAT)
         return mw__source_fail(source, error, "the count of a list has to be an integer");
-    if (!*name) return mw__source_fail(source, error, "a property without a name");
+    if (!*name) return mw__source_fail(source, error, "a property has no name");
     if (mw__ply_property(element, name) < element->property_count)
-        return mw__source_fail(source, error, "a second property '%s'", mw__excerpt(name).text);
+        return mw__source_fail(source, error, "the element has a second property '%s'",
+                               mw__excerpt(name).text);
     if (element->property_count == PROPERTY_LIMIT)
         return mw__source_fail(source, error, "more than %d properties", PROPERTY_LIMIT);
     mw_ply_property *properties =
@@ -148,7 +150,9 @@ mw_status mw__ply_read_header(mw_source *source, mw_ply_header *header, mw_error
         } else if (strcmp(word, "comment") == 0) {
             status = ply_read_comment(line, header, error);
         } else if (strcmp(word, "end_header") == 0) {
-            return have_format ? MW_OK : mw__source_fail(source, error, "no line with the format");
+            return have_format
+                       ? MW_OK
+                       : mw__source_fail(source, error, "the line with the format is missing");
         } else if (*word && strcmp(word, "obj_info") != 0) {
             return mw__source_fail(source, error, "'%s' was not expected in the header",
                                    mw__excerpt(word).text);

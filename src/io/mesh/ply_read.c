@@ -130,7 +130,7 @@ static mw_status ply_read_list(ply_reader *r, const mw_ply_property *property, p
     ply_strip s = {0};
     mw_status status = ply_read_integer(r, property->count, &count, error);
     if (!status && count < 0)
-        status = mw__source_fail(r->source, error, "a list of %" PRId64 " values", count);
+        status = mw__source_fail(r->source, error, "a list announces %" PRId64 " values", count);
     if (what == CORNERS) mw__build_face(r->builder);
     for (int64_t i = 0; !status && i < count; i++) {
         if (what == SKIP) {
@@ -397,7 +397,9 @@ static mw_status ply_read_elements(ply_reader *r, const mw_ply_header *header, m
         vertices |= is_vertex;
         r->builder->points_complete = vertices;
     }
-    return vertices ? MW_OK : mw__source_fail(r->source, error, "no element 'vertex' in this file");
+    return vertices
+               ? MW_OK
+               : mw__source_fail(r->source, error, "there is no element 'vertex' in this file");
 }
 
 static mw_status ply_check_end(ply_reader *r, const mw_ply_header *header, mw_error *error)
@@ -409,7 +411,9 @@ static mw_status ply_check_end(ply_reader *r, const mw_ply_header *header, mw_er
         mw_status status = mw__source_line(r->source, &line, error);
         if (status) return status;
     } while (line && !*mw__skip_blanks(line));
-    return line ? mw__source_fail(r->source, error, "more data than the header announces") : MW_OK;
+    return line ? mw__source_fail(r->source, error,
+                                  "the file has more data than the header announces")
+                : MW_OK;
 }
 
 mw_status mw__read_ply(mw_source *source, mw_mesh_builder *builder, mw_error *error)

@@ -78,11 +78,11 @@ static mw_status stl_read_text_line(mw_source *source, const char *p, stl_text_s
         state->corners = 0;
     } else if (state->in_facet && (rest = stl_keyword(p, "vertex"))) {
         if (state->corners == 3)
-            return mw__source_fail(source, error, "a fourth vertex in a facet");
+            return mw__source_fail(source, error, "a facet has a fourth vertex");
         return mw__read_xyz(source, rest, state->corner[state->corners++], error);
     } else if (state->in_facet && stl_keyword(p, "endfacet")) {
         if (state->corners < 3)
-            return mw__source_fail(source, error, "a facet of %d vertices", state->corners);
+            return mw__source_fail(source, error, "a facet has %d vertices, not 3", state->corners);
         state->in_facet = false;
         return stl_add_facet(weld, builder, state->corner, error);
     } else if (!state->in_facet && stl_keyword(p, "endsolid")) {

@@ -68,7 +68,8 @@ static mw_status netcdf_file_refuse(const mw_netcdf *file, const mw_netcdf_varia
     if (code == NETCDF_NO_MEMORY || code == ENOMEM) return mw__fail_memory(error);
     for (size_t i = 0; i < sizeof refusals / sizeof *refusals && !file->in_memory; i++)
         if (code == refusals[i]) return mw__fail_system(file->name, code, error);
-    if (code > 0) return mw__netcdf_fail(file, variable, error, "damaged, or not all of the file");
+    if (code > 0)
+        return mw__netcdf_fail(file, variable, error, "the file is damaged or incomplete");
     return mw__netcdf_fail(file, variable, error, "%s", file->nc.nc_strerror(code));
 }
 
@@ -414,7 +415,7 @@ static mw_status netcdf_opening_run(const netcdf_opening *o, bool hdf5, mw_netcd
     mw_status status = MW_OK;
     if (hdf5 && !netcdf_opening_is_safe(o))
         status = mw__netcdf_fail(o->file, NULL, error,
-                                 "the file is damaged: HDF5 does not come to an end with it");
+                                 "the file is damaged: HDF5 does not end when it opens it");
     if (!status) {
         mw__netcdf_lock(&o->file->nc);
         status = netcdf_file_finish(o->file, netcdf_opening_open(o), error);

@@ -41,7 +41,7 @@ static mw_status netcdf_output_create(mw_netcdf_output *output, mw_error *error)
     const char *path = mw_output_temporary(output->output);
     if (!path)
         return mw__fail(error, MW_ERROR_ARGUMENT,
-                        "%.240s: netCDF can be written to a file only, and not to a pipe",
+                        "%.240s: netCDF can be written to a file only, not to a pipe",
                         output->shown);
     char *plain = mw__alloc(strlen(path) + 3, 1);
     if (!plain) return mw__fail_memory(error);

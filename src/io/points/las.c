@@ -262,8 +262,8 @@ static mw_status las_read_header(mw_point_reader *reader, las_reader *l, mw_erro
     l->record_size = mw__get_u16(h + 105);
     l->count = mw__get_u32(h + 107);
     if (h[24] != 1 || minor > 4)
-        return mw__source_fail_at(source, 24, error, "version %u.%u; 1.0 to 1.4 are read", h[24],
-                                  minor);
+        return mw__source_fail_at(source, 24, error,
+                                  "LAS version %u.%u is not read, only 1.0 to 1.4", h[24], minor);
     if (minor == 4 && header_size >= HEADER_1_4 && have == HEADER_1_4 && mw__get_u64(h + 247) > 0)
         l->count = mw__get_u64(h + 247);
     mw_las_trailer trailer = {0};
@@ -275,17 +275,17 @@ static mw_status las_read_header(mw_point_reader *reader, las_reader *l, mw_erro
     }
     if (format & 0xc0) return las_refuse_laz(source, error);
     if (format >= FORMATS)
-        return mw__source_fail_at(source, 104, error, "point format %u; 0 to %d are read", format,
-                                  FORMATS - 1);
+        return mw__source_fail_at(source, 104, error, "point format %u is not read, only 0 to %d",
+                                  format, FORMATS - 1);
     l->format = format;
     if (l->record_size < layouts[format].size)
         return mw__source_fail_at(source, 105, error,
-                                  "point records of %zu bytes; format %u has %u at least",
+                                  "the point records have %zu bytes; format %u needs at least %u",
                                   l->record_size, format, layouts[format].size);
     if (header_size < HEADER || points_at < header_size)
         return mw__source_fail_at(source, 94, error,
-                                  "a header of %u bytes, and points at byte %" PRIu64, header_size,
-                                  points_at);
+                                  "the header has %u bytes, but the points begin at byte %" PRIu64,
+                                  header_size, points_at);
     status = mw__source_skip(source, header_size, error);
     las_records records = {0};
     if (!status) status = las_read_records(source, points_at, &records, error);
@@ -320,8 +320,8 @@ static mw_status las_select_columns(mw_point_reader *reader, las_reader *l, cons
         int shown = length < 60 ? (int)length : 60;
         if (found == COLUMN_COUNT)
             return mw__fail(error, MW_ERROR_INPUT,
-                            "%.240s: LAS has no column '%.*s' (but x, y, z, intensity, return, "
-                            "returns, classification, ...)",
+                            "%.240s: LAS has no column '%.*s'; it has x, y, z, intensity, return, "
+                            "returns, classification, ...",
                             mw__source_name(&reader->source), shown, item);
         if (taken[found])
             return mw__fail(error, MW_ERROR_ARGUMENT, "columns '%.60s': '%.*s' is selected twice",

@@ -15,7 +15,7 @@ static mw_status selection_check(const char *columns, mw_error *error)
     size_t count = 0, length;
     for (const char *rest = columns; mw__selection_item(&rest, &length); count++)
         if (length == 0)
-            return mw__fail(error, MW_ERROR_ARGUMENT, "columns '%.60s': an empty name", columns);
+            return mw__fail(error, MW_ERROR_ARGUMENT, "columns '%.60s': a name is empty", columns);
     if (count < 2 || count > MW_COLUMN_LIMIT)
         return mw__fail(error, MW_ERROR_ARGUMENT,
                         "columns '%.60s': at least two are needed, x and y", columns);
@@ -77,7 +77,9 @@ mw_status mw_point_reader_open(const char *path, const mw_point_reader_options *
                                mw_point_reader **out, mw_error *error)
 {
     if (out) *out = NULL;
-    if (!path || !out) return mw__fail(error, MW_ERROR_ARGUMENT, "mw_point_reader_open: NULL");
+    if (!path || !out)
+        return mw__fail(error, MW_ERROR_ARGUMENT,
+                        "mw_point_reader_open: the path or the pointer to the new reader is NULL");
     mw_source source;
     mw_status status = options ? MW_RESERVED_CHECK(mw_point_reader_options, options, error) : MW_OK;
     if (!status) status = mw__source_open(&source, path, error);
@@ -124,7 +126,9 @@ double mw_point_reader_fraction(const mw_point_reader *reader)
 mw_status mw_point_reader_table(const mw_point_reader *reader, mw_point_table *table,
                                 mw_error *error)
 {
-    if (!reader || !table) return mw__fail(error, MW_ERROR_ARGUMENT, "mw_point_reader_table: NULL");
+    if (!reader || !table)
+        return mw__fail(error, MW_ERROR_ARGUMENT,
+                        "mw_point_reader_table: the reader or the result is NULL");
     const mw_table_header *header = &reader->header;
     *table = (mw_point_table){.names = (const char *const *)header->names,
                               .header = header->text,
@@ -138,7 +142,8 @@ mw_status mw_point_reader_select(mw_point_reader *reader, const size_t *columns,
                                  mw_error *error)
 {
     if (!reader || !columns)
-        return mw__fail(error, MW_ERROR_ARGUMENT, "mw_point_reader_select: NULL");
+        return mw__fail(error, MW_ERROR_ARGUMENT,
+                        "mw_point_reader_select: the reader or the columns are NULL");
     if (!reader->table || reader->begun || count < 2)
         return mw__fail(error, MW_ERROR_ARGUMENT, "mw_point_reader_select: %s",
                         !reader->table  ? "the reader does not keep its table"
@@ -146,12 +151,12 @@ mw_status mw_point_reader_select(mw_point_reader *reader, const size_t *columns,
                                         : "at least two columns are needed");
     for (size_t k = 0; k < count; k++) {
         if (columns[k] >= reader->header.count)
-            return mw__fail(error, MW_ERROR_ARGUMENT, "mw_point_reader_select: no column %zu",
-                            columns[k]);
+            return mw__fail(error, MW_ERROR_ARGUMENT,
+                            "mw_point_reader_select: there is no column %zu", columns[k]);
         for (size_t i = 0; i < k; i++)
             if (columns[i] == columns[k])
                 return mw__fail(error, MW_ERROR_ARGUMENT,
-                                "mw_point_reader_select: column %zu twice", columns[k]);
+                                "mw_point_reader_select: column %zu is named twice", columns[k]);
     }
     mw__point_reader_clear(reader);
     return reader->select(reader, columns, count, error);

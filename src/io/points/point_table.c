@@ -47,7 +47,7 @@ static mw_status table_no_such_column(mw_point_reader *reader, const char *item,
     for (size_t i = 0; c->names && i < c->count && used < sizeof known; i++)
         used += (size_t)snprintf(known + used, sizeof known - used, "%s%s", i ? ", " : ": ",
                                  c->names[i]);
-    return mw__source_fail(&reader->source, error, "no column '%.*s' among the %zu%s",
+    return mw__source_fail(&reader->source, error, "there is no column '%.*s' among the %zu%s",
                            length < 60 ? (int)length : 60, item, c->count, known);
 }
 
@@ -118,8 +118,8 @@ static mw_status table_select_numbers(mw_point_reader *reader, mw_error *error)
     }
     if (reader->width >= 2) return table_allow_texts(reader, coordinates, error);
     return mw__source_fail_at(&reader->source, (uint64_t)reader->source.line + 1, error,
-                              "%zu column%s of numbers; a point needs two", reader->width,
-                              reader->width == 1 ? "" : "s");
+                              "the table has %zu column%s of numbers; a point needs two",
+                              reader->width, reader->width == 1 ? "" : "s");
 }
 
 static mw_status table_select(mw_point_reader *reader, const size_t *columns, size_t count,
@@ -146,7 +146,7 @@ static mw_status table_explain_row(mw_point_reader *reader, const char *row, mw_
             t->separator == ',' && count == 2 * t->columns ? " (are these decimal commas?)" : "");
     if (t->point && t->comma)
         return mw__source_fail(&reader->source, error,
-                               "decimal points and decimal commas in one table");
+                               "the table has both decimal points and decimal commas");
     mw_text_cell cell;
     bool more = true;
     for (size_t i = 0; mw__delimited_cell(&row, t->separator, &more, &cell); i++) {
@@ -273,7 +273,7 @@ static mw_status table_check_count(const mw_point_reader *reader, const table_st
 {
     if (t->expected == UINT64_MAX || t->done == t->expected) return MW_OK;
     return mw__source_fail(&reader->source, error,
-                           "%" PRIu64 " rows where %" PRIu64 " are announced", t->done,
+                           "the file has %" PRIu64 " rows, but announces %" PRIu64, t->done,
                            t->expected);
 }
 

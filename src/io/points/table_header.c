@@ -109,9 +109,9 @@ static mw_status header_refuse_decimal_commas(const mw_source *source, const cha
     bool decimal_comma;
     *separator = mw__delimited_separator(row, &decimal_comma);
     if (!decimal_comma) return MW_OK;
-    return mw__source_fail(
-        source, error,
-        "decimal commas: write points, or separate the columns by semicolons or tabs");
+    return mw__source_fail(source, error,
+                           "the row has decimal commas: write decimal points, or separate the "
+                           "columns by semicolons or tabs");
 }
 
 mw_status mw__table_header_detect(mw_source *source, mw_table_header *c, char *separator,

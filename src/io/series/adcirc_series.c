@@ -98,10 +98,14 @@ static mw_status adcirc_start(void *state, mw_source *source, const mw_series_op
         status = mw__row_integer(&row, "number of time steps between outputs", &ignored, error);
     if (!status) status = mw__row_integer(&row, "count of values", &a->width, error);
     if (!status && (a->vertices < 1 || a->width < 1 || a->width > 2))
-        status = mw__source_fail(source, error, "%" PRId64 " values at %" PRId64 " vertices",
+        status = mw__source_fail(source, error,
+                                 "the file announces %" PRId64 " values at each of %" PRId64
+                                 " vertices; 1 or 2 values are possible",
                                  a->width, a->vertices);
     if (!status && a->vertices > ADCIRC_MOST)
-        status = mw__source_fail(source, error, "%" PRId64 " vertices", a->vertices);
+        status = mw__source_fail(source, error,
+                                 "the file announces %" PRId64 " vertices, which is too many",
+                                 a->vertices);
     if (!status)
         status = mw__step_series_check(source, (size_t)a->vertices, options->vertex_count,
                                        "vertices", error);
@@ -145,8 +149,10 @@ static mw_status adcirc_step(void *state, double *time, bool *ended, double *val
         status = mw__row_integer(&row, "count of vertices", &count, error);
         if (!status) status = mw__row_double(&row, "value of the other vertices", &other, error);
         if (!status && (count < 0 || count > a->vertices))
-            status = mw__source_fail(a->source, error, "%" PRId64 " vertices of %" PRId64, count,
-                                     a->vertices);
+            status = mw__source_fail(a->source, error,
+                                     "the step announces values at %" PRId64
+                                     " vertices; the mesh has %" PRId64,
+                                     count, a->vertices);
     }
     if (other == ADCIRC_MISSING) other = NAN;
     for (int64_t i = 0; !status && values && i < a->vertices * a->width; i++) values[i] = other;

@@ -66,7 +66,7 @@ static mw_status netcdf_series_check_count(const netcdf_content *c, int dimensio
     if (dimension < 0 || count == 0) return MW_OK;
     mw__netcdf_dimension_at(c->file, dimension, &length);
     if (length == count) return MW_OK;
-    return mw__netcdf_fail(c->file, NULL, error, "it has values of %zu %s; the mesh has %zu",
+    return mw__netcdf_fail(c->file, NULL, error, "it has values at %zu %s, but the mesh has %zu",
                            length, what, count);
 }
 
@@ -230,7 +230,7 @@ static mw_status netcdf_series_fill(netcdf_content *c, const mw_series_options *
     }
     if (status || part->field_count > 0) return status;
     return mw__netcdf_fail(c->file, NULL, error,
-                           "no values over the vertices or faces of the mesh");
+                           "the file has no values at the vertices or faces of the mesh");
 }
 
 static mw_status netcdf_series_open(mw_source *source, const mw_series_options *options,

@@ -142,13 +142,16 @@ mw_status mw_series_open(const char *path, const mw_series_options *options, mw_
 {
     static const mw_series_options defaults;
     if (out) *out = NULL;
-    if (!path || !out) return mw__fail(error, MW_ERROR_ARGUMENT, "mw_series_open: NULL");
+    if (!path || !out)
+        return mw__fail(error, MW_ERROR_ARGUMENT,
+                        "mw_series_open: a path or the pointer to the new series is NULL");
     if (!options) options = &defaults;
     mw_status status = MW_RESERVED_CHECK(mw_series_options, options, error);
     if (status) return status;
     for (size_t p = 0; p < options->more_count; p++)
         if (!options->more_paths || !options->more_paths[p])
-            return mw__fail(error, MW_ERROR_ARGUMENT, "mw_series_open: NULL");
+            return mw__fail(error, MW_ERROR_ARGUMENT,
+                            "mw_series_open: a path or the pointer to the new series is NULL");
     return series_open_all(path, options, out, error);
 }
 
@@ -167,7 +170,9 @@ size_t mw_series_find(const mw_series *series, const char *name)
 mw_status mw_series_read(mw_series *series, size_t field, size_t step, double *values,
                          mw_error *error)
 {
-    if (!series || !values) return mw__fail(error, MW_ERROR_ARGUMENT, "mw_series_read: NULL");
+    if (!series || !values)
+        return mw__fail(error, MW_ERROR_ARGUMENT,
+                        "mw_series_read: the series or the values are NULL");
     if (field >= series->info.field_count)
         return mw__fail(error, MW_ERROR_ARGUMENT, "mw_series_read: there is no field %zu", field);
     bool constant = series->info.fields[field].constant;

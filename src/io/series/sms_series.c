@@ -188,7 +188,9 @@ static mw_status sms_read_header(sms_data *d, mw_error *error)
         if (card != SMS_STEP && card != SMS_END) continue;
         d->at_step = card == SMS_STEP;
         if (d->width == 0 || sms_count(d) < 1 || sms_count(d) > INT64_C(1) << 28)
-            return mw__source_fail(sms_source(d), error, "%" PRId64 " values at %" PRId64 " %s",
+            return mw__source_fail(sms_source(d), error,
+                                   "the file announces %" PRId64 " values at each of %" PRId64
+                                   " %s",
                                    d->width, sms_count(d), d->on_faces ? "elements" : "vertices");
         if (d->faces < 0 || (d->real_size != 4 && d->real_size != 8) ||
             (d->flag_size != 1 && d->flag_size != 4))

@@ -22,7 +22,8 @@ mw_status mw__step_series_check(const mw_source *source, size_t have, size_t wan
                                 const char *what, mw_error *error)
 {
     if (wanted == 0 || have == wanted) return MW_OK;
-    return mw__source_fail(source, error, "values of %zu %s; the mesh has %zu", have, what, wanted);
+    return mw__source_fail(source, error, "the file has values at %zu %s, but the mesh has %zu",
+                           have, what, wanted);
 }
 
 static mw_status step_series_add_time(mw_series_part *part, size_t *room, double time,
@@ -30,7 +31,7 @@ static mw_status step_series_add_time(mw_series_part *part, size_t *room, double
 {
     size_t count = part->step_count;
     if (!isfinite(time) || (count > 0 && !(time > part->times[count - 1])))
-        return mw__source_fail(source, error, "time %g is not later than the one before", time);
+        return mw__source_fail(source, error, "time %g is not later than the time before it", time);
     if (count == *room) {
         size_t larger = count < 16 ? 16 : count + count / 2;
         double *times = mw__realloc(part->times, larger, sizeof *times);
@@ -57,7 +58,7 @@ static mw_status step_series_scan(step_content *c, mw_source *source,
     }
     c->format->stop(c->state);
     if (!status && part->step_count == 0)
-        status = mw__source_fail(source, error, "no values in this file");
+        status = mw__source_fail(source, error, "there are no values in this file");
     return status;
 }
 
@@ -82,7 +83,7 @@ mw_status mw__step_series_open(const mw_step_format *format, mw_source *source,
 {
     if (strcmp(source->path, "-") == 0)
         return mw__fail(error, MW_ERROR_INPUT,
-                        "standard input: such values are read twice, from a file only");
+                        "standard input: values of this kind are read twice, so they need a file");
     step_content *c = mw__calloc(1, sizeof *c);
     if (!c) return mw__fail_memory(error);
     part->content = c;

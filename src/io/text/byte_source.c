@@ -309,8 +309,8 @@ mw_status mw__source_check_end(mw_source *source, uint64_t count, const char *wh
         for (size_t i = 0; i < have; i++)
             if (bytes[i] != 0 && bytes[i] != ' ' && (bytes[i] < '\t' || bytes[i] > '\r'))
                 return mw__source_fail_at(source, source->offset + i, error,
-                                          "more data after the %" PRIu64 " %s announced", count,
-                                          what);
+                                          "there are more data after the %" PRIu64 " %s announced",
+                                          count, what);
         if (have == 0 && source->damage)
             return mw__source_fail(source, error, "%s", source->damage);
         if (have == 0) return MW_OK;
@@ -379,7 +379,7 @@ static mw_status source_read_line(mw_source *source, size_t kept, char **line, m
             stop ? (size_t)(stop - source->buffer) - source->begin : source->end - source->begin;
         if (length > MW_LINE_LIMIT)
             return mw__source_fail_at(source, (uint64_t)source->line + 1, error,
-                                      "a line longer than %zu bytes", MW_LINE_LIMIT);
+                                      "a line is longer than %zu bytes", MW_LINE_LIMIT);
         /* a CR at the end of the buffer may belong to an LF behind it */
         if (stop && (*stop == '\n' || stop + 1 < source->buffer + source->end || source->ended)) {
             bool pair = *stop == '\r' && stop + 1 < source->buffer + source->end && stop[1] == '\n';

@@ -61,7 +61,7 @@ mw_status mw__rows_header(mw_source *source, char *line, int64_t *values, size_t
         status = mw__row_integer(&row, "numbers of the header", &values[i], error);
     for (size_t i = 0; !status && i < count; i++)
         if (values[i] < 0)
-            status = mw__source_fail(source, error, "a negative number in the header");
+            status = mw__source_fail(source, error, "a number in the header is negative");
     return status;
 }
 
@@ -78,6 +78,6 @@ mw_status mw__rows_check_end(mw_source *source, const char *what, int64_t announ
     char *line;
     mw_status status = mw__source_content_line(source, &line, error);
     if (status || !line) return status;
-    return mw__source_fail(source, error, "more than the %" PRId64 " %s announced", announced,
-                           what);
+    return mw__source_fail(source, error, "there are more than the %" PRId64 " %s announced",
+                           announced, what);
 }

@@ -87,7 +87,8 @@ static size_t crs_read_bytes(int fd, char *bytes, size_t room)
 mw_status mw_read_prj(const char *path, char **crs, mw_error *error)
 {
     if (crs) *crs = NULL;
-    if (!path || !crs) return mw__fail(error, MW_ERROR_ARGUMENT, "mw_read_prj: NULL");
+    if (!path || !crs)
+        return mw__fail(error, MW_ERROR_ARGUMENT, "mw_read_prj: the path or the result is NULL");
     int fd = strcmp(path, "-") == 0 ? -1 : crs_open_beside(path);
     if (fd < 0) return MW_OK;
     char *bytes = mw__alloc(MW_CRS_LIMIT + 1, 1);

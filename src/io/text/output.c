@@ -131,7 +131,9 @@ static char *link_end(const char *path)
 
 mw_status mw_output_resolve(const char *path, char **name, mw_error *error)
 {
-    if (!path || !name) return mw__fail(error, MW_ERROR_ARGUMENT, "mw_output_resolve: NULL");
+    if (!path || !name)
+        return mw__fail(error, MW_ERROR_ARGUMENT,
+                        "mw_output_resolve: the path or the result is NULL");
     *name = link_end(path);
     return *name ? MW_OK : mw__fail_system(path, errno, error);
 }
@@ -185,7 +187,9 @@ static mw_status output_open(const char *path, bool named, mw_output **out, mw_e
 
 mw_status mw_output_open(const char *path, mw_output **out, mw_error *error)
 {
-    if (!path || !out) return mw__fail(error, MW_ERROR_ARGUMENT, "mw_output_open: NULL");
+    if (!path || !out)
+        return mw__fail(error, MW_ERROR_ARGUMENT,
+                        "mw_output_open: the path or the pointer to the new output is NULL");
     return output_open(path, false, out, error);
 }
 

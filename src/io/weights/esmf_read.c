@@ -32,8 +32,7 @@ static mw_status esmf_size(const esmf_reading *r, const char *name, uint32_t *si
                                name);
     if (length >= MW_NONE)
         return mw__fail(error, MW_ERROR_LIMIT,
-                        "%.240s: dimension %s has %zu members; it may have "
-                        "%u",
+                        "%.240s: dimension %s has %zu members; at most %u are possible",
                         mw__netcdf_name(r->file), name, length, MW_NONE - 1);
     if (length > most)
         return mw__netcdf_fail(r->file, NULL, error,
@@ -61,8 +60,9 @@ static mw_status esmf_find_base(esmf_reading *r, mw_error *error)
     mw__netcdf_number(r->file, r->row, "start_index", &row);
     mw__netcdf_number(r->file, r->column, "start_index", &column);
     if (row != column || (row != 0 && row != 1))
-        return mw__netcdf_fail(r->file, r->row, error, "start_index %g, and %g of col", row,
-                               column);
+        return mw__netcdf_fail(
+            r->file, r->row, error,
+            "its start_index is %g and that of col is %g; both must be 0 or both 1", row, column);
     r->entries.base = (uint32_t)row;
     return MW_OK;
 }
@@ -90,7 +90,8 @@ static mw_status esmf_read_numbers(esmf_reading *r, const mw_netcdf_variable *va
     mw_status status = mw__netcdf_integers(r->file, variable, &from, &count, block, error);
     for (size_t i = 0; i < count && !status; i++) {
         if (block[i] < 0 || block[i] >= MW_NONE)
-            return mw__netcdf_fail(r->file, variable, error, "entry %zu is %lld", from + i,
+            return mw__netcdf_fail(r->file, variable, error,
+                                   "entry %zu is %lld, which is out of range", from + i,
                                    (long long)block[i]);
         numbers[from + i] = (uint32_t)block[i];
     }

@@ -137,10 +137,10 @@ static mw_status applied_choose(applied_file *f, const mw_apply_weights_options 
         variable_learn(f, &f->variable[f->count++]);
     }
     if (!status && f->count == 0)
-        status = mw__netcdf_fail(f->in, NULL, error,
-                                 "has no field whose last dimension has the %u values that the "
-                                 "weights want",
-                                 f->size.columns);
+        status = mw__netcdf_fail(
+            f->in, NULL, error,
+            "has no field whose last dimension has the %u values that the weights need",
+            f->size.columns);
     return status;
 }
 

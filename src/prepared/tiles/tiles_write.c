@@ -72,7 +72,7 @@ static mw_status folder_open(tile_folder *f, const char *path, mw_error *error)
     memcpy(f->name, path, length);
     if (length == 0) return mw__fail(error, MW_ERROR_ARGUMENT, "the folder has no name");
     if (access(f->name, F_OK) == 0)
-        return mw__fail(error, MW_ERROR_SYSTEM, "%s: is there already; remove it first", f->name);
+        return mw__fail(error, MW_ERROR_SYSTEM, "%s: exists already; remove it first", f->name);
     return folder_make(f, error);
 }
 
@@ -217,7 +217,9 @@ mw_status mw_write_tiles(const mw_locator *locator, const char *folder,
                          const mw_tile_options *options, mw_error *error)
 {
     static const mw_tile_options defaults;
-    if (!locator || !folder) return mw__fail(error, MW_ERROR_ARGUMENT, "mw_write_tiles: NULL");
+    if (!locator || !folder)
+        return mw__fail(error, MW_ERROR_ARGUMENT,
+                        "mw_write_tiles: the locator or the folder is NULL");
     if (!options) options = &defaults;
     mw_status status = MW_RESERVED_CHECK(mw_tile_options, options, error);
     if (!status) status = mw__prepared_check_locator(locator, error);

@@ -1,10 +1,10 @@
 /* star_borrowed.c - one ray on the records of the surface: first facet, walk, conclusion. This file
  * decides ties of borrowed stars.
  *
- * What the ray meets beside the facet where the walk ended are the facets round its edge or vertex.
- * Where one of these is flat, others may lie behind it; then all facets are looked at, and the
- * first that the ray meets is the lowest. So it is where a walk does not end, or where nothing was
- * checked and the facet does not face outwards. */
+ * If the ray passes through an edge or a vertex of the facet where the walk ended, it also meets
+ * the facets round that edge or vertex. If one of these is flat, others may lie behind it. Then all
+ * facets are tested in ascending order, and the first that the ray meets is the answer. The same is
+ * done if a walk does not end, or if the star is unchecked and the facet does not face outwards. */
 #include "star/borrow/star_borrowed.h"
 
 #include "base/random.h"

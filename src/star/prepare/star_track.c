@@ -109,11 +109,12 @@ static uint32_t guide_section(const mw_star *star, const uint32_t v[3])
     return mw__star_facet_key(star, v) >> (32 - star->guide_bits);
 }
 
-/* So far from its own section a facet may be named. */
+/* The farthest section from its own in which a facet may be named. */
 #define GUIDE_NEAR 8u
 
-/* What names `from`, a facet with these corners, is to name `to`: its section of the curve, and
- * sections near it that have no facet, or were one section before the guide was refined. */
+/* Let entries of the guide that name facet `from`, with these corners, name `to`. They are in its
+ * section of the curve, and in sections near it that have no facet, or were one section before the
+ * guide was refined. */
 static void guide_rename(mw_star *star, const uint32_t v[3], uint32_t from, uint32_t to)
 {
     uint32_t section = guide_section(star, v), end = UINT32_C(1) << star->guide_bits,

@@ -36,7 +36,8 @@ mw_status mw_star_cursor_init(const mw_star *star, const mw_star_query_options *
     if (status) return status;
     if (options->finish && options->finish != MW_STAR_WALK_STOCHASTIC &&
         options->finish != MW_STAR_WALK_FORGETFUL)
-        return mw__fail(error, MW_ERROR_ARGUMENT, "finish must be stochastic or forgetful");
+        return mw__fail(error, MW_ERROR_ARGUMENT,
+                        "the walk 'finish' must be stochastic or forgetful");
     if (options->walk == MW_STAR_WALK_ORTHOGONAL && !star->angles)
         return mw__fail(error, MW_ERROR_ARGUMENT, "the orthogonal walk needs a star with angles");
     if (start == MW_STAR_START_AUTO && options->index) start = mw__star_index_start(options->index);
@@ -44,7 +45,7 @@ mw_status mw_star_cursor_init(const mw_star *star, const mw_star_query_options *
         return mw__fail(error, MW_ERROR_ARGUMENT, "the start %s needs its index",
                         mw_star_start_name(start));
     if (options->index && mw__star_index_start(options->index) != start)
-        return mw__fail(error, MW_ERROR_ARGUMENT, "the index is one of another start");
+        return mw__fail(error, MW_ERROR_ARGUMENT, "the index is of another start");
     status = MW_RESERVED_CHECK(mw_star_query_options, options, error);
     if (status) return status;
     *cursor = (mw_star_cursor){

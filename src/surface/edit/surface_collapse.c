@@ -2,10 +2,10 @@
  * [Dey, Edelsbrunner, Guha, Nekhayev 1999].
  *
  * The link of a vertex: the edges opposite to it, and their ends. The link of edge ab: the corners
- * opposite to it. The surface stays what it is if the links of a and b have in common what the link
- * of ab has, and nothing else. A border counts as filled by triangles up to one more vertex, which
- * is thus in the link of each vertex and edge of the border; likewise one more for vertices that
- * are pinched. */
+ * opposite to it. The surface keeps its topology if and only if the intersection of the links of a
+ * and b is the link of ab. A border counts as filled by triangles up to an imaginary vertex, which
+ * is thus in the link of each vertex and edge of the border; a second imaginary vertex does the
+ * same for pinched vertices. */
 #include "surface/edit/surface_changes.h"
 #include "surface/edit/surface_corners.h"
 #include "surface/edit/surface_journal.h"
@@ -45,7 +45,7 @@ static vertex_round vertex_look_round(const mw_surface_editor *e, const collapse
     return round;
 }
 
-/* How many triangles hang together at a vertex with that of a half-edge there? */
+/* How many triangles are in the fan, round a vertex, of a half-edge there? */
 static uint32_t fan_size(const mw_surface_editor *e, uint32_t half, bool start)
 {
     const mw_triangle *tri = e->surface->tri;
@@ -60,7 +60,7 @@ static uint32_t fan_size(const mw_surface_editor *e, uint32_t half, bool start)
     return n;
 }
 
-/* Do both ends have more triangles than hang together with the edge? */
+/* Does each end have triangles outside the fan of the edge? */
 static bool ends_are_pinched(const mw_surface_editor *e, const collapse_plan *p, uint32_t a_degree,
                              uint32_t b_degree)
 {
@@ -102,8 +102,7 @@ static mw_status collapse_check_links(mw_surface_editor *e, collapse_plan *p, mw
     if (p->triangles == 2 && a.border && b.border)
         return collapse_refuse(p, "both ends lie on a border, and the edge does not", error);
     if (a.opposite && b.opposite)
-        return collapse_refuse(p, "a triangle at either end has the same two other vertices",
-                               error);
+        return collapse_refuse(p, "a triangle at each end has the same two other vertices", error);
     if (ends_are_pinched(e, p, a.triangles, b.triangles))
         return collapse_refuse(p, "both ends are pinched", error);
     for (unsigned i = 0; i < p->triangles; i++) {

@@ -182,7 +182,7 @@ static mw_status cut_check_open(surface_cut *c, mw_error *error)
         if (!ends_differ(c, half, a) && !ends_differ(c, half, b))
             return mw__fail_at(error, mw__link_triangle(half), a,
                                "the cut does not open the edge from %" PRIu32 " to %" PRIu32
-                               ": inside of the surface it needs at least two edges",
+                               ": a cut inside the surface needs at least two edges",
                                a, b);
     }
     return MW_OK;

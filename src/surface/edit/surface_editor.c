@@ -27,7 +27,7 @@ static mw_status editor_check_surface(const mw_surface *surface, mw_error *error
                         "the surface was welded: an editor needs one number for equal vertices");
     if (surface->borrowed)
         return mw__fail(error, MW_ERROR_ARGUMENT,
-                        "the points of the surface are borrowed, so they cannot become more");
+                        "the points of the surface are borrowed, so an editor cannot add any");
     if (surface->edited)
         return mw__fail(error, MW_ERROR_ARGUMENT, "the surface has an editor already");
     if (mw_surface_triangle_count(surface) == surface->freed_triangles)

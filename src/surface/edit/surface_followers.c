@@ -44,8 +44,8 @@ mw_status mw__followers_add_star(mw_surface_editor *e, mw_star *star, mw_error *
         return mw__fail(error, MW_ERROR_ARGUMENT, "the star is one of another surface");
     if (star->borrowed)
         return mw__fail(error, MW_ERROR_ARGUMENT,
-                        "a borrowed star keeps nothing that could follow edits: it needs "
-                        "mw_star_update, or none if it is unchecked");
+                        "a borrowed star cannot follow edits: call mw_star_update() after them, "
+                        "unless it is unchecked");
     if (editor_has_star(e, star)) return MW_OK;
     if (!mw__surface_grow(&e->star, &e->star_room, e->star_count + 1, sizeof *e->star) ||
         !mw__star_attach(star))

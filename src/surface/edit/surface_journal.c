@@ -74,8 +74,8 @@ mw_status mw__surface_edit_begin(mw_surface_editor *e, const mw_surface_needs *n
     if (needs->made >= MW_MAX_TRIANGLES - s->tri_count ||
         needs->vertices >= MW_MAX_VERTICES - s->point_count)
         return mw__fail(error, MW_ERROR_LIMIT,
-                        "all numbers are used; mw_surface_editor_compact frees those of triangles "
-                        "and vertices that are gone");
+                        "all numbers are used; mw_surface_editor_compact() frees those of removed "
+                        "triangles and vertices");
     if (!triangles_reserve(e, s->tri_count + needs->made) ||
         !points_reserve(e, s->point_count + needs->vertices) ||
         !mw__surface_grow(&e->triangle, &e->triangle_room, e->triangle_count + needs->triangles,

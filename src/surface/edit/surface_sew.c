@@ -252,7 +252,8 @@ static mw_status surface_seam_run(surface_seam *s, const mw_surface_edit *edit, 
 mw_status mw__surface_sew(mw_surface_editor *e, const mw_surface_edit *edit, mw_error *error)
 {
     if (!edit->path || !edit->other || edit->path_count < 2)
-        return mw__fail(error, MW_ERROR_ARGUMENT, "a seam needs at least two vertices a side");
+        return mw__fail(error, MW_ERROR_ARGUMENT,
+                        "each side of a seam needs at least two vertices");
     surface_seam seam = {.e = e};
     mw_status status = surface_seam_run(&seam, edit, error);
     surface_seam_release(&seam);

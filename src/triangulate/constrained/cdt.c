@@ -38,12 +38,12 @@ static mw_status cdt_check_arguments(const mw_constraints *given, mw_keep keep, 
 {
     if (!given) return mw__fail(error, MW_ERROR_ARGUMENT, "constraints are NULL");
     if ((unsigned)keep > MW_KEEP_INSIDE)
-        return mw__fail(error, MW_ERROR_ARGUMENT, "unknown choice of what to keep");
+        return mw__fail(error, MW_ERROR_ARGUMENT, "the option 'keep' has an unknown value");
     if (given->stride == 1)
         return mw__fail(error, MW_ERROR_ARGUMENT, "the stride must be at least 2 (x and y), not 1");
     if ((given->point_count && !given->points) || (given->segment_count && !given->segments) ||
         (given->hole_seed_count && !given->hole_seeds))
-        return mw__fail(error, MW_ERROR_ARGUMENT, "arrays are missing");
+        return mw__fail(error, MW_ERROR_ARGUMENT, "the points or the segments are NULL");
     if (given->point_count > MW_MAX_TRIANGLES / 2)
         return mw__fail(error, MW_ERROR_LIMIT, "too many points: %zu", given->point_count);
     if (given->segment_count >= MW_NONE)
@@ -387,7 +387,7 @@ mw_status mw_constrained_delaunay(const mw_constraints *constraints,
     *report =
         (mw_constrain_report){.crossing_segments = {MW_NONE, MW_NONE}, .first_idle_hole = MW_NONE};
     if (edges) *edges = (mw_constrained_edges){0};
-    if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "out is NULL");
+    if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "the pointer to the new mesh is NULL");
     *out = NULL;
     if (!options) options = &defaults;
     mw_status status = MW_RESERVED_CHECK(mw_constrain_options, options, error);

@@ -118,8 +118,7 @@ static void flood_remove_triangle(flood *f, uint32_t t)
     f->stack[f->top++] = t;
 }
 
-/* Remove what hangs together with the triangles on the stack, and no subsegment separates from
- * them. */
+/* Remove all triangles that are connected to those on the stack without crossing a subsegment. */
 static void flood_fill(flood *f)
 {
     while (f->top > 0) {

@@ -327,11 +327,13 @@ mw_status mw__delaunay_mesh(mw_job *job, bool laid_out, const double *points, si
                             size_t stride, uint32_t *duplicate_of, mw_delaunay_report *report,
                             mw_mesh **out, mw_error *error)
 {
-    if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "out is NULL");
+    if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "the pointer to the new mesh is NULL");
     *out = NULL;
     if (!stride) stride = 2;
-    if (stride < 2) return mw__fail(error, MW_ERROR_ARGUMENT, "stride %zu is below 2", stride);
-    if (n && !points) return mw__fail(error, MW_ERROR_ARGUMENT, "points is NULL");
+    if (stride < 2)
+        return mw__fail(error, MW_ERROR_ARGUMENT,
+                        "the stride must be at least 2 (x and y), not %zu", stride);
+    if (n && !points) return mw__fail(error, MW_ERROR_ARGUMENT, "the points are NULL");
     if (n > MW_MAX_TRIANGLES / 2) return mw__fail(error, MW_ERROR_LIMIT, "too many points: %zu", n);
     mw_point *copy;
     mw__job_stage(job, "reading points", 0.02);
@@ -355,7 +357,7 @@ mw_status mw_delaunay(const double *points, size_t n, size_t stride,
                       mw_delaunay_report *report, mw_mesh **out, mw_error *error)
 {
     static const mw_delaunay_options defaults;
-    if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "out is NULL");
+    if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "the pointer to the new mesh is NULL");
     *out = NULL;
     if (!options) options = &defaults;
     mw_status status = MW_RESERVED_CHECK(mw_delaunay_options, options, error);

@@ -154,7 +154,7 @@ mw_status mw_triangulate(mw_triangulation_kind kind, const double *points, size_
 {
     static const mw_kind_options defaults;
     mw_kind_report made = {.optimal = 1};
-    if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "out is NULL");
+    if (!out) return mw__fail(error, MW_ERROR_ARGUMENT, "the pointer to the new mesh is NULL");
     *out = NULL;
     if ((unsigned)kind >= MW_KIND_COUNT)
         return mw__fail(error, MW_ERROR_ARGUMENT, "unknown kind of triangulation");

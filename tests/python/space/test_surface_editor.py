@@ -184,7 +184,7 @@ def test_detach_and_attach() -> None:
     assert touched(prober, [0.25, 0.25, 1]) == -1
     editor.add_triangle(0, 1, 3)
     assert touched(prober, [0.25, 0.25, 1]) == 4
-    with pytest.raises(ValueError, match="none of this surface"):
+    with pytest.raises(ValueError, match="not of this surface"):
         editor.attach(star)
 
 
