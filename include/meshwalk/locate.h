@@ -44,19 +44,21 @@ typedef enum mw_arithmetic { MW_EXACT = 0, MW_DOUBLE } mw_arithmetic;
 /** The name of a walk, as on the command line ("straight"); NULL for any other number.
  * Thread-safe. */
 MW_API const char *mw_walk_name(mw_walk_kind walk);
-/** Where a walk was published, "Authors Year"; NULL for any other number. */
+/** Where a walk was published, "Authors Year"; NULL for any other number. Thread-safe. O(1). */
 MW_API const char *mw_walk_source(mw_walk_kind walk);
-/** One line of help for a walk; NULL for any other number. */
+/** One line of help for a walk; NULL for any other number. Thread-safe. O(1). */
 MW_API const char *mw_walk_help(mw_walk_kind walk);
-/** The name of a start, as on the command line ("sorted"); NULL for any other number. */
+/** The name of a start, as on the command line ("sorted"); NULL for any other number. Thread-safe.
+ * O(1). */
 MW_API const char *mw_start_name(mw_start_kind start);
-/** One line of help for a start; NULL for any other number. */
+/** One line of help for a start; NULL for any other number. Thread-safe. O(1). */
 MW_API const char *mw_start_help(mw_start_kind start);
-/** 1 if a start needs an index (mw_index_create()); 0 if not, or for any other number. */
+/** 1 if a start needs an index (mw_index_create()); 0 if not, or for any other number. Thread-safe.
+ * O(1). */
 MW_API int mw_start_has_index(mw_start_kind start);
-/** The walk with a name (not NULL); MW_WALK_COUNT if there is none. */
+/** The walk with a name (not NULL); MW_WALK_COUNT if there is none. Thread-safe. O(1). */
 MW_API mw_walk_kind mw_walk_by_name(const char *name);
-/** The start with a name (not NULL); MW_START_COUNT if there is none. */
+/** The start with a name (not NULL); MW_START_COUNT if there is none. Thread-safe. O(1). */
 MW_API mw_start_kind mw_start_by_name(const char *name);
 
 /** The kinds of places where a point can lie. */
@@ -72,7 +74,8 @@ typedef enum mw_where {
     MW_WHERE_COUNT
 } mw_where;
 
-/** "inside", "edge", "vertex", "outside", "hole", "near" or "bad"; NULL for any other number. */
+/** The name of a place: "inside", "edge", "vertex", "outside", "hole", "near" or "bad"; NULL for
+ * any other number. Thread-safe. O(1). */
 MW_API const char *mw_where_name(mw_where where);
 
 /** Where a point lies. */
@@ -192,7 +195,7 @@ typedef struct mw_hole_edge {
 MW_API mw_status mw_locator_holes(const mw_locator *locator, mw_hole_edge *edges, mw_error *error);
 
 /** Which promise does not hold because the mesh is not an embedding (mw_locator_options.any), as a
- * text owned by the library; NULL for an embedding. O(1). */
+ * text owned by the library; NULL for an embedding. Thread-safe. O(1). */
 MW_API const char *mw_locator_void_promise(const mw_locator *locator);
 
 /**
@@ -351,7 +354,8 @@ typedef struct mw_counters {
     uint64_t handovers;
 } mw_counters;
 
-/** Add `more` to `sum`, for instance the counts of several threads. */
+/** Add `more` to `sum`, for instance the counts of several threads. Thread-safe on different sums.
+ * O(1). */
 MW_API void mw_counters_add(mw_counters *sum, const mw_counters *more);
 
 /**

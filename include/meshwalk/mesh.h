@@ -120,8 +120,9 @@ typedef struct mw_check_options {
  * @param options  NULL selects the defaults
  * @param check    receives the defects; release with mw_check_release()
  * @param error    NULL, or receives the message of a failure
- * @return MW_OK, also if defects were found; MW_ERROR_ARGUMENT, MW_ERROR_LIMIT, MW_ERROR_MEMORY,
- *         MW_CANCELLED.
+ * @return MW_OK, also if defects were found; MW_ERROR_ARGUMENT for NULL, a stride of 1 or an
+ *         unknown integer type; MW_ERROR_LIMIT for more than MW_MAX_TRIANGLES or MW_MAX_VERTICES;
+ *         MW_ERROR_MEMORY, MW_CANCELLED.
  *
  * Thread-safe. O(n) for local defects; O(b log^2 b) expected for b border edges, whether they
  * cross or not (docs/proofs/tilings.md).
@@ -166,7 +167,9 @@ typedef struct mw_mesh_options {
  * @param out      receives the mesh, owned by the caller (mw_mesh_destroy()); NULL on failure
  * @param error    NULL, or receives the message of a failure
  * @return MW_OK; MW_ERROR_INPUT if the arrays are unusable (the error names the first defect);
- *         MW_ERROR_ARGUMENT, MW_ERROR_LIMIT, MW_ERROR_MEMORY, MW_CANCELLED.
+ *         MW_ERROR_ARGUMENT for NULL, a stride of 1, an unknown integer type or layout;
+ *         MW_ERROR_LIMIT for more than MW_MAX_TRIANGLES or MW_MAX_VERTICES; MW_ERROR_MEMORY,
+ *         MW_CANCELLED.
  *
  * Thread-safe. O(n) for n triangles.
  */

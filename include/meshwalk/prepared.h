@@ -115,7 +115,7 @@ typedef struct mw_map_options {
  * @param error    NULL, or receives the message of a failure
  * @return MW_OK; MW_ERROR_SYSTEM if the file cannot be opened or mapped; MW_ERROR_INPUT if it is no
  *         prepared file, of another version or byte order, incomplete or damaged;
- *         MW_ERROR_ARGUMENT, MW_ERROR_MEMORY, MW_CANCELLED.
+ *         MW_ERROR_ARGUMENT for NULL; MW_ERROR_MEMORY, MW_CANCELLED.
  *
  * Thread-safe. O(n) for n triangles; with `trust` O(1), and memory for the names of fields only.
  */

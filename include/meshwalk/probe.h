@@ -97,7 +97,8 @@ typedef enum mw_touch_state {
     MW_TOUCH_STATE_COUNT
 } mw_touch_state;
 
-/** "hit", "none", "limit" or "bad"; NULL for any other number. */
+/** The name of an outcome: "hit", "none", "limit" or "bad"; NULL for any other number. Thread-safe.
+ * O(1). */
 MW_API const char *mw_touch_state_name(mw_touch_state state);
 
 /** What a probe touched. */
@@ -133,7 +134,8 @@ typedef enum mw_probe_start {
     MW_PROBE_START_COUNT
 } mw_probe_start;
 
-/** "auto", "last", "sample" or "random"; NULL for any other number. */
+/** The name of a start: "auto", "last", "sample" or "random"; NULL for any other number.
+ * Thread-safe. O(1). */
 MW_API const char *mw_probe_start_name(mw_probe_start start);
 
 /** Which faces of triangles count. */
@@ -144,7 +146,8 @@ typedef enum mw_probe_faces {
     MW_PROBE_FACES_COUNT
 } mw_probe_faces;
 
-/** "front", "back" or "both"; NULL for any other number. */
+/** The name of a choice of faces: "front", "back" or "both"; NULL for any other number.
+ * Thread-safe. O(1). */
 MW_API const char *mw_probe_faces_name(mw_probe_faces faces);
 
 /** Which part of the line through q along m counts. */
@@ -157,7 +160,8 @@ typedef enum mw_probe_extent {
     MW_PROBE_EXTENT_COUNT
 } mw_probe_extent;
 
-/** "line", "ray" or "segment"; NULL for any other number. */
+/** The name of an extent: "line", "ray" or "segment"; NULL for any other number. Thread-safe.
+ * O(1). */
 MW_API const char *mw_probe_extent_name(mw_probe_extent extent);
 
 /** How to answer probes. Zero-initialised options select the defaults. */
@@ -198,7 +202,8 @@ typedef struct mw_probe_counters {
     uint64_t boxes, box_triangles; /**< certain mode: boxes tested, and triangles in them */
 } mw_probe_counters;
 
-/** Add `more` to `sum`, for instance the counts of several threads. */
+/** Add `more` to `sum`, for instance the counts of several threads. Thread-safe on different sums.
+ * O(1). */
 MW_API void mw_probe_counters_add(mw_probe_counters *sum, const mw_probe_counters *more);
 
 /**
@@ -476,7 +481,8 @@ typedef enum mw_surface_side {
     MW_SURFACE_SIDE_COUNT
 } mw_surface_side;
 
-/** "outside", "inside", "on" or "bad"; NULL for any other number. */
+/** The name of a side: "outside", "inside", "on" or "bad"; NULL for any other number. Thread-safe.
+ * O(1). */
 MW_API const char *mw_surface_side_name(mw_surface_side side);
 
 /**

@@ -36,21 +36,22 @@ typedef enum mw_star_start_kind {
     MW_STAR_START_COUNT
 } mw_star_start_kind;
 
-/** The name of a walk, as on the command line; NULL for any other number. */
+/** The name of a walk, as on the command line; NULL for any other number. Thread-safe. O(1). */
 MW_API const char *mw_star_walk_name(mw_star_walk_kind walk);
-/** Where a walk was published, "Authors Year"; NULL for any other number. */
+/** Where a walk was published, "Authors Year"; NULL for any other number. Thread-safe. O(1). */
 MW_API const char *mw_star_walk_source(mw_star_walk_kind walk);
-/** One line of help for a walk; NULL for any other number. */
+/** One line of help for a walk; NULL for any other number. Thread-safe. O(1). */
 MW_API const char *mw_star_walk_help(mw_star_walk_kind walk);
-/** The name of a start, as on the command line; NULL for any other number. */
+/** The name of a start, as on the command line; NULL for any other number. Thread-safe. O(1). */
 MW_API const char *mw_star_start_name(mw_star_start_kind start);
-/** One line of help for a start; NULL for any other number. */
+/** One line of help for a start; NULL for any other number. Thread-safe. O(1). */
 MW_API const char *mw_star_start_help(mw_star_start_kind start);
-/** 1 if a start needs an index (mw_star_index_create()); 0 if not, or for any other number. */
+/** 1 if a start needs an index (mw_star_index_create()); 0 if not, or for any other number.
+ * Thread-safe. O(1). */
 MW_API int mw_star_start_has_index(mw_star_start_kind start);
-/** The walk with a name (not NULL); MW_STAR_WALK_COUNT if there is none. */
+/** The walk with a name (not NULL); MW_STAR_WALK_COUNT if there is none. Thread-safe. O(1). */
 MW_API mw_star_walk_kind mw_star_walk_by_name(const char *name);
-/** The start with a name (not NULL); MW_STAR_START_COUNT if there is none. */
+/** The start with a name (not NULL); MW_STAR_START_COUNT if there is none. Thread-safe. O(1). */
 MW_API mw_star_start_kind mw_star_start_by_name(const char *name);
 
 /** A surface prepared for rays from a centre. Opaque; any number of threads may query one star. */

@@ -73,9 +73,9 @@ typedef enum mw_triangulation_kind {
 
 /** The name of a kind, as on the command line; NULL for any other number. Thread-safe. */
 MW_API const char *mw_kind_name(mw_triangulation_kind kind);
-/** Where a kind was published, "Authors Year"; NULL for any other number. */
+/** Where a kind was published, "Authors Year"; NULL for any other number. Thread-safe. O(1). */
 MW_API const char *mw_kind_source(mw_triangulation_kind kind);
-/** One line of help for a kind; NULL for any other number. */
+/** One line of help for a kind; NULL for any other number. Thread-safe. O(1). */
 MW_API const char *mw_kind_help(mw_triangulation_kind kind);
 
 /** Properties of a triangulation of any kind. */

@@ -124,5 +124,5 @@ cat >both.geojson <<'END'
 {"type":"GeometryCollection","geometries":[{"type":"LineString","coordinates":[[1,2],[2,2]]},
 {"type":"Polygon","coordinates":[[[1,1],[2,2],[2,1],[1,1]]]}]}
 END
-run drape gap.off both.geojson --lines-crs same -q; refused 3 'has lines and polygons'
+run drape gap.off both.geojson --lines-crs same -q; refused 3 'has both lines and polygons'
 finish

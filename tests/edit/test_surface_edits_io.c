@@ -153,7 +153,7 @@ static void test_long_chains(void **state)
 static const struct {
     const char *text, *says;
 } refused[] = {
-    {"add-vertx 1 2 3", "unknown edit 'add-vertx'; there are add-vertex, remove-vertex, "},
+    {"add-vertx 1 2 3", "unknown edit 'add-vertx'; known edits are add-vertex, remove-vertex, "},
     {"add-vertex 1 2", "add-vertex: the z is missing"},
     {"add-vertex 1 b 3", "add-vertex: y: 'b' is not a number"},
     {"add-vertex 1 2 3 4", "add-vertex: '4' is one word too many"},
@@ -166,13 +166,15 @@ static const struct {
     {"split-edge 1", "split-edge: the second vertex is missing"},
     {"split-edge 1 2 3", "split-edge: the y is missing"},
     {"split-triangle 1 2 3 4 5", "split-triangle: '5' is one word too many"},
-    {"cut 1", "cut: at least two vertices are needed"},
-    {"cut", "cut: at least two vertices are needed"},
+    {"cut 1", "cut: a cut needs at least two vertices"},
+    {"cut", "cut: a cut needs at least two vertices"},
     {"cut 1 2 to 3", "cut: 'to' is not a vertex number"},
     {"cut 1 2 too", "cut: vertex: 'too' is not a vertex number"},
     {"sew 1 2", "sew: the word 'to' and the other chain are missing"},
-    {"sew 1 2 to 3", "sew: both chains need as many vertices, at least two; they have 2 and 1"},
-    {"sew 1 to 3", "sew: both chains need as many vertices, at least two; they have 1 and 1"},
+    {"sew 1 2 to 3",
+     "sew: both chains need the same number of vertices, at least two; they have 2 and 1"},
+    {"sew 1 to 3",
+     "sew: both chains need the same number of vertices, at least two; they have 1 and 1"},
     {"sew 1 2 to 3 4 5", "they have 2 and 3"},
     {"sew 1 2 to 3 4 to 5 6", "sew: 'to' comes twice"},
     {"probe 1 2 3 4 5", "probe: the z of the motion is missing"},

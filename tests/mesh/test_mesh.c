@@ -138,7 +138,7 @@ static void test_arguments(void **state)
     assert_int_equal(mw_mesh_create(NULL, NULL, &mesh, NULL), MW_ERROR_ARGUMENT);
     assert_int_equal(mw_mesh_create(&view, NULL, &mesh, NULL), MW_ERROR_ARGUMENT);
     assert_int_equal(mw_mesh_create(&view, NULL, NULL, NULL), MW_ERROR_ARGUMENT);
-    view = (mw_arrays){.points = square, .point_count = (size_t)1 << 33};
+    view = (mw_arrays){.points = square, .point_count = SIZE_MAX};
     assert_int_equal(mw_mesh_create(&view, NULL, &mesh, NULL), MW_ERROR_LIMIT);
     view = (mw_arrays){.points = square,
                        .point_count = 4,

@@ -160,7 +160,7 @@ def test_what_is_refused(editor: meshwalk.Editor, ring: meshwalk.Mesh) -> None:
     with pytest.raises(ValueError, match="edit"):
         editor.apply(meshwalk.Edit(99))  # type: ignore[arg-type]
     np.testing.assert_array_equal(editor.mesh().triangles, before.triangles)
-    with pytest.raises(TypeError, match=r"its mesh\(\) does"):
+    with pytest.raises(TypeError, match=r"its mesh\(\) can"):
         pickle.dumps(editor)
 
 

@@ -99,9 +99,9 @@ def test_unused_vertices_stay() -> None:
 
 def test_arguments(asteroid: meshwalk.Surface) -> None:
     star = meshwalk.Star(asteroid, (3, -2, 1))
-    with pytest.raises(TypeError, match="one of them"):
+    with pytest.raises(TypeError, match="either a level or a mesh"):
         star.remesh()
-    with pytest.raises(TypeError, match="one of them"):
+    with pytest.raises(TypeError, match="either a level or a mesh"):
         star.remesh(2, onto=asteroid)
     with pytest.raises(ValueError, match="level 13"):
         star.remesh(13)

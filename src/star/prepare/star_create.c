@@ -14,7 +14,8 @@ static mw_status star_check_options(const mw_star_options *options, mw_error *er
     if (options->unchecked && !options->borrow)
         return mw__fail(error, MW_ERROR_ARGUMENT, "the option 'unchecked' needs 'borrow'");
     if (options->angles && options->borrow)
-        return mw__fail(error, MW_ERROR_ARGUMENT, "a borrowed star has no angles");
+        return mw__fail(error, MW_ERROR_ARGUMENT,
+                        "the option 'angles' cannot be used with 'borrow'");
     return MW_RESERVED_CHECK(mw_star_options, options, error);
 }
 
