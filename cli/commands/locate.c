@@ -1,15 +1,8 @@
 /* locate - which triangle, or which polygons, contain each point. */
+#include "cli/commands/locate.h"
 #include "cli/commands/commands.h"
-#include "cli/output/location_row.h"
 #include "cli/frame/message.h"
-#include "cli/stream/polygon_query.h"
-
-typedef struct locate_settings {
-    point_query_settings query;
-    polygon_file_settings polygons;
-    int base; /* number of the name of --base */
-    bool details;
-} locate_settings;
+#include "cli/output/location_row.h"
 
 static const option locate_options[] = {
     {"details", 0, OPTION_FLAG, offsetof(locate_settings, details), NULL,
@@ -78,8 +71,8 @@ static int locate_run(const void *settings, const char *const *operands)
     return end;
 }
 
-static const option *const tables[] = {locate_options, point_query_options, query_stream_options,
-                                       common_options, NULL};
+const option *const locate_option_tables[] = {locate_options, point_query_options,
+                                              query_stream_options, common_options, NULL};
 
 const command locate_command = {
     .name = "locate",
@@ -98,7 +91,7 @@ const command locate_command = {
         "feature is the lowest number of a feature of FILE, from 0, that contains the point "
         "or has it on its border, or -1; others are the numbers of the other features, "
         "separated by blanks.",
-    .options = tables,
+    .options = locate_option_tables,
     .essential = "columns details polygons only-answers output",
     .settings_size = sizeof(locate_settings),
     .run = locate_run,

@@ -1,4 +1,5 @@
 /* sample - the value the mesh has at each point, in the plane or on a star-shaped polyhedron. */
+#include "cli/commands/sample.h"
 #include "cli/commands/commands.h"
 #include "cli/frame/files.h"
 #include "cli/frame/message.h"
@@ -6,27 +7,11 @@
 #include "cli/input/mesh_field.h"
 #include "cli/input/star_input.h"
 #include "cli/output/csv_row.h"
-#include "cli/series/series_sample.h"
-#include "cli/stream/point_query.h"
 #include "cli/stream/sample_on_star.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-enum { OUTSIDE_EMPTY = 0, OUTSIDE_NEAREST, OUTSIDE_LINEAR };
-enum { MISSING_EMPTY = 0, MISSING_NEAREST };
-enum { SAMPLE_PLANE = 0, SAMPLE_STAR };
-
-typedef struct sample_settings {
-    point_query_settings query;
-    const char *field, *nodata;
-    int outside, missing;
-    bool status, lonlat, open;
-    int space;          /* SAMPLE_PLANE, SAMPLE_STAR */
-    coordinates centre; /* not given: the origin */
-    series_settings series;
-} sample_settings;
 
 static const char *outside_name(int i)
 {
@@ -116,22 +101,42 @@ typedef struct sampled_field {
     bool status;
 } sampled_field;
 
-/* The value of the nearest corner that has one; NaN if none has. */
-static double sample_nearest_corner(const point_query *q, const double *values, uint32_t triangle,
-                                    const double p[2])
+void sample_corners_read(const mw_mesh *mesh, const double *values, uint32_t triangle,
+                         sample_corners *c)
 {
     uint32_t v[3];
-    double value = NAN, least = INFINITY;
-    mw_mesh_triangle(q->mesh, triangle, v);
+    mw_mesh_triangle(mesh, triangle, v);
     for (int k = 0; k < 3; k++) {
-        double at[2];
-        mw_mesh_vertex(q->mesh, v[k], at);
-        double distance = hypot(at[0] - p[0], at[1] - p[1]);
-        if (isnan(values[v[k]]) || !(distance < least)) continue;
+        mw_mesh_vertex(mesh, v[k], c->at[k]);
+        c->value[k] = values[v[k]];
+    }
+}
+
+double sample_nearest_value(const sample_corners *c, const double p[2])
+{
+    double value = NAN, least = INFINITY;
+    for (int k = 0; k < 3; k++) {
+        const double distance = hypot(c->at[k][0] - p[0], c->at[k][1] - p[1]);
+        if (isnan(c->value[k]) || !(distance < least)) continue;
         least = distance;
-        value = values[v[k]];
+        value = c->value[k];
     }
     return value;
+}
+
+double sample_plane_value(const sample_corners *c, const double p[2])
+{
+    const double *value = c->value, area = mw_orient2d(c->at[0], c->at[1], c->at[2]);
+    const double wb = mw_orient2d(c->at[0], p, c->at[2]) / area,
+                 wc = mw_orient2d(c->at[0], c->at[1], p) / area;
+    return value[0] + wb * (value[1] - value[0]) + wc * (value[2] - value[0]);
+}
+
+bool sample_cells_write(text *out, double value, bool status, bool missing, mw_where where)
+{
+    csv_row_double(out, !isnan(value), value);
+    if (status) csv_row_word(out, missing ? "missing" : mw_where_name(where));
+    return !isnan(value);
 }
 
 /* The value at the nearest point of the border. */
@@ -145,21 +150,6 @@ static double sample_border_value(const point_query *q, const double *values,
     return value;
 }
 
-/* The value at p of the plane through the three corners. Not finite if they span no plane. */
-static double sample_plane_value(const point_query *q, const double *values, uint32_t triangle,
-                                 const double p[2])
-{
-    uint32_t v[3];
-    double a[2], b[2], c[2];
-    mw_mesh_triangle(q->mesh, triangle, v);
-    mw_mesh_vertex(q->mesh, v[0], a);
-    mw_mesh_vertex(q->mesh, v[1], b);
-    mw_mesh_vertex(q->mesh, v[2], c);
-    double area = mw_orient2d(a, b, c);
-    double wb = mw_orient2d(a, p, c) / area, wc = mw_orient2d(a, b, p) / area;
-    return values[v[0]] + wb * (values[v[1]] - values[v[0]]) + wc * (values[v[2]] - values[v[0]]);
-}
-
 /* The value that --outside gives. Sets *triangle to the triangle that it comes from. */
 static double sample_value_outside(const point_query *q, const sampled_field *s,
                                    const double point[2], uint32_t *triangle)
@@ -168,9 +158,13 @@ static double sample_value_outside(const point_query *q, const sampled_field *s,
     if (mw_nearest_border(q->locator, point[0], point[1], &hit, NULL) != MW_OK) return NAN;
     *triangle = hit.triangle;
     if (s->triangles) return s->triangles[hit.triangle];
-    double value =
-        s->outside == OUTSIDE_LINEAR ? sample_plane_value(q, s->values, hit.triangle, point) : NAN;
-    return isfinite(value) ? value : sample_border_value(q, s->values, &hit);
+    if (s->outside == OUTSIDE_LINEAR) {
+        sample_corners corners;
+        sample_corners_read(q->mesh, s->values, hit.triangle, &corners);
+        const double value = sample_plane_value(&corners, point);
+        if (isfinite(value)) return value;
+    }
+    return sample_border_value(q, s->values, &hit);
 }
 
 static bool sample_row(const point_query *q, const void *self, const double point[2],
@@ -183,15 +177,16 @@ static bool sample_row(const point_query *q, const void *self, const double poin
         value = s->triangles ? s->triangles[triangle] : point_query_value(&s->at_points, where);
     else if (s->outside != OUTSIDE_EMPTY && where->where != MW_BAD)
         value = sample_value_outside(q, s, point, &triangle);
-    bool missing = isnan(value) && triangle != MW_NONE;
-    if (missing && s->missing == MISSING_NEAREST && !s->triangles)
-        value = sample_nearest_corner(q, s->values, triangle, point);
-    csv_row_double(out, !isnan(value), value);
-    if (s->status) csv_row_word(out, missing ? "missing" : mw_where_name((mw_where)where->where));
-    return !isnan(value);
+    const bool missing = isnan(value) && triangle != MW_NONE;
+    if (missing && s->missing == MISSING_NEAREST && !s->triangles) {
+        sample_corners corners;
+        sample_corners_read(q->mesh, s->values, triangle, &corners);
+        value = sample_nearest_value(&corners, point);
+    }
+    return sample_cells_write(out, value, s->status, missing, (mw_where)where->where);
 }
 
-static bool sample_is_series(const sample_settings *s)
+bool sample_is_series(const sample_settings *s)
 {
     return s->series.time || s->series.values || s->series.time_column;
 }
@@ -202,8 +197,8 @@ static int sample_fail_wide(void)
     return END_USAGE;
 }
 
-/* Values over time. Returns the exit code. */
-static int sample_series(const sample_settings *s, const char *const *operands)
+int sample_series(const sample_settings *s, const char *const *operands,
+                  const series_locating *elsewhere)
 {
     series_settings series = s->series;
     const char *wrong = s->outside   ? "outside"
@@ -222,6 +217,7 @@ static int sample_series(const sample_settings *s, const char *const *operands)
     series.status = s->status;
     series.globe = s->space == SAMPLE_STAR;
     series.open = s->open;
+    series.elsewhere = elsewhere;
     return series_sample(&s->query, &series, operands);
 }
 
@@ -268,7 +264,7 @@ static const char *sample_option_of_plane(const sample_settings *s)
 /* Values over time on the globe. Returns the exit code. */
 static int sample_globe_series(const sample_settings *s, const char *const *operands)
 {
-    if (s->lonlat && !s->centre.count) return sample_series(s, operands);
+    if (s->lonlat && !s->centre.count) return sample_series(s, operands, NULL);
     complain("values over time on --as star %s",
              s->lonlat ? "come from the centre 0,0,0: leave out --centre" : "need --lonlat");
     return END_USAGE;
@@ -315,13 +311,13 @@ static int sample_run(const void *settings, const char *const *operands)
                                                                     : "open");
         return END_USAGE;
     }
-    if (sample_is_series(s)) return sample_series(s, operands);
+    if (sample_is_series(s)) return sample_series(s, operands, NULL);
     if (s->series.wide) return sample_fail_wide();
     return sample_field(s, operands);
 }
 
-static const option *const tables[] = {sample_options, point_query_options, query_stream_options,
-                                       common_options, NULL};
+const option *const sample_option_tables[] = {sample_options, point_query_options,
+                                              query_stream_options, common_options, NULL};
 
 const command sample_command = {
     .name = "sample",
@@ -333,7 +329,7 @@ const command sample_command = {
                    "triangle does. With --as star MESH is a globe or another polyhedron, and the "
                    "value is that where the ray through the point meets it. '-' is standard "
                    "input.",
-    .options = tables,
+    .options = sample_option_tables,
     .essential = "columns field outside as output",
     .settings_size = sizeof(sample_settings),
     .run = sample_run,

@@ -1,4 +1,5 @@
 /* weights - the weights that interpolate values of a mesh at points, as a file. */
+#include "cli/commands/weights.h"
 #include "cli/commands/commands.h"
 #include "cli/frame/files.h"
 #include "cli/frame/message.h"
@@ -6,19 +7,10 @@
 #include "cli/gdal/gdal_crs.h"
 #include "cli/remap/remap_weights.h"
 #include "cli/stream/globe_points.h"
-#include "cli/stream/located_points.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
-
-typedef struct weights_settings {
-    point_query_settings query;
-    int method, values, norm;
-    bool lonlat, open;
-} weights_settings;
-
-enum { METHOD_LINEAR = 0, METHOD_CONSERVATIVE };
 
 static const char *method_name(int i)
 {
@@ -48,7 +40,7 @@ static const char *norm_help(int i)
 }
 static const choices weights_norms = {"way of --norm", norm_name, norm_help};
 
-static int weights_check(const char *output, const char *const *operands)
+int weights_check(const char *output, const char *const *operands)
 {
     if (!files_is_standard(output)) return files_check_output(output, operands, 2);
     complain("weights needs an output: -o FILE.nc, or FILE.npz");
@@ -64,38 +56,44 @@ static double *weights_vertices(const mw_mesh *mesh)
     return xy;
 }
 
-static int weights_write(const point_query *q, const located_points *p, const mw_operator *weights,
-                         const char *output)
+static int weights_write(const weights_result *r, const char *output)
 {
     mw_error error;
-    double *vertices = weights_vertices(q->mesh);
-    if (!vertices) return fail_memory();
-    const mw_weight_positions positions = {.columns = vertices,
+    const located_points *p = r->points;
+    const mw_weight_positions positions = {.columns = r->vertices,
                                            .rows = p->moved,
                                            .row_stride = p->width,
                                            .located = p->located,
-                                           .degrees = q->settings->globe ||
-                                                      (p->lonlat && p->moved == p->points)};
+                                           .degrees =
+                                               r->globe || (p->lonlat && p->moved == p->points)};
     const mw_file_options options = {.progress = progress_of_call()};
     progress_phase("writing", output);
-    mw_status status = mw_write_weights(output, weights, &positions, &options, &error);
-    free(vertices);
+    mw_status status = mw_write_weights(output, r->weights, &positions, &options, &error);
     return status == MW_OK ? 0 : fail_writing(&error);
 }
 
-static int weights_report(const point_query *q, const located_points *p, const mw_operator *weights)
+static int weights_report(const weights_result *result)
 {
     mw_operator_info info;
     report r;
-    mw_operator_describe(weights, &info);
-    report_begin(&r, q->settings->stream.json);
-    report_count(&r, "points", p->count);
+    mw_operator_describe(result->weights, &info);
+    report_begin(&r, result->stream->json);
+    report_count(&r, "points", result->points->count);
     for (int i = 0; i < MW_WHERE_COUNT; i++)
-        report_count(&r, mw_where_name((mw_where)i), p->where[i]);
+        report_count(&r, mw_where_name((mw_where)i), result->points->where[i]);
     report_count(&r, "vertices", info.columns);
     report_count(&r, "weights", info.entries);
     report_end(&r);
     return files_write_error_text(&r.text);
+}
+
+int weights_finish(const weights_result *result, const char *output)
+{
+    int end = weights_write(result, output);
+    if (end == 0 && result->stream->stats) end = weights_report(result);
+    if (end == 0 && result->stream->strict && located_points_lost(result->points))
+        end = END_UNANSWERED;
+    return end;
 }
 
 static int weights_make(const point_query *q, const located_points *p, const char *output)
@@ -107,10 +105,15 @@ static int weights_make(const point_query *q, const located_points *p, const cha
     progress_phase("weighing", NULL);
     if (mw_operator_create(q->mesh, p->located, p->count, &options, &weights, &error) != MW_OK)
         return fail_query(&error);
-    int end = weights_write(q, p, weights, output);
-    if (end == 0 && q->settings->stream.stats) end = weights_report(q, p, weights);
+    double *vertices = weights_vertices(q->mesh);
+    const weights_result result = {.stream = &q->settings->stream,
+                                   .points = p,
+                                   .vertices = vertices,
+                                   .globe = q->settings->globe,
+                                   .weights = weights};
+    const int end = vertices ? weights_finish(&result, output) : fail_memory();
+    free(vertices);
     mw_operator_destroy(weights);
-    if (end == 0 && q->settings->stream.strict && located_points_lost(p)) end = END_UNANSWERED;
     return end;
 }
 
@@ -241,7 +244,8 @@ static const option weights_options[] = {
     {0},
 };
 
-static const option *const tables[] = {weights_options, point_query_options, common_options, NULL};
+const option *const weights_option_tables[] = {weights_options, point_query_options, common_options,
+                                               NULL};
 
 const command weights_command = {
     .name = "weights",
@@ -258,7 +262,7 @@ const command weights_command = {
         "conservative, GRID is another mesh or a raster that GDAL reads, and its cells get the "
         "means "
         "of the cells of MESH by the areas that they have in common.",
-    .options = tables,
+    .options = weights_option_tables,
     .essential = "method columns points-crs stats output",
     .settings_size = sizeof(weights_settings),
     .run = weights_run,

@@ -38,13 +38,14 @@ typedef struct series_run {
 static int run_load(mw_mesh *mesh, const char *path, const mw_mesh_file *file, const void *self)
 {
     series_run *r = *(series_run *const *)self;
-    (void)mesh;
     r->face_count = file->faces ? file->face_count : file->triangle_count;
     if (file->faces) {
         r->face = malloc(file->triangle_count * sizeof *r->face + 1);
         if (!r->face) return fail_memory();
         memcpy(r->face, file->faces, file->triangle_count * sizeof *r->face);
     }
+    const series_locating *elsewhere = r->settings->elsewhere;
+    if (elsewhere) return elsewhere->load(mesh, path, file, elsewhere->self);
     return r->settings->globe ? globe_points_make(&r->globe, path, file, r->settings->open,
                                                   r->query_settings->stream.common.threads)
                               : 0;
@@ -357,6 +358,18 @@ static int run_check_output(const series_run *r, const char *const *operands)
     return end ? end : run_check_values(r);
 }
 
+static void run_locate_elsewhere(series_run *r)
+{
+    const series_locating *elsewhere = r->settings->elsewhere;
+    if (elsewhere) {
+        r->query.elsewhere = elsewhere->locate;
+        r->query.elsewhere_self = elsewhere->self;
+    } else if (r->settings->globe) {
+        r->query.elsewhere = globe_points_locate;
+        r->query.elsewhere_self = &r->globe;
+    }
+}
+
 int series_sample(const point_query_settings *query, const series_settings *settings,
                   const char *const *operands)
 {
@@ -369,12 +382,10 @@ int series_sample(const point_query_settings *query, const series_settings *sett
     if (end) return end;
     if (run_is_netcdf(&r)) plain.stream.common.output = NULL;
     plain.globe = settings->globe;
+    plain.elsewhere = settings->elsewhere != NULL;
     plain.any = plain.any || settings->globe;
     end = point_query_open(&r.query, &plain, operands, false, run_load, &self);
-    if (settings->globe) {
-        r.query.elsewhere = globe_points_locate;
-        r.query.elsewhere_self = &r.globe;
-    }
+    run_locate_elsewhere(&r);
     if (end == 0) end = run_prepare(&r, operands);
     const series_points at = {.mesh = r.query.mesh,
                               .face = r.face,

@@ -4,6 +4,14 @@
 
 #include "cli/stream/point_query.h"
 
+/* How points are located elsewhere. `load` gets the mesh and its file first; `self` is the
+ * caller's, for both. */
+typedef struct series_locating {
+    point_query_load *load;
+    point_query_elsewhere *locate;
+    void *self;
+} series_locating;
+
 typedef struct series_settings {
     const char *time;        /* --time; NULL: all */
     const char *values;      /* --values: the file; NULL: the mesh */
@@ -12,6 +20,7 @@ typedef struct series_settings {
     bool recover, wide, status;
     bool globe; /* points and mesh are longitudes and latitudes on the globe, */
     bool open;  /* which may be open */
+    const series_locating *elsewhere; /* NULL: points are located here */
 } series_settings;
 
 /* Returns the exit code. */

@@ -50,7 +50,7 @@ static int point_query_make_locator(point_query *q, const char *path, bool borde
 {
     mw_error error;
     const point_query_settings *settings = q->settings;
-    if (settings->globe) return 0;
+    if (settings->globe || settings->elsewhere) return 0;
     mw_locator_options options = {.any = settings->any,
                                   .border = border || settings->tolerance > 0,
                                   .areas = settings->areas,
@@ -82,7 +82,7 @@ static int point_query_make_index(point_query *q)
     mw_error error;
     const point_query_settings *settings = q->settings;
     mw_start_kind start = (mw_start_kind)settings->start;
-    if (!mw_start_has_index(start)) return 0;
+    if (settings->elsewhere || !mw_start_has_index(start)) return 0;
     mw_index_options options = {.cells = settings->cells,
                                 .layers = settings->layers,
                                 .descent = (mw_descent)settings->descent,
@@ -152,7 +152,7 @@ static int point_query_open_mesh(point_query *q, bool border, point_query_load *
 }
 
 /* Is it a prepared file whose locator is the one that is asked for? */
-static bool point_query_takes_map(const point_query_settings *s, const char *path)
+static bool point_query_fits_map(const point_query_settings *s, const char *path)
 {
     return !s->any && !s->areas && s->fill != MW_FILL_NO && s->walk != MW_WALK_BORDER &&
            mw_prepared_known(path);
@@ -166,7 +166,7 @@ static int point_query_fail_trust(const point_query_settings *s, const char *pat
                  path);
         return END_INPUT;
     }
-    if (point_query_takes_map(s, path)) {
+    if (point_query_fits_map(s, path)) {
         complain("%s: was prepared without --border, but the border is needed here: leave out "
                  "--trust, or prepare it with --border",
                  path);
@@ -175,6 +175,11 @@ static int point_query_fail_trust(const point_query_settings *s, const char *pat
     complain("--trust takes a mesh as it was prepared: not with --any, --areas, --fill no or "
              "--walk border");
     return END_USAGE;
+}
+
+int point_query_check_trust(const point_query_settings *s, const char *path)
+{
+    return !s->trust || point_query_fits_map(s, path) ? 0 : point_query_fail_trust(s, path);
 }
 
 /* Map a prepared file. `map` stays NULL if its locator lacks a border that is needed. */
@@ -212,10 +217,13 @@ int point_query_open(point_query *q, const point_query_settings *settings,
                      const void *self)
 {
     const char *path = operands[0];
+    const bool mapped = !settings->elsewhere && point_query_fits_map(settings, path);
     int end = point_query_begin(q, settings, operands, 2);
     q->path = path;
-    if (end == 0 && point_query_takes_map(settings, path)) end = point_query_map(q, path, border);
-    if (end == 0 && !q->map && settings->trust) end = point_query_fail_trust(settings, path);
+    if (end == 0) end = point_query_check_trust(settings, path);
+    if (end == 0 && mapped) end = point_query_map(q, path, border);
+    if (end == 0 && mapped && !q->map && settings->trust)
+        end = point_query_fail_trust(settings, path);
     if (end == 0)
         end = q->map ? point_query_open_map(q, load, self)
                      : point_query_open_mesh(q, border, load, self);

@@ -67,6 +67,10 @@ int point_query_open(point_query *q, const point_query_settings *settings,
                      const void *self);
 void point_query_release(point_query *q);
 
+/* Refuse --trust for a file that is not prepared, or with options that need more than it has.
+ * Returns 0, or an exit code after a complaint. */
+int point_query_check_trust(const point_query_settings *settings, const char *path);
+
 /* The same in two steps, for a mesh that comes from elsewhere. First what is asked for is checked,
  * before long work: `inputs` are the files that are read. Then the mesh is prepared, which has to
  * outlive the query; `path` is the file that it comes from, and `crs` the coordinate system that

@@ -15,9 +15,10 @@ typedef struct point_query_settings {
     int finish, fill;            /* numbers of the names of --finish and --fill */
     int descent;                 /* mw_descent */
     bool areas, any;
-    bool trust; /* a prepared mesh is not checked */
-    bool lines; /* of a command about lines, which has no --any */
-    bool globe; /* points are located on the globe (globe_points.h): the plane does not count */
+    bool trust;     /* a prepared mesh is not checked */
+    bool lines;     /* of a command about lines, which has no --any */
+    bool elsewhere; /* points are located elsewhere: no locator is made, no prepared mesh mapped */
+    bool globe;     /* points are located on the globe (globe_points.h): the plane does not count */
 } point_query_settings;
 
 extern const option point_query_options[];

@@ -1,24 +1,10 @@
 /* locate_pieces.c - which triangle contains each point, by all ranks. */
 #include "mpi/program/commands.h"
 
+#include "cli/commands/commands.h"
+#include "cli/commands/locate.h"
 #include "cli/output/location_row.h"
 #include "mpi/program/pieces_query.h"
-
-typedef struct locate_settings {
-    pieces_settings query;
-    int base;
-    bool details;
-} locate_settings;
-
-static const option locate_options[] = {
-    {"details", 0, OPTION_FLAG, offsetof(locate_settings, details), NULL,
-     "add the columns local, border_triangle, border_edge, distance (of points outside) and hole",
-     NULL},
-    {"base", 0, OPTION_CHOICE, offsetof(locate_settings, base), "B",
-     "what triangles and faces are counted from; file: as the file of MESH counts (default: 0):",
-     &location_bases},
-    {0},
-};
 
 /* The border edge nearest to a point in no triangle. */
 static bool locate_nearest(const pieces_query *q, const double point[2],
@@ -46,10 +32,23 @@ static bool locate_row(const pieces_query *q, const void *self, const double poi
     return where.triangle != MW_NONE;
 }
 
+/* The option that only rank 0 can obey; NULL: none is given. */
+static const char *locate_option_alone(const locate_settings *s)
+{
+    return s->polygons.path        ? "polygons"
+           : s->polygons.attribute ? "attribute"
+           : s->polygons.layer     ? "polygon-layer"
+           : s->query.any          ? "any"
+                                   : NULL;
+}
+
 static int locate_run(const void *settings, const char *const *operands)
 {
     const locate_settings *s = settings;
+    const char *alone = locate_option_alone(s);
     pieces_query q;
+    if (alone) return pieces_query_alone(&locate_command, alone, s, operands);
+    if (!operands[1]) return options_fail_operands(&locate_command, 1);
     int end = pieces_query_open(&q, program_service(), &s->query, operands, NULL);
     const location_answers *a = &location_row_answers[s->details][q.faces != NULL];
     if (end == 0) end = pieces_query_run(&q, operands[1], a->names, a->kinds, locate_row, s);
@@ -57,17 +56,15 @@ static int locate_run(const void *settings, const char *const *operands)
     return end;
 }
 
-static const option *const tables[] = {locate_options, point_query_options, query_stream_options,
-                                       common_options, NULL};
-
 const command locate_pieces_command = {
     .name = "locate",
     .operands = "MESH POINTS",
     .operand_count = 2,
-    .summary = "find the triangle that contains each point",
+    .optional_operands = 1, /* as in the other program */
+    .summary = "find the triangle, or the polygons, that contain each point",
     .description = "Writes what 'meshwalk locate' writes, with all ranks.",
-    .options = tables,
-    .essential = "columns details only-answers output",
+    .options = locate_option_tables,
+    .essential = "columns details polygons only-answers output",
     .settings_size = sizeof(locate_settings),
     .run = locate_run,
 };

@@ -5,9 +5,7 @@
 #include "cli/frame/message.h"
 #include "cli/frame/monotonic_clock.h"
 #include "cli/frame/progress.h"
-#include "cli/gdal/gdal_point_layer.h"
 #include "cli/gdal/mesh_crs.h"
-#include "cli/stream/statistics.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -71,24 +69,15 @@ static int file_take(pieces_query *q, mw_mesh_file *file, const mesh_field_choic
     return end;
 }
 
-static int settings_check(const pieces_settings *settings)
-{
-    if (!settings->any) return point_query_check_index(settings->cells, settings->layers);
-    complain("option '--any' is not for a mesh in pieces, which has to be an embedding");
-    return END_USAGE;
-}
-
 int pieces_query_open(pieces_query *q, service *s, const pieces_settings *settings,
                       const char *const *operands, const mesh_field_choice *field)
 {
     mw_mesh_file file;
+    point_query checked;
     *q = (pieces_query){
         .settings = settings, .service = s, .path = operands[0], .begin = monotonic_seconds()};
-    int end = settings_check(settings);
-    if (end == 0) end = files_check_output(settings->stream.common.output, operands, 2);
-    if (end == 0) end = point_layers_check(operands, 2);
-    if (end == 0) end = query_stream_check_output(&settings->stream);
-    if (end == 0) end = query_crs_check(settings->crs, settings->stream.source.crs);
+    int end = point_query_begin(&checked, settings, operands, 2);
+    if (end == 0) end = point_query_check_trust(settings, q->path);
     if (end == 0) end = files_read_mesh(q->path, &file);
     if (end) return end;
     end = file_take(q, &file, field);
@@ -113,6 +102,62 @@ mw_location pieces_location(const mwp_location *at)
     return where;
 }
 
+int pieces_query_alone(const command *serial, const char *because, const void *settings,
+                       const char *const *operands)
+{
+    common_settings *common = malloc(serial->settings_size); /* their first member */
+    if (!common) return fail_memory();
+    memcpy(common, settings, serial->settings_size);
+    if (common->threads == 0) common->threads = 1;
+    const int end = serial->run(common, operands);
+    if (!common->quiet && (end == 0 || end == END_UNANSWERED))
+        complain("remark: because of '--%s' rank 0 did all the work", because);
+    free(common);
+    return end;
+}
+
+int pieces_query_load(mw_mesh *mesh, const char *path, const mw_mesh_file *file, const void *self)
+{
+    pieces_query *q = (pieces_query *)(uintptr_t)self; /* as it was handed out */
+    (void)path;
+    return file_distribute(q, file, mesh, NULL);
+}
+
+static int pieces_locate_block(const pieces_query *q, const query_block *all, size_t from, size_t n,
+                               uint32_t more, service_answer *answers)
+{
+    mwp_error error;
+    const service_options options = {.tolerance = q->settings->tolerance,
+                                     .threads = q->settings->stream.common.threads,
+                                     .more = more};
+    return service_locate(q->service, all->values + from * all->stride, all->stride, n, &options,
+                          answers, &error)
+               ? pieces_query_fail(q, &error)
+               : 0;
+}
+
+int pieces_locate_all(const pieces_query *q, const query_block *all, uint32_t more,
+                      pieces_take *take, void *self, mw_location *located)
+{
+    service_answer *answers = malloc(QUERY_BLOCK_SIZE * sizeof *answers);
+    int end = answers ? 0 : fail_memory();
+    for (size_t from = 0; from < all->count && end == 0; from += QUERY_BLOCK_SIZE) {
+        const size_t left = all->count - from,
+                     n = left < QUERY_BLOCK_SIZE ? left : QUERY_BLOCK_SIZE;
+        end = pieces_locate_block(q, all, from, n, more, answers);
+        for (size_t i = 0; i < n && end == 0; i++)
+            located[from + i] = pieces_location(&answers[i].at);
+        if (end == 0 && take) take(self, from, answers, n);
+    }
+    free(answers);
+    return end;
+}
+
+int pieces_query_locate(void *self, const query_block *block, mw_location *answers)
+{
+    return pieces_locate_all(self, block, SERVICE_NOTHING, NULL, NULL, answers);
+}
+
 /* --- the points ------------------------------------------------------------------------------- */
 
 typedef struct pieces_context {
@@ -129,7 +174,9 @@ static int pieces_answer(void *self, const query_block *block, void *answers)
     const service_answer *answer = answers;
     const service_options options = {.tolerance = q->settings->tolerance,
                                      .threads = q->settings->stream.common.threads,
-                                     .more = q->values ? SERVICE_VALUES : SERVICE_NOTHING};
+                                     .more = q->values ? SERVICE_VALUES : SERVICE_NOTHING,
+                                     .outside = q->outside,
+                                     .missing = q->missing};
     if (service_locate(q->service, block->values, block->stride, block->count, &options, answers,
                        &error))
         return pieces_query_fail(q, &error);

@@ -1,5 +1,6 @@
 /* service.c - orders from rank 0, and how each is carried out on all ranks. */
 #include "mpi/program/service.h"
+#include "mpi/program/sampled_values.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -28,22 +29,7 @@ static mw_status all_scatter(service *s, const mw_mesh_file *file, uint32_t thre
     return mwp_mesh_scatter(s->wire.comm, file, &options, &s->mesh, error);
 }
 
-/* What is asked beside the locations. */
-static mw_status share_values(const service *s, size_t n, service_answer *answers,
-                              const mwp_location *at, mwp_error *error)
-{
-    mw_value_table table;
-    double *value = mwp__alloc(n, sizeof *value);
-    mw_status status = value ? MW_OK : mwp__fail_memory(error);
-    if (!status && !mwp_mesh_field(s->mesh, mwp_mesh_field_name(s->mesh, 0), &table))
-        status = mwp__fail(error, MW_ERROR_ARGUMENT, "the mesh has no field");
-    status = mwp__wire_agree(&s->wire, status, error);
-    if (!status) status = mwp_interpolate(s->mesh, &table, at, n, value, error);
-    for (size_t i = 0; i < n && !status; i++) answers[i].value = value[i];
-    free(value);
-    return status;
-}
-
+/* The weights of vertices at the locations. */
 static mw_status share_corners(const service *s, size_t n, service_answer *answers,
                                const mwp_location *at, mwp_error *error)
 {
@@ -74,10 +60,12 @@ static mw_status share_locate(const service *s, const mwp_parcels *points,
     mwp_location *at = mwp__alloc(n, sizeof *at);
     mw_status status = mwp__wire_agree(&s->wire, at ? MW_OK : mwp__fail_memory(error), error);
     if (!status) status = mwp_locate_batch(s->mesh, points->records, n, 2, &how, at, error);
-    for (size_t i = 0; i < n && !status; i++) answers[i] = (service_answer){.at = at[i]};
-    if (!status && options->more == SERVICE_VALUES) status = share_values(s, n, answers, at, error);
+    for (size_t i = 0; i < n && !status; i++)
+        answers[i] = (service_answer){.at = at[i], .from = at[i].triangle};
     if (!status && options->more == SERVICE_CORNERS)
         status = share_corners(s, n, answers, at, error);
+    else if (!status && (options->more == SERVICE_VALUES || options->outside))
+        status = sampled_values(s, points->records, n, options, at, answers, error);
     free(at);
     return status;
 }

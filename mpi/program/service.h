@@ -2,30 +2,7 @@
 #ifndef MWP_PROGRAM_SERVICE_H
 #define MWP_PROGRAM_SERVICE_H
 
-#include "mpi/wire/wire.h"
-
-typedef struct service {
-    mwp_wire wire;
-    mwp_mesh *mesh; /* NULL: not there yet */
-} service;
-
-/* The answer to a point. */
-typedef struct service_answer {
-    mwp_location at;
-    double value; /* of the first field of the mesh, for SERVICE_VALUES */
-    /* For SERVICE_CORNERS: the vertices whose weights are not 0, then -1; and their weights. */
-    int64_t corner[3];
-    double weight[3];
-} service_answer;
-
-/* What is asked beside the location. */
-enum { SERVICE_NOTHING, SERVICE_VALUES, SERVICE_CORNERS };
-
-typedef struct service_options {
-    double tolerance;
-    uint32_t threads;
-    uint32_t more; /* SERVICE_... */
-} service_options;
+#include "mpi/program/service_answer.h"
 
 /* All ranks call these two, first and last. */
 mw_status service_open(service *s, mwp_error *error);

@@ -1,10 +1,10 @@
 /* weights_pieces.c - the weights that interpolate values of a mesh at points, by all ranks. */
 #include "mpi/program/commands.h"
 
-#include "cli/frame/files.h"
+#include "cli/commands/commands.h"
+#include "cli/commands/weights.h"
 #include "cli/frame/message.h"
 #include "cli/frame/progress.h"
-#include "cli/stream/located_points.h"
 #include "mpi/program/pieces_query.h"
 
 #include <stdlib.h>
@@ -17,49 +17,26 @@ typedef struct weights_work {
     size_t count;
 } weights_work;
 
-static void weights_take(weights_work *w, size_t row, const service_answer *answer)
+static void weights_take(void *self, size_t from, const service_answer *answers, size_t n)
 {
-    for (int k = 0; k < 3 && answer->corner[k] >= 0; k++, w->count++) {
-        w->row[w->count] = (uint32_t)row;
-        w->column[w->count] = (uint32_t)answer->corner[k];
-        w->weight[w->count] = answer->weight[k];
-    }
-}
-
-/* Locate some of the points, from number `from`. */
-static int weights_locate_part(weights_work *w, const query_block *all, size_t from, size_t n,
-                               service_answer *answers, mw_location *located)
-{
-    mwp_error error;
-    const pieces_settings *s = w->query->settings;
-    const service_options options = {
-        .tolerance = s->tolerance, .threads = s->stream.common.threads, .more = SERVICE_CORNERS};
-    if (service_locate(w->query->service, all->values + from * all->stride, all->stride, n,
-                       &options, answers, &error))
-        return pieces_query_fail(w->query, &error);
-    for (size_t i = 0; i < n; i++) {
-        located[from + i] = pieces_location(&answers[i].at);
-        weights_take(w, from + i, &answers[i]);
-    }
-    return 0;
+    weights_work *w = self;
+    for (size_t i = 0; i < n; i++)
+        for (int k = 0; k < 3 && answers[i].corner[k] >= 0; k++, w->count++) {
+            w->row[w->count] = (uint32_t)(from + i);
+            w->column[w->count] = (uint32_t)answers[i].corner[k];
+            w->weight[w->count] = answers[i].weight[k];
+        }
 }
 
 static int weights_locate(void *self, const query_block *all, mw_location *located)
 {
     weights_work *w = self;
     const size_t entries = 3 * all->count + 1;
-    service_answer *answers = malloc(QUERY_BLOCK_SIZE * sizeof *answers);
     w->row = malloc(entries * sizeof *w->row);
     w->column = malloc(entries * sizeof *w->column);
     w->weight = malloc(entries * sizeof *w->weight);
-    int end = answers && w->row && w->column && w->weight ? 0 : fail_memory();
-    for (size_t from = 0; from < all->count && end == 0; from += QUERY_BLOCK_SIZE) {
-        const size_t left = all->count - from;
-        end = weights_locate_part(w, all, from, left < QUERY_BLOCK_SIZE ? left : QUERY_BLOCK_SIZE,
-                                  answers, located);
-    }
-    free(answers);
-    return end;
+    if (!w->row || !w->column || !w->weight) return fail_memory();
+    return pieces_locate_all(w->query, all, SERVICE_CORNERS, weights_take, w, located);
 }
 
 static int weights_write(const weights_work *w, const located_points *p, const char *output)
@@ -72,32 +49,26 @@ static int weights_write(const weights_work *w, const located_points *p, const c
                                          .count = w->count,
                                          .rows = (uint32_t)p->count,
                                          .columns = (uint32_t)w->query->vertex_count};
-    const mw_weight_positions positions = {.columns = w->query->vertices,
-                                           .rows = p->moved,
-                                           .row_stride = p->width,
-                                           .located = p->located,
-                                           .degrees = p->lonlat && p->moved == p->points};
-    const mw_file_options options = {.progress = progress_of_call()};
-    progress_phase("writing", output);
+    progress_phase("weighing", NULL);
     if (mw_operator_create_from_entries(&entries, NULL, &made, &error) != MW_OK)
         return fail_query(&error);
-    mw_status status = mw_write_weights(output, made, &positions, &options, &error);
+    const weights_result result = {.stream = &w->query->settings->stream,
+                                   .points = p,
+                                   .vertices = w->query->vertices,
+                                   .weights = made};
+    const int end = weights_finish(&result, output);
     mw_operator_destroy(made);
-    return status == MW_OK ? 0 : fail_writing(&error);
+    return end;
 }
 
-static int weights_run(const void *settings, const char *const *operands)
+static int weights_at_points(const weights_settings *all, const char *const *operands)
 {
-    pieces_settings s = *(const pieces_settings *)settings;
+    pieces_settings s = all->query;
     const char *output = s.stream.common.output;
     pieces_query pieces = {0};
     weights_work work = {.query = &pieces};
     located_points p = {0};
-    if (files_is_standard(output)) {
-        complain("weights needs an output: -o FILE.nc, or FILE.npz");
-        return END_USAGE;
-    }
-    int end = files_check_output(output, operands, 2);
+    int end = weights_check(output, operands);
     if (end) return end;
     s.stream.common.output = NULL; /* the query writes no rows */
     end = pieces_query_open(&pieces, program_service(), &s, operands, NULL);
@@ -110,7 +81,6 @@ static int weights_run(const void *settings, const char *const *operands)
                            .elsewhere_self = &work};
     if (end == 0) end = located_points_read(&p, &q, operands[1], NULL);
     if (end == 0) end = weights_write(&work, &p, output);
-    if (end == 0 && s.stream.strict && located_points_lost(&p)) end = END_UNANSWERED;
     located_points_release(&p);
     pieces_query_release(&pieces);
     free(work.row);
@@ -119,28 +89,34 @@ static int weights_run(const void *settings, const char *const *operands)
     return end;
 }
 
-static const option weights_options[] = {
-    {"strict", 0, OPTION_FLAG, offsetof(pieces_settings, stream.strict), NULL,
-     "exit with 1 if a point is in no triangle", NULL},
-    {"layer", 0, OPTION_TEXT, offsetof(pieces_settings, stream.source.layer), "NAME",
-     "of a file that GDAL reads: the layer with the points (default: the only one that has any)",
-     NULL},
-    {"where", 0, OPTION_TEXT, offsetof(pieces_settings, stream.source.where), "CONDITION",
-     "of a file that GDAL reads: which features are read, in SQL, as \"depth > 10\" (default: all)",
-     NULL},
-    {0},
-};
+/* The option that only rank 0 can obey; NULL: none is given. */
+static const char *weights_option_alone(const weights_settings *s)
+{
+    return s->method      ? "method"
+           : s->values    ? "values"
+           : s->norm      ? "norm"
+           : s->lonlat    ? "lonlat"
+           : s->open      ? "open"
+           : s->query.any ? "any"
+                          : NULL;
+}
 
-static const option *const tables[] = {weights_options, point_query_options, common_options, NULL};
+static int weights_run(const void *settings, const char *const *operands)
+{
+    const weights_settings *s = settings;
+    const char *alone = weights_option_alone(s);
+    return alone ? pieces_query_alone(&weights_command, alone, s, operands)
+                 : weights_at_points(s, operands);
+}
 
 const command weights_pieces_command = {
     .name = "weights",
-    .operands = "MESH POINTS",
+    .operands = "MESH POINTS|GRID",
     .operand_count = 2,
     .summary = "write the weights that interpolate values at points",
     .description = "Writes what 'meshwalk weights' writes, with all ranks.",
-    .options = tables,
-    .essential = "columns points-crs output",
-    .settings_size = sizeof(pieces_settings),
+    .options = weights_option_tables,
+    .essential = "method columns points-crs stats output",
+    .settings_size = sizeof(weights_settings),
     .run = weights_run,
 };
