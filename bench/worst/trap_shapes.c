@@ -94,17 +94,18 @@ bool trap_comb(trap_mesh *m, size_t n, uint64_t seed)
  * below. Their steps shrink by 2^20 in every third square. */
 bool trap_weave(trap_mesh *m, size_t n, uint64_t seed)
 {
-    enum { SIDE = 16 };
-    const size_t steps = n / (2 * SIDE * SIDE);
-    if (!shape_alloc(m, 2 * steps * SIDE * SIDE, 0)) return false;
-    for (size_t k = 0; k < SIDE * SIDE; k++) {
-        const double x = (double)(k % SIDE), y = (double)(k / SIDE);
-        const bool upright = (k + k / SIDE) % 2;
+    size_t side = 16; /* squares in a row; fewer where each would get no points */
+    while (side > 1 && n < 2 * side * side) side /= 2;
+    const size_t squares = side * side, steps = n / (2 * squares);
+    if (!shape_alloc(m, 2 * steps * squares, 0)) return false;
+    for (size_t k = 0; k < squares; k++) {
+        const double x = (double)(k % side), y = (double)(k / side);
+        const bool upright = (k + k / side) % 2;
         for (size_t i = 0; i < steps; i++) {
             const double s = ((double)i + dataset_unit(&seed)) / (double)steps,
                          t = 0.1 + 0.8 * (k % 3 ? s : exp2(-20 * s));
-            for (int side = 0; side < 2; side++) {
-                const double far = side ? 0.95 : 0.05;
+            for (int end = 0; end < 2; end++) {
+                const double far = end ? 0.95 : 0.05;
                 shape_point(m, x + (upright ? t : far), y + (upright ? far : t));
             }
         }

@@ -431,13 +431,13 @@ static void test_wrong(void **state)
     expect_refused(NULL, MW_ERROR_INPUT, "damaged: a name of 257 bytes");
     for (int wrong = 0; wrong < 5; wrong++) {
         static const char *const says[] = {
-            "a.nc: variable element: 3000000000000 values are announced",
+            "a.nc: variable element: 3000000000 values are announced",
             "a.nc: variable element: it holds no numbers",
             "a.nc: variable y: its dimensions are not those of x",
             "a.nc: variable element: face 1 has fewer than 3 corners",
             "a.nc: variable element: face 1 (from 1): a corner is missing before vertex 3",
         };
-        writing w = begin("a.nc", "node", "nele", wrong == 0 ? 1000000000000 : 4, 3);
+        writing w = begin("a.nc", "node", "nele", wrong == 0 ? 1000000000 : 4, 3);
         int x = define(&w, "x", MW_NETCDF_DOUBLE, w.node, -1);
         int y = define(&w, "y", MW_NETCDF_DOUBLE, wrong == 2 ? w.corner : w.node, -1);
         mw_netcdf_type type = wrong == 1 ? MW_NETCDF_CHAR : MW_NETCDF_INT;

@@ -24,7 +24,7 @@ typedef struct zip {
 
 static void put(unsigned char *to, size_t *at, uint64_t value, int size)
 {
-    for (int i = 0; i < size; i++) to[(*at)++] = (unsigned char)(value >> 8 * i);
+    for (int i = 0; i < size; i++) to[(*at)++] = (unsigned char)(i < 8 ? value >> 8 * i : 0);
 }
 
 static void zip_add(zip *z, const char *name, const void *data, size_t size)
